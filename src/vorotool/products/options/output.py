@@ -16,173 +16,82 @@ _FLATTEN = (
     "or 1/100 of their clearance."
 )
 
+# Rows stay rows: one argument a line would hide the table.
+# fmt: off
 OUTPUT = (
     Option("-o --output FILE", ALL, "Where to write; - is standard output.", complete="outputs"),
-    Option(
-        "-f --format FORMAT",
-        ALL,
-        "Format of the output: {formats}; default: from the extension of -o. With several results a list, such as "
-        "tiff,csv: each gets the one that is usual for it.",
-        complete="formats",
-    ),
-    Option(
-        "--what A[,B...]",
-        COMPUTING.replace("alphashape ", ""),
-        f"What to write: {{results}}; {SEVERAL}.",
-        "results",
-        repeats="joined",
-    ),
-    Option(
-        "--what A[,B...]",
-        "alphashape",
-        f"What to write: {{results}}; default edges, for {{of_polygons}} polygons; {SEVERAL}.",
-        "results",
-        repeats="joined",
-    ),
-    Option(
-        "--dtype",
-        "tessellate",
-        "Type of labels in TIFF, NPY, Zarr.",
-        "choice:uint8 uint16 uint32 int32",
-        acts_on="labels.tiff labels.npy labels.zarr",
-    ),
-    Option(
-        "--chunk WxH[xD]",
-        "tessellate",
-        "Columns x rows (x slices) of the chunks of a Zarr store; default 2048x512, fewer rows if wide.",
-        "numbers.size_or_volume",
-        acts_on=".zarr",
-    ),
-    Option(
-        "--levels N|auto",
-        "tessellate",
-        "Coarser copies of a volume in OME-Zarr, each of every second voxel; auto: until 256 across.",
-        "numbers.levels",
-        acts_on=".ome-zarr",
-    ),
-    Option(
-        "--tiled",
-        "tessellate",
-        "Tiles of 512 x 512 pixels in TIFFs, instead of strips of whole rows.",
-        acts_on=".tiff",
-    ),
-    Option(
-        "--flatten TOLERANCE|auto",
-        "voronoi",
-        _FLATTEN.replace("{more}", ""),
-        "lengths.tolerance_or_auto",
-        acts_on=".curves cells.csv cells.tsv ?may_be_drawn",
-    ),
-    Option(
-        "--flatten TOLERANCE|auto",
-        SKELETONS,
-        _FLATTEN.replace("{more}", " or --what shape"),
-        "lengths.tolerance_or_auto",
-        acts_on=".curves shape ?may_be_drawn",
-    ),
-    Option(
-        "--decimals N",
-        COMPUTING,
-        "Decimals of coordinates; polygons stay valid. Default: all that round-trip.",
-        "int:0:17",
-        acts_on=".coordinates",
-    ),
-    Option(
-        "--precision N",
-        COMPUTING,
-        "Significant digits of other numbers. Default: the shortest that round-trips.",
-        "int:1:17",
-        acts_on=".digits",
-    ),
-    Option(
-        "--with COLUMN[,...]",
-        BATCHES,
-        "Columns of the input for rows about parts of features (branches, points, ...); for rows about several (edges, "
-        "neighbors) as COLUMN_a, COLUMN_b.",
-        "names.columns",
-        name="with_columns",
-        repeats="joined",
-        acts_on=".parts",
-    ),
+    Option("-f --format FORMAT", ALL, "Format of the output: {formats}; default: from the extension of -o. With "
+        "several results a list, such as tiff,csv: each gets the one that is usual for it.", complete="formats"),
+    Option("--what A[,B...]", COMPUTING.replace("alphashape ", ""), f"What to write: {{results}}; {SEVERAL}.",
+        "results", repeats="joined"),
+    Option("--what A[,B...]", "alphashape",
+        f"What to write: {{results}}; default edges, for {{of_polygons}} polygons; {SEVERAL}.", "results",
+        repeats="joined"),
+    Option("--dtype", "tessellate", "Type of labels in TIFF, NPY, Zarr.", "choice:uint8 uint16 uint32 int32",
+        acts_on="labels.tiff labels.npy labels.zarr"),
+    Option("--chunk WxH[xD]", "tessellate", "Columns x rows (x slices) of the chunks of a Zarr store; default "
+        "2048x512, fewer rows if wide.", "numbers.size_or_volume", acts_on=".zarr"),
+    Option("--levels N|auto", "tessellate", "Coarser copies of a volume in OME-Zarr, each of every second voxel; auto: "
+        "until 256 across.", "numbers.levels", acts_on=".ome-zarr"),
+    Option("--tiled", "tessellate", "Tiles of 512 x 512 pixels in TIFFs, instead of strips of whole rows.",
+        acts_on=".tiff"),
+    Option("--flatten TOLERANCE|auto", "voronoi", _FLATTEN.replace("{more}", ""), "lengths.tolerance_or_auto",
+        acts_on=".curves cells.csv cells.tsv ?may_be_drawn"),
+    Option("--flatten TOLERANCE|auto", SKELETONS, _FLATTEN.replace("{more}", " or --what shape"),
+        "lengths.tolerance_or_auto", acts_on=".curves shape ?may_be_drawn"),
+    Option("--decimals N", COMPUTING, "Decimals of coordinates; polygons stay valid. Default: all that round-trip.",
+        "int:0:17", acts_on=".coordinates"),
+    Option("--precision N", COMPUTING, "Significant digits of other numbers. Default: the shortest that round-trips.",
+        "int:1:17", acts_on=".digits"),
+    Option("--with COLUMN[,...]", BATCHES, "Columns of the input for rows about parts of features (branches, points, "
+        "...); for rows about several (edges, neighbors) as COLUMN_a, COLUMN_b.", "names.columns", name="with_columns",
+        repeats="joined", acts_on=".parts"),
     Option("--no-properties", BATCHES, "Do not copy further columns or properties of the input."),
-    Option(
-        "--safe-csv",
-        BATCHES,
-        "Put ' before texts in CSV and TSV that a spreadsheet would take for formulas; numbers stay.",
-    ),
+    Option("--safe-csv", BATCHES, "Put ' before texts in CSV and TSV that a spreadsheet would take for formulas; "
+        "numbers stay."),
     Option("--no-clobber", ALL, "Refuse to replace an existing file."),
     Option("--overwrite", ALL, "Replace a GeoPackage that holds other layers, which are lost."),
 )
+# fmt: on
 
+# Rows stay rows: one argument a line would hide the table.
+# fmt: off
 CHECKS = (
     Option("--verify", COMPUTING, "Run an independent checker on the result; exit 1 if it is wrong."),
     Option("--strict", COMPUTING, "Refuse what would be repaired or snapped."),
     Option("--stats FILE|-", ALL, "Write counts, sizes, seconds and warnings as JSON.", complete="files:json"),
     Option("--threads N", f"{ALL} info", "Threads; 0 uses all.", "int:0:1024", 0, env="THREADS"),
-    Option(
-        "--max-pixels N",
-        f"{ALL} info",
-        "Maximum number of pixels held in memory.",
-        "int:1:",
-        2**31,
-        env="MAX_PIXELS",
-    ),
-    Option(
-        "--max-sites N",
-        COMPUTING,
-        "Maximum number of seeds, samples or vertices.",
-        "int:1:",
-        2**31 - 1,
-        env="MAX_SITES",
-    ),
+    Option("--max-pixels N", f"{ALL} info", "Maximum number of pixels held in memory.", "int:1:", 2**31,
+        env="MAX_PIXELS"),
+    Option("--max-sites N", COMPUTING, "Maximum number of seeds, samples or vertices.", "int:1:", 2**31 - 1,
+        env="MAX_SITES"),
     Option("-q --quiet", ALL, "Print no notes, warnings or progress.", env="QUIET"),
     Option("-v --verbose", ALL, "Report the time of each phase."),
 )
+# fmt: on
 
 _TABLE_FILES = "files:csv tsv json"
+# Rows stay rows: one argument a line would hide the table.
+# fmt: off
 MANY = (
-    Option(
-        "--out-dir DIR",
-        f"{BATCHES} draw",
-        "Folder for outputs named after the inputs.",
-        "names.folder",
-        complete="folders",
-    ),
+    Option("--out-dir DIR", f"{BATCHES} draw", "Folder for outputs named after the inputs.", "names.folder",
+        complete="folders"),
     Option("--files-from FILE|-", f"{BATCHES} draw", "Read the names of further inputs, one a line.", complete="any"),
     Option("-0 --null", f"{BATCHES} draw", "Names of --files-from end with NUL bytes."),
     Option("-j --jobs N", f"{BATCHES} draw", "Worker processes; 0 uses all cores.", "int:0:1024", env="JOBS"),
     Option("--keep-going", f"{BATCHES} draw", "Continue with the other inputs when one fails."),
     Option("--dry-run", f"{BATCHES} draw", "Print the plan as JSON lines, and write nothing."),
     Option("--resume", f"{BATCHES} draw", "Skip inputs that are done."),
-    Option(
-        "--shard I/N",
-        f"{BATCHES} draw",
-        "Take every N-th input in the order of names, from the I-th.",
-        "numbers.shard",
-    ),
+    Option("--shard I/N", f"{BATCHES} draw", "Take every N-th input in the order of names, from the I-th.",
+        "numbers.shard"),
     Option("--follow", f"{BATCHES} draw info", "Follow links to folders that are found in folders."),
-    Option(
-        "--table FILE",
-        BATCHES,
-        "Write the tables of all inputs as one (CSV, TSV, JSON): the rows of --what if that is a table, else of table.",
-        complete=_TABLE_FILES,
-    ),
-    Option(
-        "--table-inputs FILE",
-        BATCHES,
-        "Write a row an input, also of those without objects: its status, and the number of its rows.",
-        complete=_TABLE_FILES,
-    ),
-    Option(
-        "--fields REGEX",
-        BATCHES,
-        "Add columns to --table and --table-inputs: the named groups, (?P<name>...), found in each path.",
-    ),
-    Option(
-        "--cluster ADDRESS|local",
-        f"{BATCHES} draw",
-        "Work on a Dask cluster.",
-        env="CLUSTER",
-        complete="words:local",
-    ),
+    Option("--table FILE", BATCHES, "Write the tables of all inputs as one (CSV, TSV, JSON): the rows of --what if "
+        "that is a table, else of table.", complete=_TABLE_FILES),
+    Option("--table-inputs FILE", BATCHES, "Write a row an input, also of those without objects: its status, and the "
+        "number of its rows.", complete=_TABLE_FILES),
+    Option("--fields REGEX", BATCHES, "Add columns to --table and --table-inputs: the named groups, (?P<name>...), "
+        "found in each path."),
+    Option("--cluster ADDRESS|local", f"{BATCHES} draw", "Work on a Dask cluster.", env="CLUSTER",
+        complete="words:local"),
 )
+# fmt: on
