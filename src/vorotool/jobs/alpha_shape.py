@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from decimal import Decimal, localcontext
 from fractions import Fraction
@@ -20,24 +20,20 @@ from vorotool.engines.alpha.alpha_shape import (
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
-from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, write_frames
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, frame_of, note_repeated_labels, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE, PLOTS
 from vorotool.jobs.options import Options
-from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_sites
-from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
+from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, length_in_units, measured, table_in_units
+from vorotool.jobs.units import length_in_units, measured
 from vorotool.numeric.numbers import nearest_double
 from vorotool.numeric.progress import Progress
-from vorotool.products.formats import ANIMATIONS, PICTURES, picture_format
-from vorotool.products.registry import PRODUCTS
-from vorotool.products.writing import write_product
-from vorotool.types.alpha.complex import AlphaComplex, Radius
+from vorotool.render.drawing import Drawing, Plot, drawing_of
+from vorotool.types.alpha.complex import Radius
 from vorotool.types.alpha.persistence import RegionPersistence
 from vorotool.types.alpha.shape import AlphaShape
 from vorotool.types.points.point_set import PointSet
@@ -49,7 +45,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vorotool.render.canvas.layers import Layer, Page
     from vorotool.types.alpha.hull import AlphaHull
     from vorotool.types.mesh.digital_triangulation import AnyTriangulation
 
@@ -66,7 +61,7 @@ def products(run: Run, o: Options, given: JobInput) -> ShapeProducts:
     return ShapeProducts(run, o, given, points, chosen_radius(o.r, o.alpha, o.auto))
 
 
-class ShapeProducts:
+class ShapeProducts(Results):
     """Results of the alpha shapes of one list of points."""
 
     def __init__(
@@ -77,7 +72,8 @@ class ShapeProducts:
         points: PointSet | SeedSet,
         radius: Radius | None,
     ) -> None:
-        self.run, self.options, self.radius = run, options, radius
+        super().__init__(run, options)
+        self.radius = radius
         self._has_told_regions = False
         self.backdrop = placed_backdrop(run, options, given.backdrop)
         is_allowed = isinstance(points, SeedSet) or not len(points)
@@ -90,7 +86,7 @@ class ShapeProducts:
                 mesh, rule=options.rule, **self._empty, threads=options.threads, progress=progress
             )
         check_columns(options, self.family.mesh.properties)
-        self._world = world_of_sites(run, options, self.family.mesh, points)
+        self.world = world_of_sites(run, options, self.family.mesh, points)
         self.has_shape = bool(set(options.what) & OF_ONE_SHAPE)
         if self.has_shape:
             with run.phase("shape") as progress:
@@ -168,37 +164,12 @@ class ShapeProducts:
         """When regions come and go as the radius grows."""
         return persistence(self.family, progress=self.run.progress("persistence"))
 
-    @property
-    def written(self) -> AlphaShape:
-        """The shape in the units of files."""
-        return in_units(self.options.pixel_size, self.shape)
-
-    @property
-    def written_family(self) -> AlphaComplex:
-        """The family in the units of files."""
-        return in_units(self.options.pixel_size, self.family)
-
-    @property
-    def written_curves(self) -> Table:
-        """The curves in the units of files."""
-        return table_in_units(self.options.pixel_size, self.curves)
-
-    @property
-    def written_persistence(self) -> Table:
-        """Births and deaths of regions in the units of files."""
-        return table_in_units(self.options.pixel_size, self.persistence.table())
-
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
         if target.what == "persistence" and not self._has_told_regions:
             self._has_told_regions = True
             self.run.note(self._standing_regions())
-        if picture_format(target.fmt) == "png":
-            from vorotool.render.canvas.png import check_picture_size
-
-            check_picture_size(self.page, self.options.max_pixels)
-        if target.fmt in ANIMATIONS:
-            check_size(self.options, (self.page.height, self.page.width))
+        super().check(target)
         if target.fmt == "html":
             from vorotool.render.pages.alpha_html import check_html_size
 
@@ -227,89 +198,51 @@ class ShapeProducts:
         until = radius_text(length_in_units(self.options.pixel_size, found.apart_until))
         return f"{found.suggested} regions stand out, apart below r = {until}"
 
-    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
-        """Write one result."""
-        from vorotool.formats.io.atomic_output import open_output
-
-        o = self.options
-        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
-            if target.fmt == "html":
-                self._write_html(out)
-            elif target.fmt in PICTURES and target.what in PLOTS:
-                self._write_plot(out, target.what)
-            elif target.fmt in PICTURES:
-                write_layers(out, self._layers(target, self.shape), self.page, fmt=target.fmt, threads=o.threads)
-            elif target.fmt in ANIMATIONS:
-                self._write_animation(out, target)
-            else:
-                value = self._value(target.what)
-                product = PRODUCTS["alphashape"][target.what]
-                write_product(
-                    out, value, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path
-                )
-
-    def _value(self, what: str) -> Any:
-        """What a result is written from, in the units of files."""
-        if what == "curves":
-            return self.written_curves
+    def value(self, what: str) -> Any:
+        """Give the shape of the radius, its hull, or what is of all radii."""
         if what == "persistence":
-            return self.written_persistence
-        if what == "hull":
-            return in_units(self.options.pixel_size, self.hull)
-        return self.written if what in OF_ONE_SHAPE else self.written_family
+            return self.persistence.table()
+        if what in ("curves", "hull"):
+            return self.curves if what == "curves" else self.hull
+        return self.shape if what in OF_ONE_SHAPE else self.family
 
-    def _write_plot(self, out: BinaryIO, what: str) -> None:
-        width = self.options.width or 1000
-        if what == "persistence":
-            from vorotool.render.pages.persistence_plot import write_persistence_svg
-
-            write_persistence_svg(out, self.written_persistence, self.persistence.suggested, width=width)
-            return
+    def drawing(self, what: str, fmt: str) -> Drawing | Plot:
+        """Prepare a picture of the shape, or a plot over the radius."""
         from vorotool.render.pages.alpha_plot import write_curves_svg
+        from vorotool.render.pages.persistence_plot import write_persistence_svg
 
-        write_curves_svg(out, self.written_curves, width=width)
+        product, wanted = self.products[what], self.wanted
+        if what in PLOTS:
+            plotted: Any = {"width": wanted.width}
+            if what == "curves":
+                return Plot(partial(write_curves_svg, curves=self.written(what, fmt), **plotted))
+            suggested = self.persistence.suggested
+            return Plot(partial(write_persistence_svg, regions=self.written(what, fmt), suggested=suggested, **plotted))
+        # polygons are the shape, which is drawn over an image, too
+        wanted = wanted._replace(layers=wanted.layers or product.usual_layers)
+        return drawing_of(self.value(what), product, wanted, fmt)
 
-    def _write_html(self, out: BinaryIO) -> None:
+    def write_page(self, out: BinaryIO) -> None:
+        """Write a page with the shapes of all radii."""
         from vorotool.render.pages.alpha_html import write_alpha_html
 
         r = self.shape.r if self.has_shape else self.radius
         r = None if r is None else length_in_units(self.options.pixel_size, r)
-        write_alpha_html(out, self.written_family, self.written_curves, r=r)
+        write_alpha_html(out, self.written("family", "html"), self.written("curves", "html"), r=r)
 
-    @cached_property
-    def page(self) -> Page:
-        """Where pictures show what."""
-        from vorotool.render.canvas.layers import ImagePage
-        from vorotool.render.layers.mesh import mesh_page
-
-        if self.backdrop is not None:
-            return styled_page(ImagePage(self.backdrop), self.options.looks, self._world)
-        page = mesh_page(self.family.mesh, width=self.options.width or 1000)
-        return styled_page(page, self.options.looks, self._world)
-
-    def _layers(self, target: Target, shape: AlphaShape) -> list[Layer]:
-        """Layers of the picture of a result, of the shape or of one of another radius."""
-        from vorotool.render.layers.alpha import alpha_layers
-
-        chosen = self.options.drawn(PRODUCTS["alphashape"][target.what].usual_layers)
-        hull = None
-        if "hull" in chosen:
-            from vorotool.engines.alpha.alpha_hull import alpha_hull
-
-            hull = self.hull if shape is self.shape else alpha_hull(shape)
-        return alpha_layers(shape, self.page, chosen, hull=hull)
-
-    def _write_animation(self, out: BinaryIO, target: Target) -> None:
-        """Shapes whose radius grows to that of the shape, or to the largest critical one if that is infinite."""
+    def frames(self, what: str) -> Callable[[Fraction], NDArray[np.uint8]]:
+        """Draw shapes whose radius grows to that of the shape, or to the largest critical one if that is infinite."""
         finite = self.family.spectrum[self.family.spectrum < inf]
         largest = float(finite[-1]) if len(finite) else 1.0
         r = Fraction(self.shape.r) if self.shape.r < inf else Fraction(largest)
+        whole = self.drawing(what, "png")
+        assert isinstance(whole, Drawing)  # there are no plots of what moves
 
         def draw(part: Fraction) -> NDArray[np.uint8]:
             shape = alpha_shape(self.family, r=r * part, threads=self.options.threads, **self._empty)
-            return layer_pixels(self._layers(target, shape), self.page)
+            return whole.of(shape).pixels()
 
-        write_frames(out, self.run, self.options, target.fmt, parts_of_whole(self.options), draw)
+        return draw
 
     def verify(self, progress: Progress) -> None:
         """Check the shape exactly, from its triangulation."""

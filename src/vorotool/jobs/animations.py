@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from vorotool.jobs.run_log import Run
-    from vorotool.render.canvas.layers import Layer, Page
 
 FRAMES, FPS = 40, 10.0
 """Where they are not chosen."""
@@ -76,12 +75,3 @@ def write_frames(
                 progress((number + 1) / len(values))
 
     write_animation(out, frames(), fmt=fmt, fps=o.fps or FPS)
-
-
-def layer_pixels(layers: Sequence[Layer], page: Page) -> NDArray[np.uint8]:
-    """(H, W, 3) red, green and blue of a picture of layers."""
-    import numpy as np
-
-    from vorotool.jobs.pictures import picture_bands
-
-    return np.concatenate(list(picture_bands(layers, page))).reshape(page.height, page.width, -1)[:, :, :3]

@@ -15,7 +15,7 @@ from vorotool.jobs.inputs import JobInput, frame_of, window_of
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.triangulation import MeshProducts, ReadPoints
-from vorotool.jobs.units import sides_of, table_in_units
+from vorotool.jobs.units import sides_of
 from vorotool.numeric.progress import Progress
 from vorotool.types.mesh.digital_comparison import DigitalComparison
 from vorotool.types.mesh.digital_triangulation import AnyTriangulation
@@ -63,10 +63,9 @@ class DigitalProducts(MeshProducts):
         if self.comparison.suggestion:
             self.run.note(self.comparison.suggestion)
 
-    def _value(self, what: str, fmt: str) -> Any:
-        if what == "compare":
-            return table_in_units(self.options.pixel_size, self.comparison.differences)
-        return super()._value(what, fmt)
+    def value(self, what: str) -> Any:
+        """Give what the digital rule finds, or how it differs."""
+        return self.comparison.differences if what == "compare" else super().value(what)
 
     def _shape(self) -> str:
         return f"of {len(self.mesh.points)} regions too few touch"

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,40 +12,34 @@ from vorotool.engines.distances.hausdorff import hausdorff
 from vorotool.engines.distances.smallest import distance
 from vorotool.engines.distances.verify_distances import verify_distances
 from vorotool.errors import InputError
-from vorotool.formats.io.atomic_output import open_output
 from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.options import Options
-from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_polygons
-from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
+from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import coordinates_of, in_first_unit, unit_of_vectors
-from vorotool.jobs.targets import Target
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.progress import Progress
-from vorotool.products.formats import PICTURES
-from vorotool.products.registry import PRODUCTS
-from vorotool.products.writing import write_product
 from vorotool.types.distances.distances import SMALLEST, Distances
 
 if TYPE_CHECKING:
+    from vorotool.render.drawing import Drawing
     from vorotool.types.polygons.polygon_set import PolygonSet
 
 
-class DistanceProducts:
+class DistanceProducts(Results):
     """Results of one comparison."""
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
-        self.run, self.options = run, options
-        other = JobInput(options.other)
+        super().__init__(run, options)
+        other, self.read_beside = JobInput(options.other), (options.other,)
         with run.phase("read"):
             a = self._read(given)
             with naming(other):
                 b = self._read(other)
             a, b = self._in_one_system((given, a), (other, b))
         self.found = self._measured(a, b)
-        world = world_of_polygons(run, options, _both(a, b), is_cut=False)
-        self._styled = partial(styled_page, looks=options.looks, world=world)
+        self.world = world_of_polygons(run, options, _both(a, b), is_cut=False)
 
     def _read(self, given: JobInput) -> PolygonSet:
         with opened_input(self.options, given, "sites") as source:
@@ -95,40 +87,28 @@ class DistanceProducts:
             found = replace(found, smallest=closest.smallest)
         return found
 
-    def check(self, target: Target) -> None:
-        """Refuse what cannot be written, before anything is written."""
-        if target.fmt == "png":
-            from vorotool.render.canvas.png import check_picture_size
+    def value(self, what: str) -> Distances:
+        """Give all distances, of which each result has its own rows."""
+        return self.found
 
-            check_picture_size(self._drawing(target).page, self.options.max_pixels)
+    def written(self, what: str, fmt: str) -> Distances:
+        """Give the same: they are in the coordinates of the first input."""
+        return self.found
+
+    def drawing(self, what: str, fmt: str) -> Drawing:
+        """Prepare a picture, which shows the lines of one result."""
+        from vorotool.render.drawing import drawing_of
+
+        found, product = self.found, self.products[what]
+        if what == "hausdorff":
+            found = replace(found, smallest=None)
+        elif what == "smallest":
+            found = replace(found, from_a=None, from_b=None)
+        return drawing_of(found, product, self.wanted, fmt)
 
     def verify(self, progress: Progress) -> None:
         """Check the distances, with nothing that they were computed by."""
         verify_distances(self.found)
-
-    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
-        """Write one result."""
-        o = self.options
-        own = (*inputs, o.other)
-        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=own) as out:
-            if target.fmt in PICTURES:
-                drawing = self._drawing(target)
-                write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
-                return
-            product = PRODUCTS["distance"][target.what]
-            write_product(
-                out, self.found, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path
-            )
-
-    def _drawing(self, target: Target) -> Drawing:
-        o = self.options
-        shown = self.found
-        if target.what == "hausdorff":
-            shown = replace(shown, smallest=None)
-        elif target.what == "smallest":
-            shown = replace(shown, from_a=None, from_b=None)
-        styled = partial(self._styled, fmt=target.fmt)
-        return drawing_of(shown, layers=o.layers, width=o.width or 1000, styled=styled)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.features.feature_table import Features
 from vorotool.formats.images.band_reader import read_rows
 from vorotool.formats.images.banded import open_zarr
 from vorotool.formats.images.label_images import label_image_of
-from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions
@@ -22,18 +20,15 @@ from vorotool.formats.recognition import image_format, image_source, read_recogn
 from vorotool.formats.text_recognition import has_no_rows
 from vorotool.jobs.checked_columns import check_column
 from vorotool.jobs.inputs import JobInput, note_other_size
-from vorotool.jobs.label_pictures import LabelPicture, default_layers, write_label_page
 from vorotool.jobs.options import Options
-from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of, world_of_polygons
-from vorotool.jobs.pictures import drawing_of, write_layers
 from vorotool.jobs.pixel_sizes import size_of_file
 from vorotool.jobs.refusals import check_drawn_layers, refuse
+from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize
 from vorotool.numeric.input_unit import unit_of
-from vorotool.numeric.progress import Progress
 from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
 from vorotool.products.registry import PRODUCTS, Product
 from vorotool.render.canvas.layers import Backdrop
@@ -45,6 +40,9 @@ from vorotool.types.skeleton.offsets import Offsets
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
+if TYPE_CHECKING:
+    from vorotool.render.drawing import Picture
+
 _SKELETONS = PRODUCTS["skeleton-exact"]
 _COLORED = PRODUCTS["tessellate"]["color"].layers
 LABEL_LAYERS = {
@@ -55,37 +53,97 @@ LABEL_LAYERS = {
 Lined = Skeleton | Offsets | VoronoiMap | PolygonSet
 """What is drawn in layers of lines and areas."""
 
-Drawing = tuple[Callable[[BinaryIO], None], dict[str, Any]]
-"""What draws, and what it draws in numbers."""
 
-
-class Picture:
+class DrawnInput(Results):
     """The picture of one input."""
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
-        self._run, self._options, self._given = run, options, given
+        super().__init__(run, options)
+        self._given = given
         with reading(given.path), run.phase("read"):
             self._value = _read(run, options, given)
 
     def check(self, target: Target) -> None:
-        """Prepare what draws the input."""
+        """Refuse what cannot be drawn, and prepare what is."""
         if isinstance(self._value, LabelImage):
-            self._draw, self._counts = _of_labels(self._run, self._options, self._given, self._value, target.fmt)
+            self._check_labels(self._value, target.fmt)
         else:
-            self._draw, self._counts = _of_layers(self._run, self._options, self._given, self._value, target.fmt)
+            self._check_layers(self._value, target.fmt)
+        if target.fmt != "html":
+            self._picture = self._prepared(target.fmt)
+        super().check(target)
 
-    def verify(self, progress: Progress) -> None:
-        """There is nothing to check in a picture."""
+    def drawing(self, what: str, fmt: str) -> Picture:
+        """Give the picture, of which nothing is computed again."""
+        return self._picture
 
-    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
-        """Draw."""
-        no_clobber = self._options.no_clobber
-        with open_output(target.path, binary=target.is_binary, no_clobber=no_clobber, inputs=inputs) as out:
-            self._draw(out)
+    def _prepared(self, fmt: str) -> Picture:
+        from vorotool.render.drawing import drawing_of
+        from vorotool.render.label_images.picture import label_picture
+
+        if isinstance(self._value, LabelImage):
+            product = PRODUCTS["tessellate"]["labels" if fmt == "svg" else "color"]
+            return label_picture(self._value, self._colors, product, self.wanted, y_up=bool(self.options.y_up))
+        return drawing_of(self._value, _described(self._value)[1], self.wanted, fmt)
+
+    def write_page(self, out: BinaryIO) -> None:
+        """Write a page that shows labels."""
+        from vorotool.engines.label_images.regions import region_table
+        from vorotool.render.pages.cells_html import write_labels_html
+
+        assert isinstance(self._value, LabelImage)  # there are no pages of others
+        table = region_table(self._value, threads=self.options.threads)
+        write_labels_html(out, self._value, self._colors, table, y_up=bool(self.options.y_up))
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        return self._counts
+        if isinstance(self._value, LabelImage):
+            return {"shape": self._value.shape, "colors": int(self._colors[1].max(initial=0))}
+        return _described(self._value)[2]
+
+    def _check_labels(self, image: LabelImage, fmt: str) -> None:
+        from vorotool.engines.label_images.object_colors import object_colors
+        from vorotool.render.label_images.svg import check_size
+
+        run, o = self.run, self.options
+        of_lines = {"frame": o.frame, "scale": o.scale, "unit": o.drawing_unit, "aspect": o.aspect, "extent": o.extent}
+        refuse(of_lines, "is for shapes, but the input is a label image")
+        if fmt == "png":
+            refuse({"width": o.width}, "is for SVG: the PNG of a label image has the size of the image")
+        check_drawn_layers(o, fmt, "a label image", LABEL_LAYERS.get(fmt, ()))
+        check_column(o.label_by, {})
+        note_other_size(run, o, self._given, image.shape)
+        self.backdrop, self._value, size = self._given.backdrop, _objects(run, image), _size(o)
+        if size is not None and size.is_auto:
+            size = size_of_file(image.grid, o)
+        with run.phase("color"):
+            self._colors = object_colors(self._value, threads=o.threads)
+        if fmt == "html":
+            check_size(image.shape, "HTML")
+        assert image.frame is not None  # LabelImage has filled it in
+        self.world = world_of(run, o.looks, frame=image.frame.box, size=size)
+
+    def _check_layers(self, value: Lined, fmt: str) -> None:
+        run, o = self.run, self.options
+        kind, product, _ = _described(value)
+        if fmt == "html":
+            raise UsageError(f"a page is of cells or labels, but the input is {kind}: use -f svg or -f png")
+        check_drawn_layers(o, fmt, kind, product.layers[fmt])
+        refuse({"page": o.page}, f"is for images, but the input is {kind}")
+        if not len(value):
+            run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
+        polygons = value if isinstance(value, PolygonSet) else value.polygons
+        run.has_crs = polygons.crs is not None
+        check_column(o.label_by, (value if isinstance(value, VoronoiMap) else polygons).properties)
+        if o.overlay is not None:
+            refuse({"frame": o.frame}, "is what a picture shows, but one over an image has its size")
+        size = _size(o)
+        if size is not None and size.is_auto:
+            if unit_of(value) is None:
+                raise UsageError("the input states no unit: give --pixel-size one, such as 0.325um")
+            size = None
+        self.world = world_of_polygons(run, o, polygons, size=size, is_cut=False)
+        self.backdrop = _placed(run, o, self._given, value)
 
 
 def _read(run: Run, o: Options, given: JobInput) -> LabelImage | Lined:
@@ -142,44 +200,6 @@ def _note(run: Run, message: str) -> None:
         run.note(message)
 
 
-def _of_labels(run: Run, o: Options, given: JobInput, image: LabelImage, fmt: str) -> Drawing:
-    from vorotool.engines.label_images.object_colors import object_colors
-    from vorotool.engines.label_images.regions import region_table
-    from vorotool.render.label_images.svg import check_size
-
-    is_page = fmt == "html"
-    of_lines = {"frame": o.frame, "scale": o.scale, "unit": o.drawing_unit, "aspect": o.aspect, "extent": o.extent}
-    refuse(of_lines, "is for shapes, but the input is a label image")
-    if fmt == "png":
-        refuse({"width": o.width}, "is for SVG: the PNG of a label image has the size of the image")
-    check_drawn_layers(o, fmt, "a label image", LABEL_LAYERS.get(fmt, ()))
-    check_column(o.label_by, {})
-    note_other_size(run, o, given, image.shape)
-    image, size = _objects(run, image), _size(o)
-    if size is not None and size.is_auto:
-        size = size_of_file(image.grid, o)
-    with run.phase("color"):
-        colors = object_colors(image, threads=o.threads)
-    counts = {"shape": image.shape, "colors": int(colors[1].max(initial=0))}
-    if is_page:
-        check_size(image.shape, "HTML")
-        table = region_table(image, threads=o.threads)
-        page = partial(write_label_page, image=image, colors=colors, table=table, y_up=bool(o.y_up))
-        return page, counts
-    assert image.frame is not None  # LabelImage has filled it in
-    picture = LabelPicture(
-        image,
-        colors,
-        o.drawn(default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",))),
-        o.looks.style(world_of(run, o.looks, frame=image.frame.box, size=size).scale_bar),
-        width=o.width or 1000,
-        y_up=bool(o.y_up),
-        backdrop=given.backdrop,
-        threads=o.threads,
-    )
-    return partial(picture.write, fmt=fmt), counts
-
-
 def _objects(run: Run, image: LabelImage) -> LabelImage:
     """The objects of a mask, numbered as other commands number them; label images stay."""
     from vorotool.engines.tessellation.raster_objects import objects_of_mask
@@ -210,39 +230,6 @@ def _placed(run: Run, o: Options, given: JobInput, value: Lined) -> Backdrop | N
 
     run.coordinates = unit_of(value) if getattr(value, "polygons", value).crs is None else None
     return replace(backdrop, side=side_of_backdrop(run, o, backdrop.grid))
-
-
-def _of_layers(run: Run, o: Options, given: JobInput, value: Lined, fmt: str) -> Drawing:
-    from vorotool.render.canvas.png import check_picture_size
-
-    kind, product, counts = _described(value)
-    if fmt == "html":
-        raise UsageError(f"a page is of cells or labels, but the input is {kind}: use -f svg or -f png")
-    check_drawn_layers(o, fmt, kind, product.layers[fmt])
-    refuse({"page": o.page}, f"is for images, but the input is {kind}")
-    if not len(value):
-        run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
-    polygons = value if isinstance(value, PolygonSet) else value.polygons
-    run.has_crs = polygons.crs is not None
-    check_column(o.label_by, (value if isinstance(value, VoronoiMap) else polygons).properties)
-    if o.overlay is not None:
-        refuse({"frame": o.frame}, "is what a picture shows, but one over an image has its size")
-    size = _size(o)
-    if size is not None and size.is_auto:
-        if unit_of(value) is None:
-            raise UsageError("the input states no unit: give --pixel-size one, such as 0.325um")
-        size = None
-    world = world_of_polygons(run, o, polygons, size=size, is_cut=False)
-    drawing = drawing_of(
-        value,
-        layers=o.layers,
-        width=o.width or 1000,
-        backdrop=_placed(run, o, given, value),
-        styled=partial(styled_page, looks=o.looks, world=world, fmt=fmt),
-    )
-    if fmt == "png":
-        check_picture_size(drawing.page, o.max_pixels)
-    return partial(write_layers, layers=drawing.layers, page=drawing.page, fmt=fmt, threads=o.threads), counts
 
 
 def _described(value: Lined) -> tuple[str, Product, dict[str, Any]]:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,32 +16,12 @@ if TYPE_CHECKING:
     from vorotool.render.canvas.layers import Page
     from vorotool.types.pixel_grid import PixelGrid, Transform
 
-_PAGES: ContextVar[list[Page] | None] = ContextVar("pages", default=None)
-
-
-@contextmanager
-def pages_drawn() -> Iterator[list[Page]]:
-    """Collect the pages of the PNGs that are drawn within."""
-    pages: list[Page] = []
-    token = _PAGES.set(pages)
-    try:
-        yield pages
-    finally:
-        _PAGES.reset(token)
-
-
-def note_page(page: Page) -> None:
-    """Keep a page that is drawn as PNG."""
-    pages = _PAGES.get()
-    if pages is not None:
-        pages.append(page)
-
 
 def write_world_file(
-    run: Run, size: PixelSize | None, pages: Sequence[Page], path: str, *, no_clobber: bool, inputs: Sequence[str]
+    run: Run, size: PixelSize | None, page: Page | None, path: str, *, no_clobber: bool, inputs: Sequence[str]
 ) -> None:
     """Write the world file of a PNG whose pixels have places on a map; others have none."""
-    transform = _transform(run, size, pages)
+    transform = _transform(run, size, page)
     if transform is None:
         return
     from vorotool.formats.images.world_file import world_text
@@ -56,13 +34,13 @@ def write_world_file(
         out.write(world_text(transform))
 
 
-def _transform(run: Run, size: PixelSize | None, pages: Sequence[Page]) -> Transform | None:
+def _transform(run: Run, size: PixelSize | None, page: Page | None) -> Transform | None:
     grid = run.grid if run.grid is not None and run.grid.transform is not None else None
-    if not pages:
+    if page is None:
         return None if grid is None else grid.transform
     if grid is None:
-        return _of_page(pages[-1], lambda xy: xy) if run.has_crs else None
-    return _of_page(pages[-1], _to_map(size, grid))
+        return _of_page(page, lambda xy: xy) if run.has_crs else None
+    return _of_page(page, _to_map(size, grid))
 
 
 def _to_map(size: PixelSize | None, grid: PixelGrid) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from vorotool.formats.io.atomic_output import spoken
 from vorotool.jobs.inputs import JobInput, naming, read_backdrop, refuse_several
@@ -13,28 +13,14 @@ from vorotool.jobs.refusals import check_options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets
 from vorotool.jobs.units import shows_units, unit_stats
-from vorotool.numeric.progress import Progress
 from vorotool.plain import plain
 from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import FORMATS, format_named, resolved
 from vorotool.products.registry import PRODUCTS, VOLUME_PRODUCTS, Product
 from vorotool.signals import end_by_exceptions
 
-
-class Products(Protocol):
-    """Results of one input, each computed when it is first asked for."""
-
-    def check(self, target: Target) -> None:
-        """Refuse what cannot be written, before anything is."""
-
-    def verify(self, progress: Progress) -> None:
-        """Check the results by another way."""
-
-    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
-        """Write one result."""
-
-    def stats(self) -> dict[str, Any]:
-        """Counts and sizes."""
+if TYPE_CHECKING:
+    from vorotool.jobs.results import Results
 
 
 @plain
@@ -59,10 +45,10 @@ class Recipe:
         """What it reads beside images."""
         return COMMANDS[self.name].reads
 
-    def make(self, run: Run, o: Options, given: JobInput) -> Products:
+    def make(self, run: Run, o: Options, given: JobInput) -> Results:
         """Read an input, and return what makes its results."""
         place = "jobs.volumes.products:products" if self.is_of_volumes else COMMANDS[self.name].job
-        made: Products = resolved(place)(run, o, given)
+        made: Results = resolved(place)(run, o, given)
         return made
 
     def check(self, o: Options, targets: Sequence[Target]) -> None:
@@ -95,11 +81,9 @@ def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets
     from vorotool.formats.io.commit import committed_together
     from vorotool.formats.text.feature_collection import unit_member
     from vorotool.formats.text.tables import safe_texts, unit_column
-    from vorotool.jobs.georeference import pages_drawn, write_world_file
     from vorotool.numeric.coordinate_grid import coordinates_written
     from vorotool.types.identity import columns_wanted
 
-    computing = options if isinstance(options, Options) else None
     check_targets(options, targets, path)
     with run.phase("read"):
         has_units, has_page = shows_units(targets) or options.scale_bar, any(each.fmt == "html" for each in targets)
@@ -108,30 +92,21 @@ def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets
         products = recipe.make(run, options, given)
     for target in targets:
         products.check(target)
-    if computing is not None and computing.verify:
+    if options.verify:
         with run.phase("verify") as progress:
             products.verify(progress)
     end_by_exceptions()
-    size = options.unit
+    size, deviation = options.unit, 0.0
     unit = None if size is None else run.stats.get("unit") if size.is_auto else size.unit
-    is_safe = computing is not None and computing.safe_csv
-    decimals = None if computing is None else computing.decimals
-    wanted = None if computing is None else computing.with_columns
-    is_verified = computing is not None and computing.verify
-    deviation = 0.0
     stated = unit if size is not None or run.coordinates is None else run.coordinates.unit
-    units = unit_column(unit), unit_member(stated)
-    with committed_together(), safe_texts(is_safe), units[0], units[1], columns_wanted(wanted):
+    texts, columns = safe_texts(options.safe_csv), columns_wanted(options.with_columns)
+    digits: Any = {"decimals": options.decimals, "is_verified": options.verify}
+    with committed_together(), texts, unit_column(unit), unit_member(stated), columns:
         for target in targets:
             if options.out_dir is not None:
                 make_folder(Path(target.path).parent)
-            with run.phase(f"write {target.what}"), coordinates_written(decimals, is_verified=is_verified) as written:
-                with pages_drawn() as pages:
-                    products.write(target, inputs=(path,))
-                if target.fmt == "png":
-                    final: Any = getattr(products, "options", options)  # with the size of pixels that the image states
-                    rules: Any = {"no_clobber": options.no_clobber, "inputs": (path,)}
-                    write_world_file(run, final.unit, pages, target.path, **rules)
+            with run.phase(f"write {target.what}"), coordinates_written(**digits) as written:
+                products.write(target, inputs=(path,))
             deviation = max(deviation, written.deviation)
             if written.system_unread is not None:
                 _note_system(run, target, written.system_unread)

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from vorotool.jobs.names import OF_ONE_SHAPE
-from vorotool.jobs.picture_style import Looks
 from vorotool.products.inputs import DRAWINGS
 from vorotool.products.options import DEFAULTS, options_of
+from vorotool.render.looks import Looks
 
 if TYPE_CHECKING:
     from fractions import Fraction

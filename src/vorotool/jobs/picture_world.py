@@ -6,10 +6,10 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from vorotool.jobs.checked_columns import check_column
-from vorotool.jobs.picture_style import Looks, World
 from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.input_unit import InputUnit, unit_of_crs
 from vorotool.numeric.length_units import ratio, unit_name
+from vorotool.render.looks import Looks, World
 from vorotool.types.values import input_of
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from vorotool.render.canvas.styles import ScaleBar
     from vorotool.types.box import Box, Extent, Sides
     from vorotool.types.mesh.digital_triangulation import AnyTriangulation
+    from vorotool.types.points.label_image import LabelImage
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.polygons.polygon_set import PolygonSet
@@ -116,9 +117,14 @@ def world_of_value(value: Any, looks: Looks, *, is_paper: bool = False) -> World
     """Tell where a value of the library lies, and refuse a column that it has not."""
     from vorotool.types.box import extent_sides
     from vorotool.types.mesh.cells import CellSet
+    from vorotool.types.points.label_image import LabelImage
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
+    if isinstance(value, LabelImage):
+        check_column(looks.label_by, {} if value.seeds is None else value.seeds.properties, "label_by")
+        assert value.frame is not None  # LabelImage has filled it in
+        return world_of(None, looks, frame=value.frame.box, size=_size_of(value))
     if isinstance(value, VoronoiMap):
         check_column(looks.label_by, value.properties, "label_by")
         bounds = extent_sides(value.frame)
@@ -130,6 +136,17 @@ def world_of_value(value: Any, looks: Looks, *, is_paper: bool = False) -> World
         return _world_of_set(None, looks, inner, is_paper=is_paper)._replace(frame=None)
     points = inner.sites if isinstance(inner, CellSet) else inner.points
     return world_of(None, looks, crs=inner.crs, bounds=_bounds_of(points))
+
+
+def _size_of(image: LabelImage) -> PixelSize | None:
+    """Return the width of a pixel, if the image says it of one that is a square, or of its distances."""
+    from vorotool.jobs.units import PixelSize
+    from vorotool.types.spacing import SQUARE
+
+    grid = image.grid
+    if image.sides != SQUARE:
+        return PixelSize(image.sides.lengths[-1], grid.unit if grid is not None and grid.has(image.sides) else None)
+    return PixelSize(grid.width, grid.unit) if grid is not None and grid.is_size and grid.is_square else None
 
 
 def _bounds_of(points: NDArray[np.float64]) -> Sides:

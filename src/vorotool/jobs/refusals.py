@@ -7,7 +7,6 @@ from typing import Any
 
 from vorotool.errors import UsageError
 from vorotool.jobs.options import Options
-from vorotool.jobs.picture_style import SCALE_BAR
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import Measured, check_frame
 from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, picture_format
@@ -15,6 +14,7 @@ from vorotool.products.options import flag, options_of
 from vorotool.products.options.row import Option
 from vorotool.products.options.rules import EXCLUDING, NEEDING, Rule
 from vorotool.products.registry import NAMING_FEATURES, PRODUCTS, Product
+from vorotool.render.looks import SCALE_BAR
 
 Products = Mapping[str, Product]
 

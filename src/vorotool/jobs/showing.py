@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from vorotool.convert.extras import needed
 from vorotool.convert.geometry import geometry_of_rows
 from vorotool.errors import UsageError
-from vorotool.jobs.label_pictures import LabelPicture
-from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.writing import to_geojson
 from vorotool.numeric.crs import crs_text, is_geographic, member_of_text
 from vorotool.products.registry import is_of, parts_of
+from vorotool.render.drawing import Drawing, Wanted, drawing_of, drawn_part
+from vorotool.render.label_images.picture import LabelPicture
 from vorotool.types.axis import is_up
 from vorotool.types.features import Rows, features_of
 from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
@@ -92,8 +92,7 @@ def _drawn(value: Any, what: str | None, layers: Sequence[str] | None, width: in
     from vorotool.render.canvas.layers import Lines, Page, Points, bounds_of
 
     made: list[Layer]
-    if is_of(value, "AlphaComplex"):
-        return drawing_of(value.mesh, what=what, layers=layers, width=width)
+    value = value.mesh if is_of(value, "AlphaComplex") else value
     if is_of(value, "PlanarGraph"):
         places, y_up = value.coordinates(), is_up(value.polygons)
         made = [Lines("segments", places, value.segments)]
@@ -101,12 +100,12 @@ def _drawn(value: Any, what: str | None, layers: Sequence[str] | None, width: in
         places, y_up = value.xy if is_of(value, "PointSet") else value.sites, is_up(value)
         made = []
     else:
-        return drawing_of(value, what=what, layers=layers, width=width)
+        return drawing_of(value, drawn_part(value, what), Wanted(layers=layers, width=width))
     if what is not None or layers is not None:
         raise UsageError(f"a picture of a {type(value).__name__} has one layer: leave what and layers out")
     page = Page(bounds_of([Points("points", places)]), width=width, y_up=y_up)
     made.append(Points("points", places, radius=min(max(page.spacing(len(places)) / 12, 0.3), 4.0)))
-    return Drawing(made, page)
+    return Drawing(page, value, lambda _: made)
 
 
 def _elements(layers: Sequence[Layer]) -> int:
@@ -122,7 +121,7 @@ def svg_of(value: Any) -> str | None:
     drawing = _drawn(value, None, None, WIDTH)
     if _elements(drawing.layers) > MOST_ELEMENTS:
         return None
-    return _written(lambda out: write_layers(out, drawing.layers, drawing.page, fmt="svg")).decode()
+    return _written(lambda out: drawing.write(out, "svg")).decode()
 
 
 def html_of(value: Any) -> str | None:
@@ -135,7 +134,7 @@ def html_of(value: Any) -> str | None:
         drawing = _drawn(value, None, None, WIDTH)
         if _elements(drawing.layers) <= MOST_ELEMENTS:
             return None
-        png = _written(lambda out: write_layers(out, drawing.layers, drawing.page, fmt="png"))
+        png = _written(lambda out: drawing.write(out, "png"))
     image = f'<img alt="" src="data:image/png;base64,{b64encode(png).decode()}">'
     return f"<figure>{image}<br>{escape(repr(value))}</figure>\n"
 

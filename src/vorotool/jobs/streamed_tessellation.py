@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from fractions import Fraction
+from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.tessellation.bands import Quantity
-from vorotool.engines.tessellation.frames import label_dtype
+from vorotool.engines.tessellation.bands import Band
+from vorotool.engines.tessellation.frames import band_limits, label_dtype
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
 from vorotool.errors import LimitError, UsageError
 from vorotool.formats.opening import Opened
@@ -19,7 +18,7 @@ from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import written_grid
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.streamed_output import Stream, check_chunks, scale_of_squares, write_file, write_store
+from vorotool.jobs.streams import Stream, Streamed, check_chunks, scale_of_squares
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, unit_text
 from vorotool.numeric.progress import Progress
@@ -56,7 +55,7 @@ def rows_of_large(o: Options, source: Opened) -> ZarrRows | TiffRows | None:
     return rows if on_cluster or height * width > LARGE else None
 
 
-class StreamedProducts:
+class StreamedProducts(Streamed):
     """Results of one image that is not held."""
 
     def __init__(self, run: Run, options: Options, image: ZarrRows | TiffRows) -> None:
@@ -64,7 +63,8 @@ class StreamedProducts:
             options.of_frame,
             "is for lists of points, but the input is an image, which brings its own",
         )
-        self.run, self.options, self.grid = run, options, written_grid(options.pixel_size, image.grid)
+        super().__init__(run, options)
+        self.grid = written_grid(options.pixel_size, image.grid)
         if image.note:
             run.note(image.note)
         from vorotool.formats.zarr.arrays import CHUNK
@@ -95,60 +95,43 @@ class StreamedProducts:
         """Refuse what cannot be written in the format of a target."""
         from vorotool.formats.images.label_images import check_png
 
-        if target.fmt == "svg":
+        if target.fmt in ("svg", "html"):
             raise UsageError("the image is too large for a picture: write a PNG, a TIFF or a Zarr store")
-        stream = self._stream(target.what)
+        stream = self.stream(target.what)
         if target.fmt == "png":
-            check_png(stream.dtype, stream.largest)
+            check_png(stream.dtype, stream.about["largest_label"])
         if target.fmt == "zarr":
-            check_chunks(self.options, stream.frame, stream.dtype)
-
-    def verify(self, progress: Progress) -> None:
-        """Nothing: with ``--verify`` an image is held."""
+            check_chunks(self.options, stream)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""
-        from vorotool.formats.io.atomic_output import open_output
-
-        o, stream = self.options, self._stream(target.what)
-        if target.what == "distance2" and o.spacing is not None:
+        if target.what == "distance2" and self.options.spacing is not None:
             step = self.image.sides.step
-            self.run.note(f"squared distances are in squares of a step of {step}{unit_text(o.pixel_size)}")
-        if target.fmt == "zarr":
-            write_store(self.run, o, target, stream, inputs)
-            return
-        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
-            write_file(out, o, target, stream)
+            self.run.note(f"squared distances are in squares of a step of {step}{unit_text(self.options.pixel_size)}")
+        super().write(target, inputs=inputs)
 
-    def _stream(self, what: Any) -> Stream:
-        dtype, largest = self.dtype, self.image.largest_label
+    def stream(self, what: Any) -> Stream:
+        """Labels or distances, band by band."""
+        dtype, largest, frame = self.dtype, self.image.largest_label, self.image.frame
         if what == "distance":
             dtype, largest = np.dtype(np.float32), 0
         elif what == "distance2":
             dtype = self.image.square_dtype
             largest = int(np.iinfo(dtype).max)
-        band = partial(self.image.band, what, dtype, max_distance=self._max_distance(what))
-        return Stream(self.image.frame, partial(self._rows, what, dtype), dtype, largest, band, self._kind(what))
-
-    def _kind(self, what: str) -> dict[str, Any]:
-        """What TIFF files say of the pixels."""
-        nodata = None if self._max_distance(what) is None else 0
+        limit = self.options.max_distance if what == "labels" else None
+        band = partial(self.image.band, what, dtype, max_distance=limit)
         scale = scale_of_squares(self.image.sides.step) if what == "distance2" else None
-        return {"grid": self.grid, "nodata": nodata, "scale": scale, "tiled": self.options.tiled}
+        about = {"grid": self.grid, "nodata": None if limit is None else 0, "scale": scale, "tiled": self.options.tiled}
+        about["largest_label"] = largest
+        return Stream(frame, partial(self._rows, band), dtype, band, list(band_limits(frame)), about)
 
-    def _rows(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> NDArray[Any]:
+    def _rows(self, band: Callable[[int, int], Band], first: int, rows: int) -> NDArray[Any]:
         show = self._progress
         with self.run.phase("tessellate"):
-            made = self.image.band(what, dtype, first, rows, self._max_distance(what)).rows(
-                threads=self.options.threads
-            )
+            made = band(first, rows).rows(threads=self.options.threads)
         if show is not None:
             show((first + rows) / self.image.frame.height)
         return made
-
-    def _max_distance(self, what: str) -> Fraction | None:
-        limit: Fraction | None = self.options.max_distance
-        return limit if what == "labels" else None
 
     @cached_property
     def _progress(self) -> Progress:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property, partial
@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.tessellation.bands import Band, Quantity, SeedBand, SeedBands
-from vorotool.engines.tessellation.frames import label_dtype, require_memory, squared_limit
+from vorotool.engines.tessellation.bands import Band, SeedBand, SeedBands
+from vorotool.engines.tessellation.frames import band_limits, label_dtype, require_memory, squared_limit
 from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.engines.tessellation.tessellate import labelled_rows, verify_rows
@@ -31,14 +31,12 @@ from vorotool.jobs.pixel_sizes import with_pixel_size, written_grid
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.silent_losses import tell_outside
-from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, scale_of_squares, write_file, write_store
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
+from vorotool.jobs.streams import STREAMED, PartOf, Stream, Streamed, check_chunks, scale_of_squares
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, table_in_units, unit_columns, unit_text
 from vorotool.numeric.progress import Progress
 from vorotool.products.formats import ANIMATIONS
-from vorotool.products.registry import PRODUCTS
-from vorotool.products.writing import write_product
 from vorotool.types.axis import is_up
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.pixel_grid import PixelGrid
@@ -52,8 +50,8 @@ from vorotool.types.table import Table
 
 if TYPE_CHECKING:
     from vorotool.engines.label_images.regions import RegionMeasures
-    from vorotool.jobs.label_pictures import LabelPicture
-    from vorotool.render.canvas.styles import ScaleBar
+    from vorotool.render.label_images.picture import LabelPicture
+    from vorotool.render.looks import World
 
 DARK_LABELS = 1024
 """Labels up to here look black in a 16-bit image."""
@@ -136,8 +134,10 @@ def _rows_of(run: Run, o: Options, seeds: SeedSet) -> Tessellator | PropagatedRo
     return rows
 
 
-class Products:
+class Products(Streamed):
     """Results of one tessellation."""
+
+    begins_empty = True
 
     def __init__(
         self,
@@ -147,7 +147,8 @@ class Products:
         read: ReadSeeds,
         rows: Tessellator | PropagatedRows,
     ) -> None:
-        self.run, self.options, self.read, self.rows = run, options, read, rows
+        super().__init__(run, options)
+        self.read, self.rows = read, rows
         self.backdrop, self.sides = given.backdrop, sides_of(options)
         check_columns(options, read.seeds.properties)
         self.dtype = label_dtype(rows.seeds.largest_label, options.dtype)
@@ -193,75 +194,54 @@ class Products:
         elif what == "distance2":
             _ = self._exact_rows().square_dtype
         if fmt == "zarr":
-            check_chunks(self.options, self.rows.frame, self._stream(what).dtype)
-        if what in ("table", "neighbors") or self._is_picture(target):
+            check_chunks(self.options, self.stream(what))
+        if what not in STREAMED or self.is_picture(target):
             require_memory(self.rows.frame, self.options.max_pixels)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
-        """Write one result."""
-        from vorotool.formats.io.atomic_output import open_output
-
-        what, o = target.what, self.options
-        self._tell(target)
-        if target.fmt == "zarr":
-            write_store(self.run, o, target, self._stream(what), inputs)
-            return
-        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
-            if target.fmt == "html":
-                self._write_html(out)
-            elif self._is_picture(target):
-                self._write_picture(out, target)
-            elif what in ("table", "neighbors"):
-                table, product = getattr(self, f"_{what}")(), PRODUCTS["tessellate"][what]
-                write_product(
-                    out, table, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path
-                )
-            else:
-                write_file(out, o, target, self._stream(what))
-
-    def _is_picture(self, target: Target) -> bool:
-        """Whether it is drawn from the whole image."""
-        is_diagram = (target.what, target.fmt) == ("diagram", "png")
-        return target.what == "color" or target.fmt == "svg" or (is_diagram and self.options.draws_diagram)
-
-    def _tell(self, target: Target) -> None:
-        """Say what may surprise in a result."""
-        seeds = self.rows.seeds
+        """Write one result, and say what may surprise in it."""
+        seeds, rows = self.rows.seeds, self.rows
         is_png = (target.what, target.fmt) == ("labels", "png")
         if is_png and seeds.largest_label < DARK_LABELS and sys.stderr.isatty():
             self.run.note(
                 f"labels up to {seeds.largest_label} look black in a 16-bit PNG: --what color draws a picture"
             )
-        if target.what != "distance2":
-            return
-        if self.sides.step != 1:
-            step = self._exact_rows().step
-            self.run.note(f"squared distances are in squares of a step of {step}{unit_text(self.options.pixel_size)}")
-        elif seeds.scale > 1:
+        if target.what == "distance2" and self.sides.step != 1 and isinstance(rows, Tessellator):
+            unit = unit_text(self.options.pixel_size)
+            self.run.note(f"squared distances are in squares of a step of {rows.step}{unit}")
+        elif target.what == "distance2" and seeds.scale > 1:
             self.run.note(f"squared distances are in units of 1/{seeds.scale}² square pixels: seeds lie between pixels")
+        super().write(target, inputs=inputs)
 
-    def _stream(self, what: str) -> Stream:
+    def is_picture(self, target: Target) -> bool:
+        """Whether it is drawn from the whole image."""
+        is_diagram = (target.what, target.fmt) == ("diagram", "png")
+        return target.what == "color" or target.fmt == "svg" or (is_diagram and self.options.draws_diagram)
+
+    def stream(self, what: str) -> Stream:
         """Labels, the diagram or distances, which need not be in memory."""
-        if what == "labels":
-            return self._streamed(what, self._labels, self.dtype, self.rows.seeds.largest_label)
-        if what == "diagram":
-            from vorotool.render.canvas.palettes import LINE_ON_PAPER
-
-            return self._streamed(what, self._diagram, np.dtype(np.uint8), 1, palette=LINE_ON_PAPER, bit_depth=1)
-        rows = self._exact_rows()
-        if what == "distance":
-            return self._streamed(what, rows.distances, np.dtype(np.float32), 0)
-        largest, scale = int(np.iinfo(rows.square_dtype).max), scale_of_squares(rows.step)
-        return self._streamed(what, rows.squared_distances, rows.square_dtype, largest, scale=scale)
-
-    def _streamed(self, what: Any, rows_of: RowsOf, dtype: np.dtype[Any], largest: int, **kind: Any) -> Stream:
-        band = partial(self._band, what, dtype)
         is_cut = what == "labels" and self.options.max_distance is not None
         grid = written_grid(self.options.pixel_size, self.read.grid)
-        about = {"grid": grid, "nodata": 0 if is_cut else None, "tiled": self.options.tiled}
-        return Stream(self.rows.frame, rows_of, dtype, largest, band, {**about, **kind})
+        rows_of: PartOf
+        about: dict[str, Any] = {"grid": grid, "nodata": 0 if is_cut else None, "tiled": self.options.tiled}
+        if what == "labels":
+            rows_of, dtype, about["largest_label"] = self._labels, self.dtype, self.rows.seeds.largest_label
+        elif what == "diagram":
+            from vorotool.render.canvas.palettes import LINE_ON_PAPER
 
-    def _band(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> Band:
+            rows_of, dtype = self._diagram, np.dtype(np.uint8)
+            about |= {"largest_label": 1, "palette": LINE_ON_PAPER, "bit_depth": 1}
+        elif what == "distance":
+            rows_of, dtype, about["largest_label"] = self._exact_rows().distances, np.dtype(np.float32), 0
+        else:
+            rows = self._exact_rows()
+            rows_of, dtype = rows.squared_distances, rows.square_dtype
+            about |= {"largest_label": int(np.iinfo(dtype).max), "scale": scale_of_squares(rows.step)}
+        frame = self.rows.frame
+        band: Any = partial(self._band, what, dtype)
+        return Stream(frame, rows_of, dtype, band, list(band_limits(frame)), about)
+
+    def _band(self, what: Any, dtype: np.dtype[Any], first: int, rows: int) -> Band:
         """Give some rows as what computes them anywhere."""
         frame = self.rows.frame
         seeds = self._seed_bands.seeds_of(first, rows)
@@ -279,56 +259,38 @@ class Products:
         labels = self._labels(first - above, rows + above + below)
         return voronoi_diagram(labels, threads=self.options.threads)[above : above + rows]
 
-    def _table(self) -> Table:
-        from vorotool.engines.label_images.regions import region_table
+    def written(self, what: str, fmt: str) -> Table:
+        """Give a table of the whole image, in the units of files."""
+        from vorotool.engines.label_images.regions import neighbor_table, region_table
+        from vorotool.types.identity import ends_of_regions
 
         image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
-        has_distances = isinstance(self.rows, Tessellator) and len(self.rows.seeds)
+        size, seeds = self.options.pixel_size, self.rows.seeds
+        if what == "neighbors":
+            return ends_of_regions(table_in_units(size, neighbor_table(image, measures=measures)), seeds)
+        has_distances = isinstance(self.rows, Tessellator) and len(seeds)
         rows = self._exact_rows() if has_distances else None
         squares = None if rows is None else rows.squared_distances(dtype=rows.measured_dtype)
         table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
-        properties = self.rows.seeds.properties
-        return table_in_units(self.options.pixel_size, table, properties=properties, has_rows=True)
+        return table_in_units(size, table, properties=seeds.properties, has_rows=True)
 
-    def _neighbors(self) -> Table:
-        from vorotool.engines.label_images.regions import neighbor_table
-        from vorotool.types.identity import ends_of_regions
-
-        table = neighbor_table(self.image, measures=self.measures)
-        return ends_of_regions(table_in_units(self.options.pixel_size, table), self.rows.seeds)
-
-    def _write_picture(self, out: BinaryIO, target: Target) -> None:
-        if target.fmt in ANIMATIONS:
-            self._write_animation(out, target)
-        else:
-            self._picture(target).write(out, target.fmt)
-
-    def _write_html(self, out: BinaryIO) -> None:
-        from vorotool.jobs.label_pictures import write_label_page
+    def write_page(self, out: BinaryIO) -> None:
+        """Write a page that shows the regions."""
+        from vorotool.render.pages.cells_html import write_labels_html
 
         more = unit_columns(self.options.pixel_size, len(self.colors[0]))
-        write_label_page(out, self.image, self.colors, self._table(), more, y_up=is_up(self.image))
+        write_labels_html(out, self.image, self.colors, self.written("table", "html"), more, y_up=is_up(self.image))
 
-    def _picture(self, target: Target) -> LabelPicture:
-        from vorotool.jobs.label_pictures import LabelPicture, default_layers
+    def drawing(self, what: str, fmt: str) -> LabelPicture:
+        """Prepare a picture, which shows the seeds as well."""
+        from vorotool.render.label_images.picture import label_picture
 
-        o = self.options
-        layers = o.drawn(default_layers(self.image, PRODUCTS["tessellate"][target.what].usual_layers))
-        return LabelPicture(
-            self.image,
-            self.colors,
-            layers,
-            o.looks.style(self._scale_bar),
-            width=o.width or 1000,
-            y_up=self.backdrop is None and is_up(self.image),
-            backdrop=self.backdrop,
-            texts=self._texts,
-            threads=o.threads,
-        )
+        y_up = self.backdrop is None and is_up(self.image)
+        return label_picture(self.image, self.colors, self.products[what], self.wanted, y_up=y_up)
 
-    def _write_animation(self, out: BinaryIO, target: Target) -> None:
-        """Cells that grow from their seeds until they fill the frame, or to the largest distance."""
-        o, whole, rows = self.options, self._picture(target), self._exact_rows()
+    def frames(self, what: str) -> Callable[[Fraction], NDArray[np.uint8]]:
+        """Draw cells that grow from their seeds until they fill the frame, or to the largest distance."""
+        o, whole, rows = self.options, self.drawing(what, "png"), self._exact_rows()
         squares = rows.squared_distances(dtype=rows.measured_dtype)
         farthest = (isqrt(int(squares.max(initial=0))) + 1) * rows.step
         last = farthest if o.max_distance is None else min(farthest, o.max_distance)
@@ -340,27 +302,18 @@ class Products:
             labels = np.where(squares <= limit, whole.image.labels, 0)
             return replace(whole, image=replace(whole.image, labels=labels)).pixels()
 
-        animations.write_frames(out, self.run, o, target.fmt, animations.parts_of_whole(o, has_nothing=True), draw)
+        return draw
 
     @cached_property
-    def _scale_bar(self) -> ScaleBar | None:
-        o, seeds = self.options, self.rows.seeds
+    def world(self) -> World:
+        """Where what is drawn lies: lengths are those across the picture."""
         from vorotool.jobs.picture_world import world_of
 
-        bar = world_of(self.run, o.looks, frame=(seeds.frame or self.rows.frame).box, size=o.pixel_size).scale_bar
-        if bar is None or self.sides == SQUARE:
-            return bar
-        return bar._replace(factor=float(self.sides.lengths[-1]))  # of a pixel across the picture
-
-    @property
-    def _texts(self) -> dict[int, str] | None:
-        """What the column says that names regions."""
-        column, seeds = self.options.label_by, self.rows.seeds
-        if column is None:
-            return None
-        from vorotool.jobs.label_pictures import site_texts
-
-        return site_texts(seeds, column)
+        o, frame = self.options, self.rows.seeds.frame or self.rows.frame
+        made = world_of(self.run, o.looks, frame=frame.box, size=o.pixel_size)
+        if made.scale_bar is None or self.sides == SQUARE:
+            return made
+        return made._replace(scale_bar=made.scale_bar._replace(factor=float(self.sides.lengths[-1])))
 
     def _exact_rows(self) -> Tessellator:
         assert isinstance(self.rows, Tessellator)  # the command refuses distances of the propagation

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
 from vorotool.errors import Kind, Message
@@ -13,20 +13,17 @@ from vorotool.formats.io.sources import reading
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, note_repeated_labels, read_sites
 from vorotool.jobs.options import Options
-from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.pixel_sizes import clip_in_pixels, in_steps, placed_backdrop, placed_mesh, placed_sites
+from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.silent_losses import tell_empty_cells
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, table_in_units, unit_columns
 from vorotool.numeric.progress import Progress
-from vorotool.products.formats import PICTURES
-from vorotool.products.registry import PRODUCTS
-from vorotool.products.writing import write_product
 
 if TYPE_CHECKING:
-    from vorotool.jobs.picture_style import World
-    from vorotool.render.canvas.layers import Layer, Page, Polygons
+    from vorotool.render.drawing import Drawing
+    from vorotool.render.looks import World
     from vorotool.types.box import Box, Extent
     from vorotool.types.mesh.cells import CellSet
     from vorotool.types.mesh.digital_triangulation import AnyTriangulation
@@ -63,13 +60,12 @@ def products(run: Run, o: Options, given: JobInput) -> MeshProducts:
     return (RepairedProducts if o.triangulated_by == "digital-valid" else DigitalProducts)(run, o, given, read)
 
 
-class MeshProducts:
+class MeshProducts(Results):
     """Results of one triangulation."""
 
     def __init__(self, run: Run, options: Options, given: JobInput, read: ReadPoints) -> None:
-        self.run, self.options = run, options
+        super().__init__(run, options)
         self.backdrop, self.clip = placed_backdrop(run, options, given.backdrop), read.clip
-        self._cells: CellSet | None = None
         points = read.points
         if self.wants_mesh:
             with run.phase("triangulate") as progress:
@@ -101,10 +97,7 @@ class MeshProducts:
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
-        if target.fmt == "png":
-            from vorotool.render.canvas.png import check_picture_size
-
-            check_picture_size(self._page(target.what), self.options.max_pixels)
+        super().check(target)
         if target.fmt == "html":
             from vorotool.render.pages.cells_html import check_html_size
 
@@ -118,35 +111,23 @@ class MeshProducts:
             return f"{count} distinct point{'s' * (count != 1)}"
         return f"all {count} distinct points lie on a line"
 
-    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
-        """Write one result."""
-        from vorotool.formats.io.atomic_output import open_output
-
-        with open_output(
-            target.path, binary=target.is_binary, no_clobber=self.options.no_clobber, inputs=inputs
-        ) as out:
-            if target.fmt in PICTURES:
-                self._write_picture(out, target.fmt, target.what)
-                return
-            if target.fmt == "html":
-                self._write_html(out)
-                return
-            o, value = self.options, self._value(target.what, target.fmt)
-            product = PRODUCTS["delaunay"][target.what]
-            write_product(out, value, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path)
-
-    def _value(self, what: str, fmt: str) -> Any:
-        """What a result is written from, in the units of files: the table tells of cells, too."""
-        if what == "table" and fmt != "node":
-            from vorotool.engines.delaunay.site_table import site_table
-
-            table = site_table(self.mesh, self.cells, threads=self.options.threads)
-            return table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
+    def value(self, what: str) -> Any:
+        """Give the triangulation, its graph, its cells, or measures of these, which are in the units of files."""
         if what in ("statistics", "measures"):
             found = self._statistics_in_units()
             return found.measures if what == "measures" else found.summary
-        value = self.cells if what == "cells" else self.edged if what == "edges" else self.mesh
-        return in_units(self.options.pixel_size, value)
+        return self.cells if what == "cells" else self.edged if what == "edges" else self.mesh
+
+    def written(self, what: str, fmt: str) -> Any:
+        """Give a result in the units of files: the table tells of cells, too."""
+        if what in ("statistics", "measures"):
+            return self.value(what)
+        if what != "table" or fmt == "node":
+            return super().written(what, fmt)
+        from vorotool.engines.delaunay.site_table import site_table
+
+        table = site_table(self.mesh, self.cells, threads=self.options.threads)
+        return table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
 
     def _statistics_in_units(self) -> CellStatistics:
         """Measures of cells, decided in the units of the input, in those of files."""
@@ -161,14 +142,13 @@ class MeshProducts:
         cells = table_in_units(o.pixel_size, found.cells)
         return replace(found, cells=cells, tree_lengths=found.tree_lengths * side, area=found.area * side * side)
 
-    @property
+    @cached_property
     def cells(self) -> CellSet:
-        """The Voronoi cells of the points, clipped; they are made once."""
-        if self._cells is None:
-            with self.run.phase("cells") as progress:
-                self._cells = self._cells_in(self.options.frame, progress, clip=self.clip)
-            tell_empty_cells(self.run, self._cells.label_array, self._cells.is_empty)
-        return self._cells
+        """The Voronoi cells of the points, clipped."""
+        with self.run.phase("cells") as progress:
+            made = self._cells_in(self.options.frame, progress, clip=self.clip)
+        tell_empty_cells(self.run, made.label_array, made.is_empty)
+        return made
 
     def _cells_in(
         self, frame: Box | Extent | None, progress: Progress, *, clip: Sequence[Any] | None = None
@@ -184,49 +164,28 @@ class MeshProducts:
         )
 
     @cached_property
-    def _world(self) -> World:
+    def world(self) -> World:
         """Where what is drawn lies."""
         from vorotool.jobs.picture_world import world_of_sites
 
         return world_of_sites(self.run, self.options, self.mesh, self._points)
 
-    def _layers(self, what: str) -> Sequence[str]:
-        return self.options.drawn(PRODUCTS["delaunay"][what].usual_layers)
+    def drawing(self, what: str, fmt: str) -> Drawing:
+        """Prepare a picture: of the frame of cells, where it has any."""
+        from vorotool.render.drawing import drawing_of
+        from vorotool.render.layers.mesh import OF_CELLS, mesh_page
 
-    def _page(self, what: str) -> Page:
-        """Where the picture of a result shows what: the frame of cells, where it has any."""
-        from vorotool.render.canvas.layers import ImagePage
-        from vorotool.render.layers.mesh import mesh_page
+        product, wanted, cells, page = self.products[what], self.wanted, None, None
+        if set(OF_CELLS) & set(wanted.shown(product.usual_layers)):
+            cells, world = self.cells, self.world
+            if self.backdrop is None:
+                page = mesh_page(self.mesh, width=wanted.width, bounds=cells.frame.sides)
+            if cells.frame.sides != world.frame or self.options.frame is not None:
+                wanted = wanted._replace(world=world._replace(frame=None))
+        return drawing_of(self.edged, product, wanted, fmt, page=page, cells=cells)
 
-        looks, world = self.options.looks, self._world
-        if self.backdrop is not None:
-            return styled_page(ImagePage(self.backdrop), looks, world)
-        bounds = None
-        if {"cells", "diagram"} & set(self._layers(what)):
-            bounds = self.cells.frame.sides
-            world = world if bounds == world.frame and self.options.frame is None else world._replace(frame=None)
-        page = mesh_page(self.mesh, width=self.options.width or 1000, bounds=bounds)
-        return styled_page(page, looks, world)
-
-    def _write_picture(self, out: BinaryIO, fmt: str, what: str) -> None:
-        from vorotool.engines.delaunay.cells import cell_colors
-        from vorotool.jobs.pictures import write_layers
-        from vorotool.render.layers import mesh as mesh_layers
-        from vorotool.render.layers.cells import cell_lines, cell_polygons
-
-        wanted, page = self._layers(what), self._page(what)
-        of_mesh = [name for name in wanted if name in mesh_layers.LAYERS]
-        made: dict[str, Layer] = {layer.name: layer for layer in mesh_layers.mesh_layers(self.edged, page, of_mesh)}
-        if "cells" in wanted:
-            made["cells"] = cell_polygons(self.cells, cell_colors(self.mesh), page)
-            if "triangles" in made:  # which would hide the cells
-                made["triangles"] = replace(cast("Polygons", made["triangles"]), is_sheer=True)
-        if "diagram" in wanted:
-            made["diagram"] = cell_lines(self.cells, page)
-        layers = [made[name] for name in PRODUCTS["delaunay"][what].layers[fmt] if name in made]
-        write_layers(out, layers, page, fmt=fmt, threads=self.options.threads)
-
-    def _write_html(self, out: BinaryIO) -> None:
+    def write_page(self, out: BinaryIO) -> None:
+        """Write a page that shows the cells."""
         from vorotool.engines.delaunay.cells import cell_colors
         from vorotool.render.pages.cells_html import shapes_of_cells, write_cells_html
 
@@ -254,8 +213,8 @@ class MeshProducts:
         """Counts and sizes."""
         mesh = self.mesh
         cells: dict[str, Any] = {}
-        if self._cells is not None:
-            cells = {"frame": self._cells.frame.extent, "empty_cells": int(self._cells.is_empty.sum())}
+        if "cells" in vars(self):  # a result shows them
+            cells = {"frame": self.cells.frame.extent, "empty_cells": int(self.cells.is_empty.sum())}
         return {
             **cells,
             "points": len(mesh.points),

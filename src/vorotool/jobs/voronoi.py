@@ -3,31 +3,26 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
-from vorotool.formats.io.atomic_output import open_output
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
-from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_polygons
-from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
+from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.silent_losses import tell_empty_cells
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, length_in_units, unit_columns
+from vorotool.jobs.units import in_units, unit_columns
 from vorotool.jobs.voronoi_input import read_cuts, read_sites
 from vorotool.numeric.progress import Progress
-from vorotool.products.formats import PICTURES, resolved
-from vorotool.products.registry import PRODUCTS
-from vorotool.products.writing import write_product
+from vorotool.products.formats import resolved
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
@@ -35,18 +30,18 @@ if TYPE_CHECKING:
     from vorotool.types.skeleton.discs import Discs
 
 
-class VoronoiProducts:
+class VoronoiProducts(Results):
     """Results of one Voronoi map."""
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
-        self.run = run
         with run.phase("read"):
             read = read_sites(run, options, given)
         cuts: dict[str, PolygonSet] = {}
         if options.clip is not None or options.enclosures is not None:
             with run.phase("read polygons"):
                 read, cuts = read_cuts(run, read, given)
-        self.options, self.is_image = read.options, read.is_image
+        super().__init__(run, read.options)
+        self.is_image = read.is_image
         self.backdrop = placed_backdrop(run, self.options, given.backdrop)
         self.features = read.sites.count
         self._sites, self._clip = read.sites, cuts.get("clip")
@@ -55,9 +50,7 @@ class VoronoiProducts:
         has_place[self.cells.polygon_site] = True  # of the others it was told when they were read
         tell_empty_cells(run, self.cells.labels, (self.cells.components == 0) & has_place)
         check_columns(self.options, self.cells.properties)
-        o = self.options
-        world = world_of_polygons(run, o, self.cells.polygons, size=o.pixel_size)
-        self._styled = partial(styled_page, looks=o.looks, world=world)
+        self.world = world_of_polygons(run, self.options, self.cells.polygons, size=self.options.pixel_size)
 
     def _made(self, sites: Any, cuts: dict[str, Any]) -> VoronoiMap:
         o = self.options
@@ -89,15 +82,13 @@ class VoronoiProducts:
             warnings.simplefilter("ignore", RepairWarning)  # told of the map
             return largest_empty_discs(given, within=region, count=o.count or 1, threads=o.threads, progress=progress)
 
-    def _value(self, what: str) -> VoronoiMap | Discs:
+    def value(self, what: str) -> VoronoiMap | Discs:
+        """Give the map, or the discs between its sites."""
         return self.discs if what == "discs" else self.cells
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
-        if target.fmt == "png":
-            from vorotool.render.canvas.png import check_picture_size
-
-            check_picture_size(self._drawing(target).page, self.options.max_pixels)
+        super().check(target)
         if target.fmt == "html":
             from vorotool.render.pages.cells_html import check_html_size
 
@@ -120,32 +111,8 @@ class VoronoiProducts:
 
             verify_discs(self.discs, progress=progress)
 
-    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
-        """Write one result."""
-        o = self.options
-        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
-            if target.fmt in PICTURES:
-                drawing = self._drawing(target)
-                write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
-            elif target.fmt == "html":
-                self._write_page(out)
-            else:
-                self._write_data(out, target)
-
-    def _write_data(self, out: BinaryIO, target: Target) -> None:
-        o = self.options
-        write_product(
-            out,
-            in_units(o.pixel_size, self._value(target.what)),
-            PRODUCTS["voronoi"][target.what],
-            target.fmt,
-            flatten=length_in_units(o.pixel_size, o.flatten),
-            precision=o.precision,
-            threads=o.threads,
-            path=target.path,
-        )
-
-    def _write_page(self, out: BinaryIO) -> None:
+    def write_page(self, out: BinaryIO) -> None:
+        """Write a page that shows the cells."""
         from vorotool.render.layers.voronoi import map_colors
         from vorotool.render.pages.cells_html import shapes_of_map, write_cells_html
 
@@ -153,17 +120,6 @@ class VoronoiProducts:
         shapes = shapes_of_map(cells)
         columns = {name: column for name, column in cells.table().items() if name not in ("label", "id")}
         write_cells_html(out, shapes, map_colors(cells), columns | unit_columns(self.options.pixel_size, len(cells)))
-
-    def _drawing(self, target: Target) -> Drawing:
-        o = self.options
-        return drawing_of(
-            self._value(target.what),
-            what=target.what,
-            layers=o.layers,
-            width=o.width or 1000,
-            backdrop=self.backdrop,
-            styled=partial(self._styled, fmt=target.fmt),
-        )
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""

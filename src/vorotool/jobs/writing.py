@@ -3,29 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
+from functools import cached_property, partial
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 from vorotool.errors import UsageError
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.jobs.checked_columns import check_column
-from vorotool.jobs.picture_style import Looks, check_layers, looks_of, styled_page
-from vorotool.jobs.picture_world import world_of, world_of_value
-from vorotool.jobs.units import PixelSize
+from vorotool.formats.text.feature_collection import unit_member
+from vorotool.jobs.options import Options
+from vorotool.jobs.picture_world import world_of_value
+from vorotool.jobs.results import Results
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target
+from vorotool.numeric.coordinate_grid import coordinates_written
 from vorotool.numeric.numbers import Flatten, checked_flatten, shown_number, whole_number
-from vorotool.products.formats import FORMATS, PICTURES, format_named
-from vorotool.products.registry import Product, is_of, parts_of
+from vorotool.products.formats import PICTURES, format_named
+from vorotool.products.registry import VOLUME_PRODUCTS, Product, is_of, parts_of
 from vorotool.products.writing import chosen_part, write_product
+from vorotool.render.drawing import Picture, Plot, drawn_part
+from vorotool.render.looks import World, check_layers, looks_of
 from vorotool.types.axis import is_up, y_axis_of
 from vorotool.types.fields import Record, with_y_axis
-from vorotool.types.pixel_frame import MAX_SIDE
-from vorotool.types.spacing import SQUARE
-
-if TYPE_CHECKING:
-    from vorotool.types.alpha.persistence import RegionPersistence
-    from vorotool.types.points.label_image import LabelImage
+from vorotool.types.identity import columns_wanted
+from vorotool.types.pixel_frame import MAX_PIXELS, MAX_SIDE
 
 
 def write(
@@ -115,11 +116,8 @@ def write(
     >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     >>> write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), "build/skeleton.svg")
     """
-    from vorotool.formats.text.feature_collection import unit_member
     from vorotool.numeric.checks import checked_flag, checked_threads
-    from vorotool.numeric.coordinate_grid import coordinates_written
     from vorotool.numeric.input_unit import own_unit
-    from vorotool.types.identity import columns_wanted
 
     path, flatten = _checked_path(path), checked_flatten(flatten)
     if not isinstance(fmt, str | None):
@@ -127,43 +125,41 @@ def write(
     legend, scale_bar = checked_flag(legend, "legend"), checked_flag(scale_bar, "scale_bar")
     name = fmt or Path(path).suffix
     chosen = format_named(name) or name.lower().removeprefix(".")
-    threads = checked_threads(threads)
     if y_up is not None and isinstance(value, Record):
         value = with_y_axis(value, y_axis_of(checked_flag(y_up, "y_up")))
-    looks = looks_of(color=color, line_width=line_width, background=background)
-    looks = looks._replace(label_by=label_by, has_legend=legend, has_scale_bar=scale_bar)
-    styles: dict[str, object] = {
-        "color": color,
-        "line_width": line_width,
-        "background": background,
-        "label_by": label_by,
-    }
-    styles |= {"legend": legend or None, "scale_bar": scale_bar or None}
+    looks: dict[str, Any] = {"color": color, "line_width": line_width, "background": background}
+    numbers = {"flatten": flatten, "decimals": decimals, "precision": precision}
+    pictured = {"layers": layers, "width": width, **looks, "label_by": label_by}
+    pictured |= {"legend": legend or None, "scale_bar": scale_bar or None}
+    o = Options(
+        "write",
+        threads=checked_threads(threads),
+        **{"flatten": flatten, "precision": precision, "layers": layers, "width": width, "y_up": y_up},
+        **{"label_by": label_by, "legend": legend, "scale_bar": scale_bar, "max_pixels": MAX_PIXELS},
+        **looks_of(**looks),
+    )
+    is_labels = is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")
     if is_of(value, "LabelVolume", "Volume"):
-        from vorotool.jobs.volume_writing import write_volume_value
-
-        more = {"what": None if what == "labels" else what, "flatten": flatten}
-        more |= {"decimals": decimals, "precision": precision}
-        write_volume_value(value, fspath(path), chosen, {**more, "layers": layers, "width": width, **styles}, threads)
-        return
-    if chosen not in PICTURES or (is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")):
-        for option, given in {"layers": layers, "width": width, **styles}.items():
+        _check_volume(value, chosen, {"what": None if what == "labels" else what, **numbers, **pictured})
+        _write(_Value(o, value, VOLUME_PRODUCTS["labels"]), path, chosen)
+    elif chosen in PICTURES and not is_labels:
+        for option, given in numbers.items():
+            if given is not None:
+                raise UsageError(f"{option} is for numbers in text: leave it out of pictures")
+        if width is not None and not 0 <= whole_number(width, "width") <= MAX_SIDE:
+            raise UsageError(f"width is {shown_number(width)}: give a number of pixels up to {MAX_SIDE}")
+        _write(_Value(o, value, _drawn(value, chosen, what, pictured)), path, chosen)
+    else:
+        for option, given in pictured.items():
             if given is not None:
                 raise UsageError(f"{option} is for pictures: use fmt='svg' or fmt='png', or leave it out")
         product = _part(value, chosen, what, flatten)
-        if chosen == "gpkg" and stream_kind(fspath(path)) is None:
+        if chosen == "gpkg" and stream_kind(path) is None:
             from vorotool.formats.features.geopackage import check_layers
 
-            check_layers(fspath(path), (product.what,), overwrite=overwrite)
+            check_layers(path, (product.what,), overwrite=overwrite)
         with coordinates_written(decimals), columns_wanted(with_columns), unit_member(own_unit(value)):
-            _write_data(value, fspath(path), chosen, product, flatten, precision, threads)
-        return
-    for option, number in (("flatten", flatten), ("decimals", decimals), ("precision", precision)):
-        if number is not None:
-            raise UsageError(f"{option} is for numbers in text: leave it out of pictures")
-    if width is not None and not 0 <= whole_number(width, "width") <= MAX_SIDE:
-        raise UsageError(f"width is {shown_number(width)}: give a number of pixels up to {MAX_SIDE}")
-    _draw(value, _Picture(fspath(path), chosen, what, layers, width, y_up, looks, threads))
+            _write(_Value(o, value, product), path, chosen)
 
 
 def _checked_path(path: Any) -> str:
@@ -213,9 +209,7 @@ def to_geojson(
 
     import orjson
 
-    from vorotool.formats.text.feature_collection import unit_member
     from vorotool.numeric.input_unit import own_unit
-    from vorotool.types.identity import columns_wanted
 
     out, tolerance = io.BytesIO(), checked_flatten(flatten)
     with columns_wanted(with_columns), unit_member(own_unit(value)):
@@ -231,109 +225,91 @@ def _part(value: Any, fmt: str, what: str | None, flatten: float | None) -> Prod
     return chosen_part(value, fmt, what)
 
 
-def _write_data(
-    value: Any, path: str, fmt: str, product: Product, flatten: float | None, precision: int | None, threads: int
-) -> None:
-    from vorotool.formats.io.atomic_output import open_output
-
-    if fmt == "zarr":
-        from vorotool.formats.zarr.arrays import write_zarr
-
-        write_zarr(path, value.labels, grid=value.grid, threads=threads)
-        return
-    with open_output(path, binary=not FORMATS[fmt].is_text) as out:
-        write_product(out, value, product, fmt, flatten=flatten, precision=precision, threads=threads, path=path)
-
-
-class _Picture(NamedTuple):
-    """What is wanted of a picture."""
-
-    path: str
-    fmt: str
-    what: str | None
-    layers: Sequence[str] | None
-    width: int | None
-    y_up: bool | None
-    looks: Looks
-    threads: int
-
-
-def _draw(value: Any, wanted: _Picture) -> None:
-    from vorotool.formats.io.atomic_output import open_output
-    from vorotool.jobs.pictures import drawing_of, write_layers
-    from vorotool.render.canvas.png import check_picture_size
-    from vorotool.types.pixel_frame import MAX_PIXELS
-
+def _drawn(value: Any, fmt: str, what: str | None, given: Mapping[str, Any]) -> Product:
+    """Choose what a picture shows."""
     if is_of(value, "LabelImage"):
-        _draw_labels(value, wanted)
-        return
-    if is_of(value, "RegionPersistence"):
-        _draw_plot(value, wanted)
-        return
-    world = world_of_value(value, wanted.looks, is_paper=wanted.width is None)
-    drawing = drawing_of(
-        value,
-        what=wanted.what,
-        layers=wanted.layers,
-        width=wanted.width or 1000,
-        styled=partial(styled_page, looks=wanted.looks, world=world, fmt=wanted.fmt),
-    )
-    check_layers(wanted.looks, [layer.name for layer in drawing.layers])
-    if wanted.fmt == "png":
-        check_picture_size(drawing.page, MAX_PIXELS)
-    with open_output(wanted.path, binary=wanted.fmt == "png") as out:
-        write_layers(out, drawing.layers, drawing.page, fmt=wanted.fmt, threads=wanted.threads)
-
-
-def _draw_plot(found: RegionPersistence, wanted: _Picture) -> None:
-    from vorotool.formats.io.atomic_output import open_output
-    from vorotool.render.pages.persistence_plot import write_persistence_svg
-
-    if wanted.fmt != "svg":
+        if what not in (None, "color", "colour", "labels"):
+            raise UsageError(f"what={what!r} is no picture of a LabelImage: use color, or leave it out")
+        if fmt == "png" and given["width"] is not None:
+            raise UsageError("the PNG of a label image has its own size: leave width out, or use fmt='svg'")
+        return parts_of(value)["labels" if what == "labels" else "color"]
+    if not is_of(value, "RegionPersistence"):
+        return drawn_part(value, what)
+    if fmt != "svg":
         raise UsageError("the plot of a RegionPersistence is drawn as SVG: use fmt='svg'")
-    if wanted.layers is not None:
+    if given["layers"] is not None:
         raise UsageError("layers are for pictures of shapes, but this is a plot: leave them out")
-    with open_output(wanted.path, binary=False) as out:
-        write_persistence_svg(out, found.table(), found.suggested, width=wanted.width or 1000)
+    return parts_of(value)["persistence"]
 
 
-def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
-    from vorotool.engines.label_images.object_colors import object_colors
-    from vorotool.formats.io.atomic_output import open_output
-    from vorotool.jobs.label_pictures import LabelPicture, default_layers, site_texts
-
-    if wanted.what not in (None, "color", "colour", "labels"):
-        raise UsageError(f"what={wanted.what!r} is no picture of a LabelImage: use color, or leave it out")
-    if wanted.fmt == "png" and wanted.width is not None:
-        raise UsageError("the PNG of a label image has its own size: leave width out, or use fmt='svg'")
-    usual = parts_of(image)["labels" if wanted.what == "labels" else "color"].usual_layers
-    shown = [layer for layer in default_layers(image, usual) if layer != "seeds" or image.seeds is not None]
-    colors = object_colors(image, threads=wanted.threads)
-    chosen, label_by = list(wanted.layers or shown), wanted.looks.label_by
-    columns = {} if image.seeds is None else image.seeds.properties
-    check_column(label_by, columns, "label_by")
-    if label_by is not None and "labels" not in chosen:
-        chosen.append("labels")
-    assert image.frame is not None  # LabelImage has filled it in
-    world = world_of(None, wanted.looks, frame=image.frame.box, size=_pixel_size(image))
-    picture = LabelPicture(
-        image,
-        colors,
-        chosen,
-        wanted.looks.style(world.scale_bar),
-        width=wanted.width or 1000,
-        y_up=is_up(image) if wanted.y_up is None else wanted.y_up,
-        texts=None if label_by is None or image.seeds is None else site_texts(image.seeds, label_by),
-        threads=wanted.threads,
-    )
-    check_layers(wanted.looks, picture.layers)
-    with open_output(wanted.path, binary=wanted.fmt == "png") as out:
-        picture.write(out, wanted.fmt)
+def _check_volume(value: Any, fmt: str, options: Mapping[str, object]) -> None:
+    """Refuse formats that hold no volume, and options of others."""
+    name, formats = type(value).__name__, VOLUME_PRODUCTS["labels"].data
+    if fmt not in formats:
+        raise UsageError(f"a {name} cannot be written as {fmt!r}: use one of {', '.join(formats)}")
+    for option, given in options.items():
+        if given is not None:
+            raise UsageError(f"{option} is not for volumes: leave it out with a {name}")
 
 
-def _pixel_size(image: LabelImage) -> PixelSize | None:
-    """The width of a pixel, if the image says it of one that is a square, or of its distances."""
-    grid = image.grid
-    if image.sides != SQUARE:
-        return PixelSize(image.sides.lengths[-1], grid.unit if grid is not None and grid.has(image.sides) else None)
-    return PixelSize(grid.width, grid.unit) if grid is not None and grid.is_size and grid.is_square else None
+class _Value(Results):
+    """A value of the library, of which one result is written."""
+
+    def __init__(self, options: Options, value: Any, product: Product) -> None:
+        super().__init__(Run("write", quiet=True, verbose=False, stats=None), options)
+        self._value = value
+        self.products = {product.what: product}
+
+    def value(self, what: str) -> Any:
+        """Give the value."""
+        return self._value
+
+    @cached_property
+    def world(self) -> World:
+        """Where it lies."""
+        return world_of_value(self._value, self.options.looks, is_paper=self.options.width is None)
+
+    def check(self, target: Target) -> None:
+        """Refuse layers that a picture has not, and a picture that is too large."""
+        if target.fmt in PICTURES and self.is_picture(target):
+            drawing = self.drawing(target.what, target.fmt)
+            if not isinstance(drawing, Plot):
+                check_layers(self.options.looks, drawing.names)
+            if target.fmt == "png":
+                drawing.check(self.options.max_pixels)
+
+    def drawing(self, what: str, fmt: str) -> Picture:
+        """Prepare the picture."""
+        value, o = self._value, self.options
+        if is_of(value, "LabelImage"):
+            from vorotool.engines.label_images.object_colors import object_colors
+            from vorotool.render.label_images.picture import label_picture
+
+            colors = object_colors(value, threads=o.threads)
+            y_up = is_up(value) if o.y_up is None else o.y_up
+            return label_picture(value, colors, self.products[what], self.wanted, y_up=y_up)
+        if is_of(value, "RegionPersistence"):
+            from vorotool.render.pages.persistence_plot import write_persistence_svg
+
+            shown: Any = {"regions": value.table(), "suggested": value.suggested, "width": o.width or 1000}
+            return Plot(partial(write_persistence_svg, **shown))
+        return super().drawing(what, fmt)
+
+    def write_store(self, target: Target, rules: Mapping[str, Any]) -> None:
+        """Write an image or a volume to a Zarr store."""
+        from vorotool.formats.zarr.arrays import write_zarr
+        from vorotool.formats.zarr.volumes import write_zarr_volume
+
+        value, more = self._value, {"grid": self._value.grid, "threads": self.options.threads}
+        if is_of(value, "LabelImage"):
+            write_zarr(target.path, value.labels, **more)
+        else:
+            is_labels = is_of(value, "LabelVolume")
+            write_zarr_volume(target.path, value.labels if is_labels else value.values, is_labels=is_labels, **more)
+
+
+def _write(results: _Value, path: str, fmt: str) -> None:
+    """Check and write the one result."""
+    target = Target(next(iter(results.products)), path, fmt)
+    results.check(target)
+    results.write(target, inputs=())

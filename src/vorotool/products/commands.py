@@ -153,7 +153,7 @@ and pictures show them.""",
     ),
     "draw": Command(
         "Draw label images, skeletons, Voronoi maps and shapes again.",
-        "jobs.drawing:Picture",
+        "jobs.drawing:DrawnInput",
         None,
         """Draw a label image, in which neighboring regions never share a color, a skeleton, a Voronoi map, or shapes.
 

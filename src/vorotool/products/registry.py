@@ -25,7 +25,9 @@ class Product:
     usual_layers: tuple[str, ...] = ()  # those that a picture has where none are chosen
     # `module:name`: `name_page(value, width=…)` and `name_layers(value, page, layers)` draw values of its types
     drawn_by: str = ""
-    made_by: str = ""  # `module:class` of the `Result` of skeleton commands that follows from a skeleton or its diagram
+    made_by: str = (
+        ""  # `module:class` of what makes it in skeleton commands, if it follows from a skeleton or its diagram
+    )
     has_page: bool = False  # the command line writes it as a page of HTML, too
     moves: bool = False  # the command line writes it as an animation, too
     is_curved: bool = False
@@ -101,9 +103,10 @@ _TESSELLATE = (
 
 # ---- tessellate, of volumes ----------------------------------------------------------------------
 _STACKS = "tiff npy zarr"
+_VOXELS = Writer("formats.volumes.writer:write_values", ("fmt", "threads"))
 _SLICES = {fmt: (*layers[:1], *(name for name in layers[1:] if name != "objects")) for fmt, layers in _COLORED.items()}
 _VOLUMES = (
-    _product("labels", "LabelVolume", _STACKS, has_page=True),
+    _product("labels", "LabelVolume", _STACKS, own=dict.fromkeys(("tiff", "npy"), _VOXELS), has_page=True),
     _product("diagram", "", _STACKS),
     _product("color", "", "", Pictures(_SLICES), "cells seeds", has_page=True),
     _product("distance", "", _STACKS),
@@ -130,7 +133,7 @@ _DELAUNAY = (
         "cells",
         "CellSet",
         "geojson csv tsv json npz wkt",
-        _MESH_LAYERS._replace(drawn_by="jobs.cell_pictures:cell"),
+        _MESH_LAYERS._replace(drawn_by="render.layers.mesh:cell"),
         "cells points",
         own=_CELLS,
         has_page=True,
@@ -183,7 +186,7 @@ _DISC_PRODUCT = _product(
     f"{_TABLES} geojson wkt",
     _DISC_LAYERS,
     "polygons discs",
-    made_by="jobs.skeletons.inscribed_discs:InscribedDiscs",
+    made_by="jobs.skeletons.derived:InscribedDiscs",
     is_curved=True,
 )
 
@@ -198,11 +201,12 @@ _SKELETON, _OFFSETS = _documents("skeleton_files"), _documents("offset_files")
 _THICKNESS = Writer("formats.results.thickness:write_thickness", ("fmt", "threads"))
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels", "render.layers.skeleton:skeleton")
+_DIAGRAM = _ARCS._replace(drawn_by="render.layers.skeleton:diagram")
 _ALONG = _pictures("polygons skeleton transects points labels", "render.layers.points_along:point")
-_STEPS = "jobs.skeletons.steps:Steps"
+_STEPS = "jobs.skeletons.derived:Steps"
 _SKELETONS = (
     _product("skeleton", "Skeleton", _CURVES, _ARCS, "polygons skeleton", own=_SKELETON, has_page=True, is_curved=True),
-    _product("diagram", "", _CURVES, _ARCS, "polygons elements points skeleton", own=_SKELETON, is_curved=True),
+    _product("diagram", "", _CURVES, _DIAGRAM, "polygons elements points skeleton", own=_SKELETON, is_curved=True),
     _product("elements", "Skeleton", _TABLES, _ARCS, "polygons elements points"),
     _product(
         "centerline",
@@ -219,7 +223,7 @@ _SKELETONS = (
         _pictures("polygons offset labels", "render.layers.offsets:offset"),
         "polygons offset",
         own=_OFFSETS,
-        made_by="jobs.skeletons.offset_curves:OffsetCurves",
+        made_by="jobs.skeletons.derived:OffsetCurves",
         is_curved=True,
         moves=True,
     ),
@@ -230,7 +234,7 @@ _SKELETONS = (
         _pictures("shape labels", "render.layers.polygons:shape"),
         "shape",
         own=_POLYGON_FILES,
-        made_by="jobs.skeletons.rebuilt_shape:RebuiltShape",
+        made_by="jobs.skeletons.derived:RebuiltShape",
     ),
     _DISC_PRODUCT,
     _product(
@@ -246,7 +250,7 @@ _SKELETONS = (
         Pictures({"png": ("thickness",)}),
         "thickness",
         own=dict.fromkeys(("tiff", "npy"), _THICKNESS),
-        made_by="jobs.skeletons.thickness:Thickness",
+        made_by="jobs.skeletons.derived:Thickness",
     ),
     _product("branches", "Skeleton", _TABLES),
     _product("table", "Skeleton", _TABLES),
@@ -258,7 +262,7 @@ _OF_WHOLE_AXIS = (
         f"{_TABLES} geojson wkt",
         _pictures("polygons skeleton necks labels", "render.layers.necks:neck"),
         "polygons necks",
-        made_by="jobs.skeletons.neck_cuts:NeckCuts",
+        made_by="jobs.skeletons.derived:NeckCuts",
     ),
     _product(
         "parts",
@@ -266,7 +270,7 @@ _OF_WHOLE_AXIS = (
         "geojson csv tsv npz json wkt poly",
         _pictures("parts skeleton cuts labels", "render.layers.necks:part"),
         "parts",
-        made_by="jobs.skeletons.neck_cuts:CutParts",
+        made_by="jobs.skeletons.derived:CutParts",
         own=_POLYGON_FILES,
     ),
 )

@@ -9,7 +9,7 @@ import shapely
 from support.families.point_families import draw
 from vorotool import cell_colors, delaunay, voronoi_cells
 from vorotool.render.canvas.svg import write_layers_svg
-from vorotool.render.layers.cells import cell_lines, cell_polygons, cells_page
+from vorotool.render.layers.mesh import cell_lines, cell_page, cell_polygons
 
 
 @pytest.mark.parametrize("name", ["uniform", "grid", "collinear", "exact_circle"])
@@ -27,7 +27,7 @@ def test_neighboring_cells_never_share_a_color(name):
 
 def test_lines_are_the_sides_of_cells_each_once():
     cells = voronoi_cells(draw("uniform", 100, 1))
-    lines = cell_lines(cells, cells_page(cells))
+    lines = cell_lines(cells, cell_page(cells))
     ends = cells.coordinates[lines.pairs]
     length = np.hypot(*(ends[:, 0] - ends[:, 1]).T).sum()
     left, bottom, right, top = cells.frame.sides
@@ -37,7 +37,7 @@ def test_lines_are_the_sides_of_cells_each_once():
 def test_svg_has_a_path_a_part():
     ring = shapely.box(0, 0, 6, 6).difference(shapely.box(1, 2, 5, 4))
     cells = voronoi_cells([[3, 1], [3, 3], [3, 5], [100, 3]], clip=ring)
-    page = cells_page(cells, width=300)
+    page = cell_page(cells, width=300)
     out = io.BytesIO()
     write_layers_svg(out, [cell_polygons(cells, np.array([1, 2, 1, 3]), page)], page)
     text = out.getvalue().decode()
@@ -48,6 +48,6 @@ def test_svg_has_a_path_a_part():
 
 def test_no_cells_draw_nothing():
     cells = voronoi_cells(np.empty((0, 2)))
-    page = cells_page(cells)
+    page = cell_page(cells)
     assert len(cell_lines(cells, page).pairs) == 0
     assert len(cell_polygons(cells, np.empty(0, np.uint32), page).corners) == 0

@@ -8,8 +8,10 @@ import pytest
 from support.families.point_families import FAMILIES, draw
 from vorotool import UsageError, delaunay
 from vorotool.render.canvas.png import layer_bands
-from vorotool.render.layers.mesh import LAYERS, mesh_layers, mesh_page
+from vorotool.render.layers.mesh import mesh_layers, mesh_page
 from vorotool.types.fields import with_y_axis
+
+LAYERS = ("triangles", "edges", "points", "labels")
 
 pytestmark = pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
 

@@ -14,7 +14,7 @@ from vorotool.formats.images.png_writer import write_png
 from vorotool.render.canvas.layers import Curves, Page
 from vorotool.render.canvas.png import layer_bands
 from vorotool.render.canvas.svg import write_layers_svg
-from vorotool.render.layers.skeleton import LAYERS, picture_layers, skeleton_layers, skeleton_page
+from vorotool.render.layers.skeleton import LAYERS, diagram_layers, skeleton_layers, skeleton_page
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
 MADE = vorotool.skeleton_exact(SHAPES)
@@ -49,7 +49,7 @@ def test_layers_are_groups_from_below():
     text = svg_of(skeleton_layers(MADE, PAGE, reversed(LAYERS), exact=MADE))
     assert text.count("stroke-dasharray") == 1
     assert re.findall(r'<g id="(\w+)"', text) == list(LAYERS)
-    assert re.findall(r'<g id="(\w+)"', svg_of(picture_layers(MADE, PAGE, ["skeleton"], what="diagram"))) == ["diagram"]
+    assert re.findall(r'<g id="(\w+)"', svg_of(diagram_layers(MADE, PAGE, ["skeleton"]))) == ["diagram"]
     with pytest.raises(UsageError, match="cells"):
         skeleton_layers(MADE, PAGE, ["cells"])
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from vorotool.cli.values import UnexpectedError
 
 if TYPE_CHECKING:
-    from vorotool.jobs.picture_style import Scale
+    from vorotool.render.looks import Scale
 
 SPELLINGS = (("colour", "color"), ("centre", "center"), ("neighbour", "neighbor"))
 """British spellings of what users type, and ours."""
@@ -71,7 +71,7 @@ def image(text: str) -> str:
 def scale(text: str) -> Scale:
     """Return ``S``, millimetres a unit, or ``1:N``."""
     from vorotool.cli.values.numbers import number_or_nan
-    from vorotool.jobs.picture_style import Scale
+    from vorotool.render.looks import Scale
 
     one, colon, rest = text.partition(":")
     number = number_or_nan(rest if colon else one)
@@ -82,7 +82,7 @@ def scale(text: str) -> Scale:
 
 def color(text: str) -> str:
     """Return a color, ``#rrggbb`` or a name as in CSS, as ``#rrggbb``."""
-    from vorotool.jobs.picture_style import color_code
+    from vorotool.render.looks import color_code
 
     code = color_code(text)
     if code is None:

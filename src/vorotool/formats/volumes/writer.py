@@ -15,6 +15,8 @@ from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, encoded, is_compr
 from vorotool.formats.volumes.npy_volume import write_npy_volume
 from vorotool.formats.volumes.slabs import checked_slabs
 from vorotool.formats.volumes.stack_tags import stack_tags
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
 from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 VolumeFormat = Literal["tiff", "npy"]
@@ -51,6 +53,12 @@ def write_volume(
         _write_stack(spool, slabs, shape, kind, tags, is_large, threads)
         spool.seek(0)
         shutil.copyfileobj(spool, out)
+
+
+def write_values(out: BinaryIO, value: LabelVolume | Volume, fmt: VolumeFormat, *, threads: int = 0) -> None:
+    """Write a volume that is in memory."""
+    values = value.labels if isinstance(value, LabelVolume) else value.values
+    write_volume(out, [values], shape=value.shape, dtype=values.dtype, fmt=fmt, grid=value.grid, threads=threads)
 
 
 def _most_bytes(shape: tuple[int, int, int], kind: np.dtype[Any]) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from functools import cached_property
-from typing import Any, BinaryIO
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,8 +25,6 @@ from vorotool.jobs.skeletons.products import SkeletonProducts
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import table_in_units
 from vorotool.numeric.progress import Progress
-from vorotool.products.registry import PRODUCTS
-from vorotool.products.writing import write_product
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.boundary_samples import sample_table
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -103,13 +101,11 @@ class ApproximateProducts(SkeletonProducts):
             frame = self.found.skeleton.frame
             return skeleton_exact(self._polygons, side=o.side, features=o.features, frame=frame, threads=o.threads)
 
-    def _write_data(self, out: BinaryIO, target: Target) -> None:
-        if target.what != "elements":
-            super()._write_data(out, target)
-            return
-        o, product = self.options, PRODUCTS["skeleton-approx"]["elements"]
-        table = table_in_units(o.pixel_size, sample_table(self.shapes.samples))
-        write_product(out, table, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path)
+    def written(self, what: str, fmt: str) -> Any:
+        """Give a result in the units of files: elements are the samples."""
+        if what != "elements":
+            return super().written(what, fmt)
+        return table_in_units(self.options.pixel_size, sample_table(self.shapes.samples))
 
     def _verify_whole(self, progress: Progress) -> None:
         """Check the samples and the skeleton, from their arrays alone."""

@@ -1,104 +1,245 @@
-"""What follows from a skeleton and its diagram: which results there are, and how they are drawn and checked."""
+"""What follows from a skeleton or its diagram: what makes each result, checks it and counts it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from fractions import Fraction
-from functools import partial
-from typing import TYPE_CHECKING, Any, BinaryIO
+from abc import ABC, abstractmethod
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
-from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, write_frames
-from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
-from vorotool.jobs.skeletons.result import Origin, Result
-from vorotool.jobs.targets import Target
+from vorotool.errors import Kind, Message
+from vorotool.jobs.units import length_in_units, sides_of
 from vorotool.numeric.progress import Progress
-from vorotool.products.formats import ANIMATIONS, picture_format, resolved
-from vorotool.products.registry import DERIVED
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from vorotool.jobs.skeletons.products import SkeletonProducts
+    from vorotool.types.polygons.polygon_set import PolygonSet
+    from vorotool.types.skeleton.discs import Discs
+    from vorotool.types.skeleton.necks import Necks
+    from vorotool.types.skeleton.offsets import Offsets
+    from vorotool.types.skeleton.parts import Parts
+    from vorotool.types.skeleton.points_along import SkeletonPoints
+    from vorotool.types.skeleton.skeleton import Skeleton
+    from vorotool.types.skeleton.thickness import ThicknessImage
 
-    from vorotool.render.canvas.layers import Backdrop, Page
 
+class Derived(ABC):
+    """A result, made when it is asked for."""
 
-class Derived:
-    """Results that are made when they are asked for."""
+    def __init__(self, origin: SkeletonProducts) -> None:
+        self.origin, self.run, self.options = origin, origin.run, origin.options
 
-    def __init__(self, origin: Origin, backdrop: Backdrop | None, styled: Callable[..., Page]) -> None:
-        self.origin, self.backdrop, self._styled = origin, backdrop, styled
-        self.options = origin.options
-        self._made: dict[str, Result] = {}
+    @cached_property
+    def value(self) -> Any:
+        """What is written, of a public type."""
+        return self._make()
 
-    def result(self, what: str) -> Result:
-        """Of a name of `DERIVED`."""
-        home = DERIVED[what]
-        if home not in self._made:
-            self._made[home] = resolved(home)(self.origin)
-        return self._made[home]
+    @abstractmethod
+    def _make(self) -> Any: ...
 
-    def value(self, what: str) -> Any:
-        """Of a result by its name."""
-        return self.result(what).value
-
-    def check(self, target: Target) -> None:
-        """Compute a result, and refuse what cannot be written."""
-        from vorotool.render.canvas.png import check_picture_size
-
-        self.value(target.what)
-        if self.result(target.what).draws_itself:
-            return
-        if picture_format(target.fmt) == "png":
-            page = self._drawing(target.what, "png").page
-            check_picture_size(page, self.options.max_pixels)
-            if target.fmt in ANIMATIONS:
-                check_size(self.origin.exact_options, (page.height, page.width))
-
-    def _drawing(self, what: str, fmt: str, value: Any = None, page: Page | None = None) -> Drawing:
-        o = self.options
-        return drawing_of(
-            self.value(what) if value is None else value,
-            what=what,
-            layers=o.layers,
-            width=o.width or 1000,
-            backdrop=self.backdrop,
-            styled=partial(self._styled, fmt=fmt) if page is None else lambda _: page,
-        )
-
-    def write_picture(self, out: BinaryIO, target: Target) -> None:
-        """Draw one result."""
-        if target.fmt in ANIMATIONS:
-            self._write_animation(out, target.fmt)
-            return
-        if self.result(target.what).draws_itself:
-            self.result(target.what).draw(out, target, self._styled)
-            return
-        drawing = self._drawing(target.what, target.fmt)
-        write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=self.options.threads)
-
-    def _write_animation(self, out: BinaryIO, fmt: str) -> None:
-        """Offset curves whose distances grow from nothing, on the page of the last ones."""
-        from vorotool.engines.offsets.offsets import offset
-
-        shapes, o, page = self.origin.shapes(), self.origin.exact_options, self._drawing("offset", "png").page
-
-        def draw(part: Fraction) -> NDArray[np.uint8]:
-            distances = [float(distance * part) for distance in map(Fraction, o.distance or ())]
-            made = offset(shapes, distances, features=o.features, strict=o.strict, threads=o.threads)
-            return layer_pixels(self._drawing("offset", "png", made, page).layers, page)
-
-        write_frames(out, self.origin.run, o, fmt, parts_of_whole(o), draw)
-
-    def _wanted(self) -> list[Result]:
-        """Results that are asked for, each once."""
-        found = {DERIVED[what]: self.result(what) for what in DERIVED if what in self.options.what}
-        return list(found.values())
-
-    def verify(self, progress: Progress) -> None:
-        """Check what is asked for."""
-        for result in self._wanted():
-            result.verify(progress)
+    def verify(self, progress: Progress) -> None:  # noqa: B027 - some are not checked
+        """Check the value by another way than it was made."""
 
     def stats(self) -> dict[str, Any]:
-        """Counts of what is asked for."""
-        return {name: value for result in self._wanted() for name, value in result.stats().items()}
+        """Counts of it."""
+        return {}
+
+
+class OffsetCurves(Derived):
+    """Offset curves of shapes, at all distances."""
+
+    value: Offsets
+
+    def _make(self) -> Offsets:
+        distances = self.options.distance or ()
+        shapes = self.origin.exact_shapes()
+        with self.run.phase("offset") as progress:
+            made = self.of(shapes, distances, progress)
+        empty = [f"{distance:g}" for distance in distances if distance not in made.distance]
+        if empty:
+            self.run.warn(Message(f"nothing is left at the distance {', '.join(empty)}", Kind.EMPTY_RESULT))
+        return made
+
+    def of(self, shapes: Any, distances: Any, progress: Progress = None) -> Offsets:
+        """Make the curves at some distances."""
+        from vorotool.engines.offsets.offsets import offset
+
+        o = self.options
+        return offset(shapes, distances, features=o.features, strict=o.strict, threads=o.threads, progress=progress)
+
+    def verify(self, progress: Progress) -> None:
+        """Check the curves."""
+        from vorotool.engines.offsets.verify_offsets import verify_offsets
+
+        o = self.options
+        verify_offsets(self.value, distances=o.distance or (), threads=o.threads, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Count shapes, rings and pieces."""
+        made = self.value
+        counts = {"shapes": len(made), "rings": len(made.ring_kind), "pieces": len(made.site)}
+        return {"distances": list(self.options.distance or ()), **counts}
+
+
+class RebuiltShape(Derived):
+    """What the discs of a skeleton cover."""
+
+    value: PolygonSet
+
+    def _make(self) -> PolygonSet:
+        from vorotool.engines.from_skeleton.reconstruction import rebuild
+
+        skeleton = self.origin.skeleton
+        with self.run.phase("rebuild"):
+            return rebuild(skeleton, flatten=self.options.flatten)
+
+
+class InscribedDiscs(Derived):
+    """Discs of each feature, of its exact skeleton before it is pruned, whatever skeleton is asked for."""
+
+    value: Discs
+
+    def _make(self) -> Discs:
+        from vorotool.engines.from_skeleton.largest_discs import discs_of_skeleton
+
+        o, axis = self.options, self._axis()
+        with self.run.phase("discs"):
+            return discs_of_skeleton(axis, count=o.count, local=o.local, threads=o.threads)
+
+    def _axis(self) -> Skeleton:
+        from vorotool.engines.skeleton.diagrams import skeleton_in, skeleton_inside
+        from vorotool.engines.skeleton.exact import ShapeDiagram
+
+        o = self.options
+        if not o.gap and o.side != "exterior":
+            return self.origin.whole
+        shapes = self.origin.exact_shapes()
+        with self.run.phase("skeleton") as progress:
+            if isinstance(shapes, ShapeDiagram):
+                return skeleton_in(shapes, side="interior", features=o.features, threads=o.threads, progress=progress)
+            return skeleton_inside(shapes, strict=o.strict, threads=o.threads, progress=progress).skeleton
+
+    def verify(self, progress: Progress) -> None:
+        """Check the discs."""
+        from vorotool.engines.from_skeleton.verify_discs import verify_discs
+
+        verify_discs(self.value, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Count discs, and tell of the largest."""
+        made = self.value
+        return {"discs": len(made), "largest_radius": float(made.radius.max()) if len(made) else None}
+
+
+class Steps(Derived):
+    """Points at equal steps along skeletons and centerlines, and transects from foot to foot."""
+
+    value: SkeletonPoints
+
+    def _make(self) -> SkeletonPoints:
+        from vorotool.engines.from_skeleton.points_along import points_along
+
+        o, origin = self.options, self.origin
+        lines = origin.centerlines if o.along == "centerline" else origin.skeleton
+        with self.run.phase("points") as progress:
+            return points_along(lines, every=o.every, threads=o.threads, progress=progress)
+
+    def verify(self, progress: Progress) -> None:
+        """Check sections: those of branches end where the discs of the skeleton, which is checked, touch."""
+        if self.options.along == "centerline":
+            from vorotool.engines.from_skeleton.verify_sections import verify_sections
+
+            verify_sections(self.value, self.origin.centerlines, self.options.every)
+
+    def stats(self) -> dict[str, Any]:
+        """Count points."""
+        return {"every": self.options.every, "along": self.options.along or "branches", "points": len(self.value)}
+
+
+class NeckCuts(Derived):
+    """Necks of polygons up to a ratio."""
+
+    value: Necks
+
+    def _make(self) -> Necks:
+        from vorotool.engines.necks.necks import NARROW, necks
+
+        skeleton, o = self.origin.whole, self.options
+        with self.run.phase("necks") as progress:
+            return necks(skeleton, neck=NARROW if o.neck is None else o.neck, threads=o.threads, progress=progress)
+
+    def verify(self, progress: Progress) -> None:
+        """Check them."""
+        from vorotool.engines.necks.verify_necks import verify_necks
+
+        verify_necks(self.value, threads=self.options.threads, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Count them."""
+        return {"necks": len(self.value)}
+
+
+class CutParts(Derived):
+    """Pieces between narrow necks."""
+
+    value: Parts
+
+    @cached_property
+    def _neck(self) -> float:
+        from vorotool.engines.necks.parts import NARROWEST
+
+        return NARROWEST if self.options.neck is None else float(self.options.neck)
+
+    def _make(self) -> Parts:
+        from vorotool.engines.necks.parts import parts
+
+        skeleton = self.origin.whole
+        with self.run.phase("parts") as progress:
+            return parts(skeleton, neck=self._neck, threads=self.options.threads, progress=progress)
+
+    def verify(self, progress: Progress) -> None:
+        """Check them."""
+        from vorotool.engines.necks.verify_necks import verify_parts
+
+        verify_parts(self.value, threads=self.options.threads, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Count pieces and cuts."""
+        return {"neck": self._neck, "pieces": len(self.value), "cuts": len(self.value.necks)}
+
+
+class Thickness(Derived):
+    """The largest disc over each pixel, of the whole skeleton: discs of what pruning removes cover pixels, too."""
+
+    value: ThicknessImage
+
+    def _make(self) -> ThicknessImage:
+        from vorotool.engines.from_skeleton.thickness import thickness_of_pixels
+        from vorotool.jobs.pixel_sizes import written_grid
+        from vorotool.types.skeleton.thickness import ThicknessImage
+
+        frame, o = self.origin.frame, self.options
+        assert frame is not None  # polygons are refused when they are read
+        skeleton = self.origin.whole
+        with self.run.phase("thickness") as progress:
+            made = thickness_of_pixels(skeleton, frame.shape, sides=self._sides, threads=o.threads, progress=progress)
+        return ThicknessImage(made, written_grid(o.pixel_size, self.origin.grid))
+
+    @property
+    def _sides(self) -> tuple[float, float]:
+        sides = sides_of(self.options)
+        return float(sides.y), float(sides.x)
+
+    def verify(self, progress: Progress) -> None:
+        """Check some pixels by all arcs, and by the distance from the outlines."""
+        from vorotool.engines.from_skeleton.verify_thickness import verify_thickness
+
+        verify_thickness(self.value.values, self.origin.whole, sides=self._sides, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Summarize the pixels of all objects, in the unit of the results."""
+        values, size = self.value.values[self.value.values > 0], self.options.pixel_size
+        found = {"mean": values.mean(), "sd": values.std(), "largest": values.max()} if len(values) else {}
+        return {
+            "pixels": len(values),
+            **{f"thickness_{name}": length_in_units(size, float(each)) for name, each in found.items()},
+        }

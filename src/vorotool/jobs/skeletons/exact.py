@@ -47,7 +47,7 @@ class ExactProducts(SkeletonProducts):
         elif options.wants_skeleton:
             _ = self.whole
         else:
-            _ = self.derived.value("offset")
+            _ = self.value("offset")
 
     @property
     def _is_inside_only(self) -> bool:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import warnings
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from fractions import Fraction
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -16,52 +17,51 @@ from vorotool.errors import InputError, Kind, Message, RepairWarning, VorotoolWa
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options, Place
-from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_polygons
-from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.refusals import refuse
+from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_input import read_polygons
-from vorotool.jobs.skeletons.derived import Derived
-from vorotool.jobs.skeletons.lines import LINES, WrittenLines
-from vorotool.jobs.skeletons.result import Origin
+from vorotool.jobs.skeletons.derived import Derived, OffsetCurves
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_text
 from vorotool.numeric.progress import Progress
-from vorotool.products.formats import PICTURES, picture_format
-from vorotool.products.registry import DERIVED, PRODUCTS
-from vorotool.products.writing import write_product
+from vorotool.products.formats import resolved
+from vorotool.products.registry import DERIVED
+from vorotool.render.drawing import Drawing, Plot, drawing_of
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import EXTERIOR, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
-    from vorotool.render.canvas.layers import Page
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.centerline import Centerlines
+    from vorotool.types.skeleton.extended import ExtendedSkeleton
+    from vorotool.types.skeleton.led_on import LedOn
+    from vorotool.types.skeleton.smooth_lines import SmoothLines
+
+LINES = ("skeleton", "centerline")
+"""Results that are lines."""
 
 
-class SkeletonProducts(ABC):
+class SkeletonProducts(Results, ABC):
     """Results of one skeleton, however it is made."""
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
-        self.run = run
         with run.phase("read"):
-            self._polygons, self.is_mask, options, frame, grid = read_polygons(run, options, given)
-        if frame is None:
+            self._polygons, self.is_mask, options, self.frame, self.grid = read_polygons(run, options, given)
+        super().__init__(run, options)
+        if self.frame is None:
             refuse({"what thickness": "thickness" in options.what}, "is for images, but the input is polygons or lines")
-        self.options, self.backdrop = options, placed_backdrop(run, options, given.backdrop)
+        self.backdrop = placed_backdrop(run, options, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_columns(options, self._polygons.properties)
         is_cut = options.side != "interior" or "diagram" in options.what
-        world = world_of_polygons(run, options, self._polygons, size=options.pixel_size, is_cut=is_cut)
-        self._styled = partial(styled_page, looks=options.looks, world=world)
-        made = (lambda: self.skeleton), (lambda: self.whole), (lambda: self.centerlines), self._shapes
-        origin = Origin(run, options, *made, frame, grid)
-        self.lines = WrittenLines(run, options, lambda: self.joined, lambda: self.centerlines)
-        self.derived = Derived(origin, self.backdrop, self._styled)
+        self.world = world_of_polygons(run, options, self._polygons, size=options.pixel_size, is_cut=is_cut)
+        self._derived: dict[str, Derived] = {}
+        self._lines: dict[str, Skeleton | LedOn | SmoothLines] = {}
 
     @contextmanager
     def telling_once(self) -> Iterator[None]:
@@ -150,7 +150,7 @@ class SkeletonProducts(ABC):
     def graph(self) -> PlanarGraph:
         """The shapes as they were placed."""
 
-    def _shapes(self) -> ShapeDiagram | PolygonSet:
+    def exact_shapes(self) -> ShapeDiagram | PolygonSet:
         """What offset curves are of: each feature by itself, or the diagram of all."""
         return self._shape_diagram() if self.options.features == "together" else self._polygons
 
@@ -170,13 +170,58 @@ class SkeletonProducts(ABC):
         """What pictures show beside an approximate skeleton."""
         return None
 
+    # ---- what follows from it
+    def derived(self, what: str) -> Derived:
+        """Give what makes and checks one of `DERIVED`."""
+        home = DERIVED[what]
+        if home not in self._derived:
+            self._derived[home] = resolved(home)(self)
+        return self._derived[home]
+
+    def _all_derived(self) -> list[Derived]:
+        """What makes the results that are asked for, each once."""
+        return list({DERIVED[what]: self.derived(what) for what in DERIVED if what in self.options.what}.values())
+
+    def lines(self, what: str) -> Skeleton | LedOn | SmoothLines:
+        """Give the skeleton or the centerlines as they are, extended to their ends, or smooth."""
+        if what not in self._lines:
+            made = self.centerlines if what == "centerline" else self._extended()
+            self._lines[what] = made if self.options.smooth is None else self._smooth(made)
+        return self._lines[what]
+
+    def _extended(self) -> Skeleton | ExtendedSkeleton:
+        skeleton = self.joined
+        if self.options.ends != "middle":
+            return skeleton
+        from vorotool.engines.centerlines.extended_ends import extend_ends
+
+        with self.run.phase("ends") as progress:
+            return extend_ends(skeleton, threads=self.options.threads, progress=progress)
+
+    def _smooth(self, lines: Skeleton | LedOn) -> SmoothLines:
+        from vorotool.engines.smoothing.smooth import smooth
+
+        with self.run.phase("smooth") as progress:
+            return smooth(lines, self.options.smooth, progress=progress)
+
+    def _all_lines(self) -> list[Skeleton | LedOn | SmoothLines]:
+        return [self.lines(what) for what in LINES if what in self.options.what]
+
+    def value(self, what: str) -> Any:
+        """Give a result in the coordinates of the input."""
+        if what in DERIVED:
+            return self.derived(what).value
+        return self.lines(what) if what in LINES else self.diagram if what == "diagram" else self.joined
+
+    # ---- what is checked, written and counted
     def verify(self, progress: Progress) -> None:
         """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
-        self.derived.verify(progress)
+        for each in self._all_derived():
+            each.verify(progress)
         if not self.options.wants_skeleton:
             return
         self._verify_whole(progress)
-        self.lines.verify(progress)
+        self._verify_lines()
         if self.pruning.criterion is not None:
             from vorotool.engines.pruning.verify_pruning import verify_pruning
 
@@ -189,76 +234,49 @@ class SkeletonProducts(ABC):
     @abstractmethod
     def _verify_whole(self, progress: Progress) -> None: ...
 
-    def _value(self, what: str) -> Skeleton:
-        if what == "centerline":
-            return self.centerlines.path
-        return self.diagram if what == "diagram" else self.joined
+    def _verify_lines(self) -> None:
+        """Check ends that skeletons are extended to, and smooth lines."""
+        from vorotool.engines.centerlines.verify_extended import verify_extended
+        from vorotool.engines.smoothing.verify_smooth import verify_smooth
+        from vorotool.types.skeleton.extended import ExtendedSkeleton
+        from vorotool.types.skeleton.smooth_lines import SmoothLines
+
+        for value in self._all_lines():
+            if isinstance(value, SmoothLines):
+                verify_smooth(value)
+            lines = value.lines if isinstance(value, SmoothLines) else value
+            if isinstance(lines, ExtendedSkeleton):
+                verify_extended(lines, self.joined)
 
     def check(self, target: Target) -> None:
         """Compute a result, and refuse what cannot be written, before anything is written."""
-        if target.what in DERIVED:
-            self.derived.check(target)
+        what = target.what
+        if what in DERIVED:
+            _ = self.derived(what).value
+            super().check(target)
             return
-        value = self._value(target.what)
-        if target.fmt == "png":
-            from vorotool.render.canvas.png import check_picture_size
-
-            check_picture_size(self._page(value, target.fmt), self.options.max_pixels)
+        value = self.centerlines.path if what == "centerline" else self.diagram if what == "diagram" else self.joined
+        super().check(target)
         if target.fmt == "html":
             from vorotool.render.pages.skeleton_html import check_html_size
 
             check_html_size(self.whole)
-        if not len(value) and target.what in ("skeleton", "branches") and self.options.side == "exterior":
+        if not len(value) and what in ("skeleton", "branches") and self.options.side == "exterior":
             self.run.warn(Message("the exterior skeleton is empty", Kind.EMPTY_RESULT))
 
-    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
-        """Write one result."""
-        from vorotool.formats.io.atomic_output import open_output
-
-        with open_output(
-            target.path, binary=target.is_binary, no_clobber=self.options.no_clobber, inputs=inputs
-        ) as out:
-            if target.fmt == "html":
-                self._write_html(out)
-            elif picture_format(target.fmt) not in PICTURES:
-                self._write_data(out, target)
-            elif target.what in DERIVED:
-                self.derived.write_picture(out, target)
-            else:
-                self._write_picture(out, target)
-
-    def _write_data(self, out: BinaryIO, target: Target) -> None:
-        o = self.options
-        write_product(
-            out,
-            self._written(target.what),
-            PRODUCTS["skeleton-exact"][target.what],
-            target.fmt,
-            flatten=length_in_units(o.pixel_size, o.flatten),
-            precision=o.precision,
-            threads=o.threads,
-            path=target.path,
-        )
-
-    def _written(self, what: str) -> Any:
-        """What a result is written from, in the units of files: the table tells of centerlines, too."""
-        o = self.options
-        if what in DERIVED:
-            return in_units(o.pixel_size, self.derived.value(what))
-        if what in LINES:
-            return in_units(o.pixel_size, self.lines.value(what))
-        value = in_units(o.pixel_size, self._value(what))
+    def written(self, what: str, fmt: str) -> Any:
+        """Give a result in the units of files: the table tells of centerlines, too."""
+        value, o = super().written(what, fmt), self.options
         if what != "table":
             return value
         from vorotool.types.skeleton.centerline import centerline_columns
         from vorotool.types.skeleton.tables import polygon_table
 
-        return polygon_table(
-            value, columns=centerline_columns(in_units(o.pixel_size, self._longest)), threads=o.threads
-        )
+        columns = centerline_columns(in_units(o.pixel_size, self._longest))
+        return polygon_table(value, columns=columns, threads=o.threads)
 
-    def _write_html(self, out: BinaryIO) -> None:
-        """A page of all prunings, which begins with that which is asked for."""
+    def write_page(self, out: BinaryIO) -> None:
+        """Write a page of all prunings, which begins with that which is asked for."""
         from vorotool.engines.pruning.pruning import arc_profiles, critical_values
         from vorotool.render.pages.skeleton_html import write_skeleton_html
 
@@ -270,37 +288,33 @@ class SkeletonProducts(ABC):
             shown = (criterion, length_in_units(self.options.pixel_size, threshold) if is_length else threshold)
         write_skeleton_html(out, whole, values, arc_profiles(whole), shown=shown)
 
-    def _page(self, value: Skeleton, fmt: str) -> Page:
-        from vorotool.render.canvas.layers import ImagePage
-        from vorotool.render.layers.skeleton import skeleton_page
+    def drawing(self, what: str, fmt: str) -> Drawing | Plot:
+        """Prepare a picture: of thickness it has the pixels of the image."""
+        from vorotool.render.label_images.amounts import write_thickness_png
 
-        if self.backdrop is not None:
-            return self._styled(ImagePage(self.backdrop))
-        page = skeleton_page(value, width=self.options.width or 1000)
-        return self._styled(page, fmt=fmt)
+        product, wanted, o = self.products[what], self.wanted, self.options
+        if what == "thickness":
+            unit = None if o.pixel_size is None else o.pixel_size.unit
+            style, image = wanted.looks.style(wanted.world.scale_bar), self.written(what, fmt)
+            return Plot(partial(write_thickness_png, image=image, style=style, unit=unit, threads=o.threads))
+        shown = wanted.shown(product.usual_layers)
+        more: dict[str, Any] = {}
+        if what in ("skeleton", "diagram", "elements"):
+            more["points"] = self._points(what) if "points" in shown else None
+            more["exact"] = self.exact if "exact" in shown else None
+        return drawing_of(self.value(what), product, wanted, fmt, **more)
 
-    def _write_picture(self, out: BinaryIO, target: Target) -> None:
-        from vorotool.render.layers.lines_along import line_layers
-        from vorotool.render.layers.skeleton import picture_layers
+    def frames(self, what: str) -> Callable[[Fraction], NDArray[np.uint8]]:
+        """Draw offset curves whose distances grow from nothing, on the page of the last ones."""
+        shapes, curves, whole = self.exact_shapes(), self.derived(what), self.drawing(what, "png")
+        assert isinstance(curves, OffsetCurves)
+        assert isinstance(whole, Drawing)  # which offset curves have
 
-        value = self._value(target.what)
-        page, wanted = self._page(value, target.fmt), self._layers(target.what)
-        lines = self.lines.value(target.what) if target.what in LINES else value
-        is_path = target.what == "centerline"
-        exact = self.exact if "exact" in wanted and not is_path else None
-        points = self._points(target.what) if "points" in wanted and not is_path else None
-        if isinstance(lines, Skeleton):
-            layers = picture_layers(lines, page, wanted, what=target.what, points=points, exact=exact)
-        else:
-            layers = line_layers(lines, page, wanted, points=points, exact=exact)
-        write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
+        def draw(part: Fraction) -> NDArray[np.uint8]:
+            distances = [float(distance * part) for distance in map(Fraction, self.options.distance or ())]
+            return whole.of(curves.of(shapes, distances)).pixels()
 
-    def _layers(self, what: str) -> Sequence[str]:
-        """Layers of a picture: over an image the shapes are to be seen already."""
-        usual = PRODUCTS["skeleton-exact"][what].usual_layers
-        if self.backdrop is not None:
-            usual = tuple(layer for layer in usual if layer != "polygons")
-        return self.options.drawn(usual)
+        return draw
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
@@ -314,7 +328,13 @@ class SkeletonProducts(ABC):
             found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
         if self.options.wants_skeleton:
             found |= self._skeleton_stats(self.joined)
-        return found | self.lines.stats() | self.derived.stats()
+        if self.options.smooth is not None:
+            made: list[Any] = self._all_lines()
+            found |= {"smooth": self.options.smooth, "curves": sum(len(each.control) for each in made)}
+            found["largest_error"] = max((float(each.error.max(initial=0.0)) for each in made), default=0.0)
+        for each in self._all_derived():
+            found |= each.stats()
+        return found
 
     def _shape_stats(self) -> dict[str, Any]:
         graph = self.graph

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.label_images.regions import region_colors
 from vorotool.engines.tessellation.frames import label_dtype
-from vorotool.engines.volumes.slabs import Quantity, SeedSlab, SeedSlabs, with_neighbors
+from vorotool.engines.volumes.slabs import SeedSlab, SeedSlabs, with_neighbors
 from vorotool.engines.volumes.verify_volume import verify_label_volume
 from vorotool.engines.volumes.volume_frames import slab_limits
 from vorotool.engines.volumes.volume_measures import volume_diagram
@@ -25,22 +25,20 @@ from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.streams import PartOf, Stream, Streamed, check_chunks
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize, unit_columns
 from vorotool.jobs.volumes.inputs import ReadVolume, read_volume_seeds
-from vorotool.jobs.volumes.output import VolumeStream, check_volume_chunks, write_volume_file, write_volume_store
-from vorotool.jobs.volumes.pictures import SlicePicture, write_slices
 from vorotool.numeric.length_units import unit_name
 from vorotool.numeric.progress import Progress
-from vorotool.products.registry import VOLUME_PRODUCTS
-from vorotool.products.writing import write_product
+from vorotool.products.registry import VOLUME_PRODUCTS, Product
+from vorotool.render.label_images.slices import SlicePicture
 from vorotool.types.table import Table
 from vorotool.types.volumes.label_volume import LabelVolume
 
 if TYPE_CHECKING:
-    from vorotool.render.canvas.styles import PictureStyle
-
-_TABLES = ("table", "neighbors")
+    from vorotool.render.label_images.picture import LabelPicture
+    from vorotool.render.looks import World
 
 
 def products(run: Run, o: Options, given: JobInput) -> VolumeProducts:
@@ -64,17 +62,23 @@ def products(run: Run, o: Options, given: JobInput) -> VolumeProducts:
     return VolumeProducts(run, o, read, sweep, has_page=given.has_page)
 
 
-class VolumeProducts:
+class VolumeProducts(Streamed):
     """Results of one tessellation."""
 
     def __init__(
         self, run: Run, options: Options, read: ReadVolume, sweep: VolumeSweep, *, has_page: bool = False
     ) -> None:
-        self.run, self.options, self.read, self.sweep = run, options, read, sweep
+        super().__init__(run, options)
+        self.read, self.sweep = read, sweep
         self._is_held = has_page or "color" in options.what
         self._with_distances = (has_page or "table" in options.what) and len(read.seeds) > 0
         check_columns(options, read.seeds.properties)
         self.dtype = label_dtype(read.seeds.largest_label, options.dtype)
+
+    @cached_property
+    def products(self) -> Mapping[str, Product]:
+        """All results of volumes."""
+        return VOLUME_PRODUCTS
 
     @cached_property
     def volume(self) -> LabelVolume:
@@ -129,40 +133,16 @@ class VolumeProducts:
         if what == "color" or fmt == "html":
             self._require_memory()
         elif fmt == "zarr":
-            stream = self._stream(what)
-            check_volume_chunks(self.options, stream.frame, stream.dtype)
+            check_chunks(self.options, self.stream(what))
         elif self.sweep.frame.width * self.sweep.frame.height > self.options.max_pixels:
             size = f"{self.sweep.frame.width} x {self.sweep.frame.height}"
             raise LimitError(f"a slice has {size} voxels, more than --max-pixels {self.options.max_pixels}")
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""
-        from vorotool.formats.io.atomic_output import open_output
-
-        what, o = target.what, self.options
-        if what == "distance2" and self.sweep.step != 1:
+        if target.what == "distance2" and self.sweep.step != 1:
             self.run.note(f"squared distances are in units of {self._unit_of_squares}")
-        if target.fmt == "zarr":
-            write_volume_store(self.run, o, target, self._stream(what), inputs)
-            return
-        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
-            if target.fmt == "html":
-                self._write_page(out)
-            elif what == "color":
-                self._write_picture(out, target.fmt)
-            elif what in _TABLES:
-                table = self._table if what == "table" else self._neighbors()
-                write_product(
-                    out,
-                    table,
-                    VOLUME_PRODUCTS[what],
-                    target.fmt,
-                    precision=o.precision,
-                    threads=o.threads,
-                    path=target.path,
-                )
-            else:
-                write_volume_file(out, o, target, self._stream(what))
+        super().write(target, inputs=inputs)
 
     @property
     def _unit_of_squares(self) -> str:
@@ -172,37 +152,35 @@ class VolumeProducts:
         return f"{step}²" if unit is None else f"({step} {unit_name(unit)})²"
 
     # ---- what is streamed
-    def _stream(self, what: str) -> VolumeStream:
+    def stream(self, what: str) -> Stream:
         """Labels, the diagram or distances, which need not be in memory."""
         sweep = self.sweep
-        made: dict[str, tuple[Callable[[int, int], NDArray[Any]], Any]] = {
+        made: dict[str, tuple[PartOf, Any]] = {
             "labels": (self._labels, self.dtype),
             "diagram": (self._diagram, np.uint8),
             "distance": (sweep.distances, np.float32),
             "distance2": (sweep.squared_distances, None),
         }
-        slices_of, dtype = made[what]
+        slices_of, kind = made[what]
+        dtype = sweep.square_dtype if kind is None else np.dtype(kind)
         is_cut = what == "labels" and self.options.max_distance is not None
-        return VolumeStream(
-            sweep.frame,
-            slices_of,
-            sweep.square_dtype if dtype is None else np.dtype(dtype),
-            lambda first, slices: self._slab(what, first, slices),  # type: ignore[arg-type]  # it is one of these
+        limits, about = (
             list(slab_limits(sweep.frame, len(sweep.seeds))),
-            self.read.grid,
-            0 if is_cut else None,
+            {"grid": self.read.grid, "nodata": 0 if is_cut else None},
         )
+        slab: Any = partial(self._slab, what, dtype)
+        return Stream(sweep.frame, slices_of, dtype, slab, limits, about)
 
     def _diagram(self, first: int, slices: int) -> NDArray[Any]:
         begin, count = with_neighbors(self.sweep.frame, first, slices)
         lines = volume_diagram(self._labels(begin, count), threads=self.options.threads)
         return lines[first - begin : first - begin + slices]
 
-    def _slab(self, what: Quantity, first: int, slices: int) -> SeedSlab:
+    def _slab(self, what: Any, dtype: np.dtype[Any], first: int, slices: int) -> SeedSlab:
         """Give some slices as what computes them anywhere."""
         read, frame = self.read, self.sweep.frame
         own = with_neighbors(frame, first, slices) if what == "diagram" else (first, slices)
-        seeds, dtype = self._seed_slabs.seeds_of(*own), self._stream(what).dtype
+        seeds = self._seed_slabs.seeds_of(*own)
         return SeedSlab(seeds, frame, first, slices, what, dtype, read.sides, self.options.max_distance)
 
     @cached_property
@@ -214,19 +192,18 @@ class VolumeProducts:
     def _table(self) -> Table:
         return table_of_regions(self.regions, threads=self.options.threads)
 
-    def _neighbors(self) -> Table:
+    def written(self, what: str, fmt: str) -> Table:
+        """Give a table, whose lengths are in the unit of distances."""
         from vorotool.types.identity import ends_of_regions
 
-        return ends_of_regions(neighbors_of_regions(self.regions), self.read.seeds)
+        return self._table if what == "table" else ends_of_regions(neighbors_of_regions(self.regions), self.read.seeds)
 
-    def _write_page(self, out: BinaryIO) -> None:
+    def write_page(self, out: BinaryIO) -> None:
+        """Write a page that shows all slices."""
+        from vorotool.render.pages.cells_html import columns_of
         from vorotool.render.pages.volume_html import write_volume_html
 
-        table, labels = self._table, self.colors[0]
-        rows = {int(label): row for row, label in enumerate(table["label"])}
-        chosen = [rows[int(label)] for label in labels]
-        columns = {name: [table[name][row] for row in chosen] for name in table if name != "label"}
-        columns |= unit_columns(self._size, len(labels))
+        columns = columns_of(self._table, self.colors[0]) | unit_columns(self._size, len(self.colors[0]))
         first, units = self.sweep.frame.z, self.read.sides.units
         write_volume_html(out, self.volume.labels, self.colors, columns, first=first, units=units)
 
@@ -236,30 +213,20 @@ class VolumeProducts:
         size = self.options.pixel_size
         return None if size is None else PixelSize(min(self.read.sides.lengths), size.unit)
 
-    def _write_picture(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.jobs.label_pictures import site_texts
+    def drawing(self, what: str, fmt: str) -> LabelPicture:
+        """Prepare a picture of slices."""
+        from vorotool.render.label_images.picture import label_picture
 
-        o, seeds = self.options, self.read.seeds
-        write_slices(
-            out,
-            self.volume,
-            self._views,
-            self.colors,
-            fmt=fmt,
-            layers=o.drawn(VOLUME_PRODUCTS["color"].usual_layers),
-            style=self._style,
-            width=o.width or 1000,
-            texts=None if o.label_by is None else site_texts(seeds, o.label_by),
-            threads=o.threads,
-        )
+        image = self._views.image(self.volume)
+        return label_picture(image, self.colors, self.products[what], self.wanted, sites=self.read.seeds)
 
-    @property
-    def _style(self) -> PictureStyle:
+    @cached_property
+    def world(self) -> World:
+        """Where the slices lie in a picture."""
         from vorotool.types.pixel_frame import Frame
 
         height, width = self._views.shape
-        looks = self.options.looks
-        return looks.style(world_of(self.run, looks, frame=Frame(0, 0, width, height).box, size=self._size).scale_bar)
+        return world_of(self.run, self.options.looks, frame=Frame(0, 0, width, height).box, size=self._size)
 
     def verify(self, progress: Progress) -> None:
         """Check the labels of every slab against an independent nearest-seed search."""

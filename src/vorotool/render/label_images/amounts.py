@@ -2,18 +2,38 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import BinaryIO
+
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.formats.images.png_writer import write_png
 from vorotool.render.canvas.color_scales import color_bar, scale_colors
 from vorotool.render.canvas.insets import insets
 from vorotool.render.canvas.layers import Backdrop, ImagePage
 from vorotool.render.canvas.palettes import WHITE
 from vorotool.render.canvas.png import layer_bands
 from vorotool.render.canvas.styles import PictureStyle
+from vorotool.types.skeleton.thickness import ThicknessImage
 
 COLORS = 255
 """Of amounts; with the ground their numbers fit in a byte."""
+
+
+def write_thickness_png(
+    out: BinaryIO, image: ThicknessImage, style: PictureStyle, *, unit: str | None = None, threads: int = 0
+) -> None:
+    """Draw the pixels in colors from dark, which is thin, to light."""
+    largest = image.largest
+    indices, palette = amount_indices(image.values, largest), amount_palette(style.ground)
+    if not style.has_insets:
+        has_alpha = style.ground is None
+        write_png(out, [indices], indices.shape, bit_depth=8, palette=palette, has_alpha=has_alpha, threads=threads)
+        return
+    bare = replace(style, has_legend=False)
+    pixels = with_color_bar(palette[indices], bare, largest if style.has_legend else 0.0, unit)
+    write_png(out, [pixels.reshape(len(pixels), -1)], indices.shape, rgb=True, threads=threads)
 
 
 def amount_indices(values: NDArray[np.float64], largest: float) -> NDArray[np.uint8]:

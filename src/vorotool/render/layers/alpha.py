@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.alpha.alpha_hull import alpha_hull
 from vorotool.render.canvas.layers import Arcs, Layer, Lines, Page, Points, Polygons
 from vorotool.render.canvas.palettes import BOUNDARY, CELLS, FAINT, INK, PALE, SINGULAR
 from vorotool.render.label_images.png import checked_layers
@@ -33,7 +34,8 @@ def alpha_layers(shape: AlphaShape, page: Page, layers: Iterable[str], *, hull: 
         "singular": Lines("singular", points, _edges(shape, "singular"), SINGULAR, width),
         "points": Points("points", points, radius=min(max(spacing / 12, 0.3), 4.0)),
     }
-    if hull is not None:
+    if "hull" in wanted:
+        hull = alpha_hull(shape) if hull is None else hull
         made["hull"] = Arcs("hull", hull.start, hull.end, hull.center, hull.ring_starts, CELLS[4], INK, width)
     if "labels" in wanted:
         made["labels"] = site_names(shape.family.mesh, page)

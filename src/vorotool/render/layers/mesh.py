@@ -1,38 +1,76 @@
-"""The layers of a triangulation's picture."""
+"""The layers of pictures of triangulations, and of Voronoi cells."""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from vorotool.engines.delaunay.cells import cell_colors
+from vorotool.errors import VorotoolWarning
+from vorotool.numeric.ragged import following, owners, within
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of
 from vorotool.render.canvas.names import column_texts, without_empty
-from vorotool.render.canvas.palettes import CELLS, INK, WHITE
+from vorotool.render.canvas.palettes import CELLS, EDGE, INK, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.types.axis import is_up
 from vorotool.types.mesh.cells import CellSet
 from vorotool.types.mesh.digital_triangulation import AnyTriangulation
 from vorotool.types.mesh.proximity import ProximityGraph
 
-LAYERS = ("triangles", "edges", "points", "labels")
+LAYERS = ("cells", "triangles", "diagram", "edges", "points", "labels")
 """From below."""
+OF_CELLS = ("cells", "diagram")
+"""Filled cells, and their boundaries as lines."""
 
 
-def mesh_layers(mesh: AnyTriangulation | ProximityGraph, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of a triangulation; lines and discs get finer where points are crowded."""
-    wanted = checked_layers(layers, LAYERS)
-    spacing = page.spacing(len(mesh.points))
+def mesh_layers(
+    mesh: AnyTriangulation | ProximityGraph, page: Page, layers: Iterable[str], *, cells: CellSet | None = None
+) -> list[Layer]:
+    """Make layers of a triangulation, with cells if there are any; all gets finer where points are crowded."""
+    known = LAYERS if cells is not None else tuple(name for name in LAYERS if name not in OF_CELLS)
+    wanted = checked_layers(layers, known)
     corners, rings = mesh.triangles.reshape(-1), 3 * np.arange(len(mesh.triangles) + 1)
-    width = min(max(spacing / 24, 0.1), 1.5)
+    is_sheer = "cells" in wanted  # or else triangles would hide them
+    width = _line_width(len(mesh.points), page)
     made: dict[str, Layer] = {
-        "triangles": Polygons("triangles", mesh.points, corners, rings, colors=[CELLS[4]]),
+        "triangles": Polygons("triangles", mesh.points, corners, rings, colors=[CELLS[4]], is_sheer=is_sheer),
         "edges": Lines("edges", mesh.points, mesh.edges, INK, width),
-        "points": Points("points", mesh.points, radius=min(max(spacing / 12, 0.3), 4.0)),
+        "points": _points(mesh.points, page),
     }
+    if cells is not None and "cells" in wanted:
+        whole: Any = mesh.mesh if isinstance(mesh, ProximityGraph) else mesh
+        colors = cell_colors(whole)
+        made["cells"] = cell_polygons(cells, colors, page)
+    if cells is not None and "diagram" in wanted:
+        made["diagram"] = cell_lines(cells, page)
     if "labels" in wanted:
         made["labels"] = site_names(mesh, page)
     return [made[name] for name in LAYERS if name in wanted]
+
+
+def cell_layers(cells: CellSet, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of cells alone, in colors that neighbors never share, which their triangulation tells."""
+    from vorotool.engines.delaunay.delaunay import delaunay
+
+    wanted = checked_layers(layers, (*OF_CELLS, "points", "labels"))
+    made: list[Layer] = []
+    if "cells" in wanted:
+        with warnings.catch_warnings():  # that points lie on others was said where the cells were made
+            warnings.simplefilter("ignore", VorotoolWarning)
+            made.append(cell_polygons(cells, cell_colors(delaunay(cells.sites)), page))
+    if "diagram" in wanted:
+        made.append(cell_lines(cells, page))
+    if "points" in wanted:
+        made.append(_points(cells.sites, page))
+    return [*made, site_names(cells, page)] if "labels" in wanted else made
+
+
+def _points(places: NDArray[np.float64], page: Page) -> Points:
+    return Points("points", places, radius=min(max(page.spacing(len(places)) / 12, 0.3), 4.0))
 
 
 def site_names(sites: AnyTriangulation | ProximityGraph | CellSet, page: Page) -> Texts:
@@ -52,3 +90,48 @@ def mesh_page(
     """The page of a picture: with all points of a triangulation, or with other bounds."""
     up = is_up(mesh)
     return Page(bounds or bounds_of([Points("points", mesh.points)]), width=width, y_up=up)
+
+
+def cell_polygons(cells: CellSet, colors: NDArray[np.unsignedinteger], page: Page) -> Polygons:
+    """Fill cells; their outlines get finer where cells are small."""
+    rings, polygons, of_cells = cells.nesting
+    cell = owners(np.diff(of_cells))
+    part = within(np.diff(of_cells)) + 1
+    labels = cells.label_array[cell]
+    several = np.diff(of_cells)[cell] > 1
+    ids = [
+        f"cell-{label}-{k}" if many else f"cell-{label}"
+        for label, k, many in zip(labels.tolist(), part.tolist(), several.tolist(), strict=True)
+    ]
+    return Polygons(
+        "cells",
+        cells.coordinates,
+        np.arange(len(cells.coordinates), dtype=np.int32),
+        rings,
+        polygons,
+        [cell_color(c) for c in range(int(colors.max(initial=0)) + 1)],
+        np.asarray(colors)[cell],
+        ids,
+        EDGE,
+        _line_width(len(cells), page),
+    )
+
+
+def cell_lines(cells: CellSet, page: Page) -> Lines:
+    """Draw the boundaries of cells as lines, each side once where two cells share it."""
+    _, index = np.unique(cells.coordinates, axis=0, return_inverse=True)
+    rings = cells.nesting.rings
+    first = np.full(int(index.max(initial=-1)) + 1, len(index), dtype=np.int32)
+    np.minimum.at(first, index.reshape(-1), np.arange(len(index), dtype=np.int32))
+    number = first[index.reshape(-1)]  # coincident vertices have that of the first one
+    sides = np.unique(np.sort(np.stack([number, number[following(rings)]], axis=1), axis=1), axis=0)
+    return Lines("diagram", cells.coordinates, sides, INK, _line_width(len(cells), page))
+
+
+def cell_page(cells: CellSet, *, width: int = 1000) -> Page:
+    """The page that shows the frame of cells; y upwards where the input says so."""
+    return Page(cells.frame.sides, width=width, y_up=is_up(cells))
+
+
+def _line_width(count: int, page: Page) -> float:
+    return min(max(page.spacing(count) / 24, 0.1), 1.5)

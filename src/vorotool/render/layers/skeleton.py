@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,19 +55,9 @@ def skeleton_layers(
     return [layer for layer_name in LAYERS if layer_name in wanted for layer in make[layer_name]()]
 
 
-def picture_layers(
-    skeleton: Skeleton,
-    page: Page,
-    layers: Iterable[str],
-    *,
-    what: str = "skeleton",
-    points: NDArray[np.float64] | None = None,
-    exact: Skeleton | None = None,
-) -> list[Layer]:
-    """Make the layers of the picture of a skeleton, or of a whole diagram, which is another layer in another color."""
-    if what == "diagram":
-        return skeleton_layers(skeleton, page, layers, name="diagram", color=SEED, points=points, exact=exact)
-    return skeleton_layers(skeleton, page, layers, points=points, exact=exact)
+def diagram_layers(skeleton: Skeleton, page: Page, layers: Iterable[str], **more: Any) -> list[Layer]:
+    """Make layers of a whole diagram, which is another layer than a skeleton, in another color."""
+    return skeleton_layers(skeleton, page, layers, name="diagram", color=SEED, **more)
 
 
 def skeleton_page(
@@ -82,6 +73,9 @@ def skeleton_page(
         shown.append(np.array([[x, y], [x + w, y + h]]))
     up = is_up(skeleton)
     return Page(bounds or bounds_of([Points("shown", np.concatenate(shown))]), width=width, y_up=up)
+
+
+diagram_page = skeleton_page
 
 
 def _room(skeleton: Skeleton, page: Page) -> float:

@@ -19,7 +19,9 @@ from vorotool.render.canvas.palettes import cell_color
 from vorotool.render.label_images.crack_outline import crack_loops
 from vorotool.types.axis import is_up
 from vorotool.types.mesh.cells import CellSet
+from vorotool.types.points.label_image import LabelImage
 from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.table import Table
 from vorotool.types.voronoi.shapes import cell_rings
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
@@ -81,6 +83,27 @@ def write_cells_html(out: BinaryIO, shapes: Shapes, classes: ArrayLike, columns:
     before, after = page.split(_PLACE)
     text = json.dumps(_data(shapes, np.asarray(classes), columns), separators=(",", ":"), allow_nan=False)
     out.write(f"{before}{text.replace('<', chr(92) + 'u003c')}{after}".encode())  # no text ends the script
+
+
+def write_labels_html(
+    out: BinaryIO,
+    image: LabelImage,
+    colors: tuple[NDArray[Any], NDArray[Any]],
+    table: Table,
+    more: Mapping[str, Sequence[Any]] | None = None,
+    *,
+    y_up: bool,
+) -> None:
+    """Write a page that names the region that is pointed at, with its row of a table."""
+    shapes = shapes_of_labels(image.labels, y_up=y_up, sides=image.sides)
+    write_cells_html(out, shapes, colors[1], columns_of(table, colors[0]) | dict(more or {}))
+
+
+def columns_of(table: Table, labels: NDArray[Any]) -> dict[str, Sequence[Any]]:
+    """Give the rows of some labels."""
+    rows = {int(label): row for row, label in enumerate(table["label"])}
+    chosen = [rows[int(label)] for label in labels]
+    return {name: [table[name][row] for row in chosen] for name in table if name != "label"}
 
 
 def check_html_size(cells: int, vertices: int = 0) -> None:

@@ -13,11 +13,12 @@ from vorotool.plain import plain
 from vorotool.types.points.label_image import LabelImage
 
 if TYPE_CHECKING:
+    from vorotool.products.registry import Product
     from vorotool.render.canvas.layers import Backdrop, Layer, Page
     from vorotool.render.canvas.styles import PictureStyle
+    from vorotool.render.drawing import Wanted
     from vorotool.render.label_images.png import Names
     from vorotool.types.points.seed_set import SeedSet
-    from vorotool.types.table import Table
     from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
 BAND_ROWS = 256
@@ -47,18 +48,36 @@ class LabelPicture:
     texts: Mapping[int, str] | None = None
     threads: int = 0
 
+    @property
+    def page(self) -> None:
+        """It has none."""
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Names of the layers."""
+        return self.layers
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of a PNG."""
+        return self.image.shape
+
+    def check(self, max_pixels: int) -> None:
+        """Nothing: it has the size of the image."""
+
     def write(self, out: BinaryIO, fmt: str) -> None:
         """Draw it as SVG, or as a palette PNG of its own size, or over an image."""
-        picture = replace(self, image=self.image.flipped()) if self.y_up else self
-        if fmt == "svg":
-            _write_svg(out, picture)
-        else:
-            _write_png(out, picture)
+        draw = _write_svg if fmt == "svg" else _write_png
+        draw(out, self._placed())
 
     def pixels(self) -> NDArray[np.uint8]:
         """(H, W, 3) red, green and blue of the PNG."""
-        picture = replace(self, image=self.image.flipped()) if self.y_up else self
+        picture = self._placed()
         return _pixels(picture, _Marks(picture))
+
+    def _placed(self) -> LabelPicture:
+        """Return the picture from top to bottom."""
+        return replace(self, image=self.image.flipped(), y_up=False) if self.y_up else self
 
     @property
     def shows_borders(self) -> bool:
@@ -67,39 +86,28 @@ class LabelPicture:
         return labelled >= LEAST_SPACING**2 * len(self.colors[0])
 
 
-def write_label_page(
-    out: BinaryIO,
+def label_picture(
     image: LabelImage,
     colors: tuple[NDArray[Any], NDArray[Any]],
-    table: Table,
-    more: Mapping[str, Sequence[Any]] | None = None,
+    product: Product,
+    wanted: Wanted,
     *,
-    y_up: bool,
-) -> None:
-    """Write a page that names the region that is pointed at, with its row of a table."""
-    from vorotool.render.pages.cells_html import shapes_of_labels, write_cells_html
-
-    rows = {int(label): row for row, label in enumerate(table["label"])}
-    chosen = [rows[int(label)] for label in colors[0]]
-    columns = {name: [table[name][row] for row in chosen] for name in table if name != "label"}
-    write_cells_html(
-        out, shapes_of_labels(image.labels, y_up=y_up, sides=image.sides), colors[1], columns | dict(more or {})
-    )
-
-
-def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
-    """Layers of a picture for which none are chosen: numbers in the pixels of small images, but no names in others."""
+    y_up: bool = False,
+    sites: SeedSet | VolumeSeeds | None = None,
+) -> LabelPicture:
+    """Prepare the picture of a label image, whose seeds are those of the sites: numbers in the pixels of small ones."""
+    from vorotool.render.canvas.names import column_texts
     from vorotool.render.label_images.svg import has_numbers
 
-    return tuple(layer for layer in layers if layer != "labels" or has_numbers(image.shape))
-
-
-def site_texts(seeds: SeedSet | VolumeSeeds, column: str) -> dict[int, str]:
-    """Give what a column of the sites writes on the region of each label."""
-    from vorotool.render.canvas.names import column_texts
-
-    assert seeds.site_labels is not None  # SeedSet has filled it in
-    return dict(zip(seeds.site_labels.tolist(), column_texts(seeds.properties, column, ()), strict=True))
+    left_out = {"labels": not has_numbers(image.shape), "seeds": image.seeds is None}
+    usual = [layer for layer in product.usual_layers if not left_out.get(layer)]
+    sites, column, texts = image.seeds if sites is None else sites, wanted.looks.label_by, None
+    if sites is not None and column is not None:
+        assert sites.site_labels is not None  # SeedSet has filled it in
+        texts = dict(zip(sites.site_labels.tolist(), column_texts(sites.properties, column, ()), strict=True))
+    style = wanted.looks.style(wanted.world.scale_bar)
+    shown, own = wanted.shown(usual), (wanted.width, y_up, wanted.backdrop, texts, wanted.threads)
+    return LabelPicture(image, colors, shown, style, *own)
 
 
 def _names(picture: LabelPicture) -> Names | None:
@@ -248,7 +256,7 @@ class _Marks:
         layers, style, over = picture.layers, picture.style, picture.backdrop is not None
         objects, self.names = _objects(picture), _names(picture)
         borders = _borders(picture)
-        self.diagram = self._lines(picture) if "diagram" in layers else None
+        self.diagram = _lines(picture, style.width_of("diagram")) if "diagram" in layers else None
         self.outlines: NDArray[np.bool_] | None = None
         if objects is not None and "seeds" in layers:
             self.outlines = widened(outermost_pixels(objects), style.width_of("seeds"))
@@ -268,28 +276,21 @@ class _Marks:
             below[1] = (self.palette.object, objects.labels != 0)
         self.below = [(value, pixels) for value, pixels in below if pixels is not None]
 
-    @staticmethod
-    def _lines(picture: LabelPicture) -> NDArray[np.bool_]:
-        from vorotool.engines.label_images.regions import voronoi_diagram
-        from vorotool.render.label_images.png import widened
-
-        diagram = voronoi_diagram(picture.image, threads=picture.threads).view(bool)
-        return widened(diagram, picture.style.width_of("diagram"))
-
 
 def _borders(picture: LabelPicture) -> NDArray[np.bool_] | None:
     """Borders between cells: a pixel wide, if cells are not too small for that, or as is chosen."""
-    from vorotool.engines.label_images.regions import voronoi_diagram
-    from vorotool.render.label_images.png import widened
-
     chosen = picture.style.of("cells")[1]
     if "cells" not in picture.layers or chosen == 0 or not len(picture.colors[0]):
         return None
-    if chosen is None and not picture.shows_borders:
-        return None
-    return widened(
-        voronoi_diagram(picture.image, threads=picture.threads).view(bool), 1.0 if chosen is None else chosen
-    )
+    return None if chosen is None and not picture.shows_borders else _lines(picture, 1.0 if chosen is None else chosen)
+
+
+def _lines(picture: LabelPicture, width: float) -> NDArray[np.bool_]:
+    """Draw the lines between cells."""
+    from vorotool.engines.label_images.regions import voronoi_diagram
+    from vorotool.render.label_images.png import widened
+
+    return widened(voronoi_diagram(picture.image, threads=picture.threads).view(bool), width)
 
 
 def _numbering(

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,7 @@ from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
-    from vorotool.render.canvas.styles import PictureStyle
+    pass
 
 Z, Y, X = range(3)
 
@@ -201,23 +201,3 @@ class SlicePicture:
         voxels = np.repeat(outer[seed], lengths, axis=0)
         voxels[:, 0] = ranges(start, lengths)
         yield voxels, np.repeat(seeds.labels[seed], lengths)
-
-
-def write_slices(
-    out: BinaryIO,
-    volume: LabelVolume,
-    views: SlicePicture,
-    colors: tuple[NDArray[Any], NDArray[Any]],
-    *,
-    fmt: str,
-    layers: Sequence[str],
-    style: PictureStyle,
-    width: int,
-    texts: Mapping[int, str] | None,
-    threads: int,
-) -> None:
-    """Draw slices of a volume as PNG or SVG."""
-    from vorotool.jobs.label_pictures import LabelPicture
-
-    image = views.image(volume)
-    LabelPicture(image, colors, layers, style, width=width, texts=texts, threads=threads).write(out, fmt)

@@ -1,4 +1,4 @@
-"""The looks of pictures that are chosen: size on paper, ground, colors and widths of layers."""
+"""The looks of pictures that are chosen, and where what is drawn lies: what page a picture has."""
 
 from __future__ import annotations
 
@@ -22,27 +22,18 @@ LARGEST_WIDTH = 1e6
 """Px of a line."""
 
 
-class Scale(NamedTuple):
-    """A scale: millimetres of paper a unit, or a ratio, 1 to a number."""
-
-    number: float
-    is_ratio: bool
-
-
-class Paper(NamedTuple):
-    """The page of pictures of lines and areas; see `Looks`."""
-
-    scale: Scale | None = None
-    unit: str | None = None
-    aspect: float | None = None
-    extent: str | None = None
-
-
 SCALE_BAR = "scale-bar"
 """What the color of the scale bar is chosen by, as that of a layer."""
 
 OPTIONS = ("scale", "unit", "background", "color", "line-width", "label-by", "legend", "scale-bar", "aspect", "extent")
 """Those that looks are chosen by, in the order of their fields."""
+
+
+class Scale(NamedTuple):
+    """A scale: millimetres of paper a unit, or a ratio, 1 to a number."""
+
+    number: float
+    is_ratio: bool
 
 
 class Looks(NamedTuple):
@@ -81,8 +72,8 @@ class Looks(NamedTuple):
 
 def looks_of(
     *, color: Mapping[str, str] | None, line_width: Mapping[str, float] | None, background: str | None
-) -> Looks:
-    """Give the looks that the library is asked for; see `vorotool.write`."""
+) -> dict[str, Any]:
+    """Give the looks that the library is asked for, by names of options; see `vorotool.write`."""
     from vorotool.numeric.numbers import finite_double
 
     ground = (
@@ -97,7 +88,7 @@ def looks_of(
     for layer, width in widths:
         if not 0 <= width < LARGEST_WIDTH:
             raise UsageError(f"invalid line_width of {layer} {width}: expected a number of px from 0 on")
-    return Looks(None, None, ground, colors, widths)
+    return {"background": ground, "colors": colors, "line_widths": widths}
 
 
 def _by_layer(given: Any, name: str) -> list[tuple[str, Any]]:

@@ -5,7 +5,7 @@ import pytest
 
 import vorotool
 from vorotool import LimitError, UsageError
-from vorotool.jobs.volumes.pictures import SlicePicture
+from vorotool.render.label_images.slices import SlicePicture
 from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume_seeds import VolumeSeeds

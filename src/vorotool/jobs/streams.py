@@ -1,0 +1,200 @@
+"""Images and volumes that are written as they are computed: into files, and into Zarr stores chunk by chunk."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from math import prod
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.tessellation.bands import Band
+from vorotool.errors import LimitError
+from vorotool.jobs.options import AUTO_LEVELS, Options
+from vorotool.jobs.results import Results
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target
+from vorotool.plain import plain
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.volumes.voxel_frame import VoxelFrame
+
+PartOf = Callable[[int, int], NDArray[Any]]
+"""``part_of(first, count)`` gives some rows of an image, or slices of a volume."""
+Limits = Sequence[tuple[int, int]]
+"""First row or slice, and number of them, of each part."""
+
+SAMPLES = 3
+"""Parts that are encoded to learn how much room all need, where it may not be there."""
+
+STREAMED = frozenset({"labels", "diagram", "distance", "distance2"})
+"""Results that need not be in memory."""
+
+
+@plain
+class Stream:
+    """An image or a volume that need not be in memory."""
+
+    frame: Frame | VoxelFrame
+    part_of: PartOf
+    dtype: np.dtype[Any]
+    band: Callable[[int, int], Band]  # gives any part as what computes it anywhere
+    limits: Limits  # parts that suit what computes them
+    about: Mapping[str, Any]  # further options of `write_label_image` or `write_volume`
+
+    def parts(self, limits: Limits) -> Iterator[NDArray[Any]]:
+        """Give all of it, part by part."""
+        return (self.part_of(first, count) for first, count in limits)
+
+    def write(self, out: Any, fmt: Any, parts: Iterator[NDArray[Any]], count: int, *, threads: int) -> None:
+        """Write parts of so many rows or slices to a file."""
+        from vorotool.formats.images.label_images import write_label_image
+        from vorotool.formats.volumes.writer import write_volume
+
+        writer: Any = write_label_image if isinstance(self.frame, Frame) else write_volume
+        shape = (count, *self.frame.shape[1:])
+        writer(out, parts, shape=shape, dtype=self.dtype, fmt=fmt, threads=threads, **self.about)
+
+    def expected(self, count: int, size_of: Callable[[NDArray[Any]], int]) -> int:
+        """Estimate the bytes of the whole from those of some parts of so many rows or slices, which differ."""
+        whole = self.frame.shape[0]
+        parts = -(-whole // count)
+        seen = size = 0
+        for part in sorted({parts * (2 * k + 1) // (2 * SAMPLES) for k in range(SAMPLES)}):
+            rows = min(count, whole - part * count)
+            size += size_of(self.part_of(part * count, rows))
+            seen += rows
+        return size * whole // seen
+
+
+class Streamed(Results):
+    """Results of a tessellation, of which images and volumes are streamed."""
+
+    def stream(self, what: str) -> Stream:
+        """Give one of `STREAMED`."""
+        raise NotImplementedError
+
+    def write_data(self, out: BinaryIO, target: Target) -> None:
+        """Write an image or a volume part by part, if there is room for it; tables are made of the whole."""
+        if target.what not in STREAMED:
+            super().write_data(out, target)
+            return
+        from vorotool.formats.io.disk_space import check_space
+
+        stream, fmt, threads = self.stream(target.what), target.fmt, self.options.threads
+        whole = stream.frame.shape[0]
+
+        def size_of(part: NDArray[Any]) -> int:
+            sample = io.BytesIO()
+            stream.write(sample, fmt, iter([part]), len(part), threads=threads)
+            return sample.tell()
+
+        most = prod(stream.frame.shape) * (11 if fmt == "text" else stream.dtype.itemsize)
+        check_space(target.path, most, lambda: stream.expected(stream.limits[0][1], size_of))
+        stream.write(out, fmt, stream.parts(stream.limits), whole, threads=threads)
+
+    def write_store(self, target: Target, rules: Mapping[str, Any]) -> None:
+        """Write an image or a volume to a Zarr store, if there is room for it: here, or on a cluster."""
+        from vorotool.formats.io.disk_space import check_space
+        from vorotool.formats.zarr.arrays import create_array
+        from vorotool.formats.zarr.store import open_store
+        from vorotool.formats.zarr.volumes import add_levels
+
+        o, stream = self.options, self.stream(target.what)
+        shape, dtype, chunks = stream.frame.shape, stream.dtype, check_chunks(o, stream)
+        levels = _levels(o, shape)
+        room = Fraction(8, 7) if levels else 1  # each copy has an eighth of the voxels of the one before
+
+        def size_of(part: NDArray[Any]) -> int:
+            files: dict[str, Any] = {}
+            _write_chunks(create_array(files, part.shape, dtype=dtype, chunks=chunks), 0, part, threads=o.threads)
+            return sum(map(len, files.values()))
+
+        most, expected = (
+            int(room * prod(shape) * dtype.itemsize),
+            lambda: int(room * stream.expected(chunks[0], size_of)),
+        )
+        check_space(target.path, most, expected)
+        with open_store(target.path, **rules) as store:
+            folder = _folder(store, target, stream)
+            scale = stream.about.get("scale")
+            about = None if scale is None else {"scale": scale}  # no name that readers would turn integers to floats by
+            array = create_array(folder, shape, dtype=dtype, chunks=chunks, attributes=about)
+            limits = _of_chunks(stream, chunks[0])
+            if o.cluster is not None and o.out_dir is None:
+                _write_on_cluster(self.run, folder, stream.band, limits, address=o.cluster, jobs=o.jobs)
+            else:
+                for (first, _), part in zip(limits, stream.parts(limits), strict=True):
+                    _write_chunks(array, first, part, threads=o.threads)
+            add_levels(store, levels, threads=o.threads)
+
+
+def check_chunks(o: Options, stream: Stream) -> tuple[int, ...]:
+    """Choose rows and columns of the chunks of a store, or slices, rows and columns."""
+    from vorotool.formats.zarr.arrays import chunks_of, zarr_module
+    from vorotool.formats.zarr.volumes import volume_chunks
+
+    zarr_module()
+    is_image = isinstance(stream.frame, Frame)
+    choose: Any = chunks_of if is_image else volume_chunks
+    chunks: tuple[int, ...] = choose(stream.frame.shape, stream.dtype, None if o.chunk is None else o.chunk[::-1])
+    held = (*reversed(stream.frame.shape[1:]), chunks[0])
+    if prod(held) > o.max_pixels:
+        layer, pixels = ("a row of chunks", "pixels") if is_image else ("a layer of chunks", "voxels")
+        size = " x ".join(map(str, held))
+        raise LimitError(f"{layer} has {size} {pixels}, more than --max-pixels {o.max_pixels}: use a lower --chunk")
+    return chunks
+
+
+def scale_of_squares(step: Fraction) -> float | None:
+    """Return what squared distances are multiplied by; None where they are in pixels."""
+    return None if step == 1 else float(step * step)
+
+
+def _levels(o: Options, shape: tuple[int, ...]) -> int:
+    """Return the number of coarser copies."""
+    from vorotool.formats.zarr.volumes import usual_levels
+
+    assert o.levels is None or len(shape) == 3  # the command refuses copies of images
+    return usual_levels(shape) if o.levels == AUTO_LEVELS else o.levels or 0  # type: ignore[arg-type]
+
+
+def _folder(store: Path, target: Target, stream: Stream) -> Path:
+    """Return where the array of a store is."""
+    from vorotool.formats.zarr.multiscales import array_folder
+    from vorotool.formats.zarr.volumes import volume_folder
+
+    place: Any = array_folder if isinstance(stream.frame, Frame) else volume_folder
+    folder: Path = place(store, target.path, grid=stream.about.get("grid"), is_labels=target.what == "labels")
+    return folder
+
+
+def _of_chunks(stream: Stream, count: int) -> Limits:
+    """Parts of whole chunks so high: of a row of them, or of layers about as many as suit what computes them."""
+    each = count if isinstance(stream.frame, Frame) else max(1, stream.limits[0][1] // count) * count
+    whole = stream.frame.shape[0]
+    return [(first, min(each, whole - first)) for first in range(0, whole, each)]
+
+
+def _write_chunks(array: Any, first: int, part: NDArray[Any], *, threads: int) -> None:
+    """Write rows or slices of whole chunks."""
+    from vorotool.formats.zarr.arrays import write_rows
+    from vorotool.formats.zarr.volumes import write_slices
+
+    (write_rows if part.ndim == 2 else write_slices)(array, first, part, threads=threads)
+
+
+def _write_on_cluster(
+    run: Run, folder: Path, band_of: Callable[[int, int], Band], limits: Limits, *, address: str, jobs: int | None
+) -> None:
+    """Let a cluster compute the parts of an image or a volume, and write them into a store."""
+    from vorotool.batch.dask_bands import write_bands
+
+    show = run.progress("tessellate")
+    bands = ((first, band_of(first, count)) for first, count in limits)
+    for done, _ in enumerate(write_bands(folder, bands, address=address, jobs=jobs), start=1):
+        if show is not None:
+            show(done / len(limits))
