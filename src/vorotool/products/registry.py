@@ -83,16 +83,11 @@ _TABLES = " ".join(TABLES)
 _IMAGES = "png tiff npy text"
 _LABELS = Writer("formats.images.label_images:write_labels", ("fmt", "threads"))
 _COLORED = {"png": ("cells", "diagram", "objects", "seeds", "labels"), "svg": ("cells", "labels", "objects", "seeds")}
+# Rows stay rows: one argument a line would hide the tables.
+# fmt: off
 _TESSELLATE = (
-    _product(
-        "labels",
-        "LabelImage",
-        f"{_IMAGES} zarr",
-        Pictures({"svg": _COLORED["svg"]}),
-        "cells seeds labels",
-        own=dict.fromkeys(_IMAGES.split(), _LABELS),
-        has_page=True,
-    ),
+    _product("labels", "LabelImage", f"{_IMAGES} zarr", Pictures({"svg": _COLORED["svg"]}), "cells seeds labels",
+        own=dict.fromkeys(_IMAGES.split(), _LABELS), has_page=True),
     _product("diagram", "", _IMAGES, Pictures({"png": _COLORED["png"]}), "diagram"),
     _product("color", "LabelImage", "", Pictures(_COLORED), "cells seeds", has_page=True, moves=True),
     _product("distance", "", "tiff npy zarr"),
@@ -126,18 +121,10 @@ _EDGED = f"{_MESHES} ProximityGraph"
 _MESH_LAYERS = _pictures("cells triangles diagram edges points labels", "render.layers.mesh:mesh")
 _DELAUNAY = (
     _product("edges", _EDGED, "csv tsv json geojson npz npy edge obj", _MESH_LAYERS, "edges points", own=_MESH),
-    _product(
-        "triangles", _MESHES, "csv tsv json geojson npz npy ele obj", _MESH_LAYERS, "triangles edges points", own=_MESH
-    ),
-    _product(
-        "cells",
-        "CellSet",
-        "geojson csv tsv json npz wkt",
-        _MESH_LAYERS._replace(drawn_by="render.layers.mesh:cell"),
-        "cells points",
-        own=_CELLS,
-        has_page=True,
-    ),
+    _product("triangles", _MESHES, "csv tsv json geojson npz npy ele obj", _MESH_LAYERS, "triangles edges points",
+        own=_MESH),
+    _product("cells", "CellSet", "geojson csv tsv json npz wkt",
+        _MESH_LAYERS._replace(drawn_by="render.layers.mesh:cell"), "cells points", own=_CELLS, has_page=True),
     _product("table", _MESHES, f"{_TABLES} node", own=_MESH),
     _product("statistics", "CellStatistics", _TABLES),
     _product("measures", "CellStatistics", _TABLES),
@@ -158,15 +145,8 @@ _POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE_LAYERS)
 _GENERAL = ("AlphaShape", "geojson wkt", _SHAPE_LAYERS)
 _ALPHASHAPE = (
     _product("edges", *_EDGES, "boundary singular points", has_page=True, moves=True),
-    _product(
-        "polygons",
-        *_POLYGONS,
-        "polygons",
-        own=_POLYGON_FILES,
-        has_page=True,
-        moves=True,
-        usual_for=("geojson", "wkt", "poly", "gpkg", "fgb", "shp", "parquet"),
-    ),
+    _product("polygons", *_POLYGONS, "polygons", own=_POLYGON_FILES, has_page=True, moves=True,
+        usual_for=("geojson", "wkt", "poly", "gpkg", "fgb", "shp", "parquet")),
     _product("complex", *_EDGES, "interior boundary singular points", has_page=True, moves=True),
     _product("general", *_GENERAL, "polygons boundary singular points", has_page=True, moves=True),
     _product("family", "AlphaComplex", _TABLES, has_page=True),
@@ -208,71 +188,29 @@ _SKELETONS = (
     _product("skeleton", "Skeleton", _CURVES, _ARCS, "polygons skeleton", own=_SKELETON, has_page=True, is_curved=True),
     _product("diagram", "", _CURVES, _DIAGRAM, "polygons elements points skeleton", own=_SKELETON, is_curved=True),
     _product("elements", "Skeleton", _TABLES, _ARCS, "polygons elements points"),
-    _product(
-        "centerline",
-        "Centerlines ExtendedSkeleton SmoothLines",
-        f"geojson {_TABLES} wkt",
-        _ARCS._replace(drawn_by="render.layers.lines_along:line"),
-        "polygons skeleton",
-        is_curved=True,
-    ),
-    _product(
-        "offset",
-        "Offsets",
-        _CURVES,
-        _pictures("polygons offset labels", "render.layers.offsets:offset"),
-        "polygons offset",
-        own=_OFFSETS,
-        made_by="jobs.skeletons.derived:OffsetCurves",
-        is_curved=True,
-        moves=True,
-    ),
-    _product(
-        "shape",
-        "PolygonSet",
-        "json geojson wkt poly",
-        _pictures("shape labels", "render.layers.polygons:shape"),
-        "shape",
-        own=_POLYGON_FILES,
-        made_by="jobs.skeletons.derived:RebuiltShape",
-    ),
+    _product("centerline", "Centerlines ExtendedSkeleton SmoothLines", f"geojson {_TABLES} wkt",
+        _ARCS._replace(drawn_by="render.layers.lines_along:line"), "polygons skeleton", is_curved=True),
+    _product("offset", "Offsets", _CURVES, _pictures("polygons offset labels", "render.layers.offsets:offset"),
+        "polygons offset", own=_OFFSETS, made_by="jobs.skeletons.derived:OffsetCurves", is_curved=True, moves=True),
+    _product("shape", "PolygonSet", "json geojson wkt poly", _pictures("shape labels", "render.layers.polygons:shape"),
+        "shape", own=_POLYGON_FILES, made_by="jobs.skeletons.derived:RebuiltShape"),
     _DISC_PRODUCT,
-    _product(
-        "points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _ALONG, "polygons skeleton points", made_by=_STEPS
-    ),
-    _product(
-        "transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _ALONG, "polygons skeleton transects", made_by=_STEPS
-    ),
-    _product(
-        "thickness",
-        "",
-        "tiff npy",
-        Pictures({"png": ("thickness",)}),
-        "thickness",
-        own=dict.fromkeys(("tiff", "npy"), _THICKNESS),
-        made_by="jobs.skeletons.derived:Thickness",
-    ),
+    _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _ALONG, "polygons skeleton points",
+        made_by=_STEPS),
+    _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _ALONG, "polygons skeleton transects",
+        made_by=_STEPS),
+    _product("thickness", "", "tiff npy", Pictures({"png": ("thickness",)}), "thickness",
+        own=dict.fromkeys(("tiff", "npy"), _THICKNESS), made_by="jobs.skeletons.derived:Thickness"),
     _product("branches", "Skeleton", _TABLES),
     _product("table", "Skeleton", _TABLES),
 )
 _OF_WHOLE_AXIS = (
-    _product(
-        "necks",
-        "Necks",
-        f"{_TABLES} geojson wkt",
-        _pictures("polygons skeleton necks labels", "render.layers.necks:neck"),
-        "polygons necks",
-        made_by="jobs.skeletons.derived:NeckCuts",
-    ),
-    _product(
-        "parts",
-        "Parts",
-        "geojson csv tsv npz json wkt poly",
-        _pictures("parts skeleton cuts labels", "render.layers.necks:part"),
-        "parts",
-        made_by="jobs.skeletons.derived:CutParts",
-        own=_POLYGON_FILES,
-    ),
+    _product("necks", "Necks", f"{_TABLES} geojson wkt",
+        _pictures("polygons skeleton necks labels", "render.layers.necks:neck"), "polygons necks",
+        made_by="jobs.skeletons.derived:NeckCuts"),
+    _product("parts", "Parts", "geojson csv tsv npz json wkt poly",
+        _pictures("parts skeleton cuts labels", "render.layers.necks:part"), "parts",
+        made_by="jobs.skeletons.derived:CutParts", own=_POLYGON_FILES),
 )
 """Only of exact skeletons."""
 _WITHOUT_SAMPLES = {"offset", "discs", "thickness"}
@@ -282,21 +220,14 @@ _WITHOUT_SAMPLES = {"offset", "discs", "thickness"}
 # ---- voronoi -------------------------------------------------------------------------------------
 _MAP_LAYERS = _pictures("cells edges objects labels", "render.layers.voronoi:voronoi")
 _VORONOI = (
-    _product(
-        "cells",
-        "VoronoiMap",
-        "geojson csv tsv json npz wkt",
-        _MAP_LAYERS,
-        "cells objects",
-        own=_documents("voronoi_files"),
-        has_page=True,
-        is_curved=True,
-    ),
+    _product("cells", "VoronoiMap", "geojson csv tsv json npz wkt", _MAP_LAYERS, "cells objects",
+        own=_documents("voronoi_files"), has_page=True, is_curved=True),
     _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP_LAYERS, "edges objects", is_curved=True),
     _product("neighbors", "VoronoiMap", _TABLES),
     _product("table", "VoronoiMap", _TABLES),
     _DISC_PRODUCT,
 )
+# fmt: on
 
 
 # ---- distance ------------------------------------------------------------------------------------
