@@ -181,11 +181,10 @@ def test_a_list_that_comes_through_a_pipe(folder):
 
 
 def test_a_folder_without_permission(folder, monkeypatch):
-    def walk(path, onerror):
-        onerror(PermissionError(13, "Permission denied", path))
-        return iter(())
+    def listdir(path):
+        raise PermissionError(13, "Permission denied", path)
 
-    monkeypatch.setattr("os.walk", walk)
+    monkeypatch.setattr("os.listdir", listdir)
     with pytest.raises(InputError, match="the folder a cannot be read: Permission denied"):
         expanded("a")
 

@@ -11,7 +11,7 @@ import os
 import signal
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
 from contextlib import suppress
 from pathlib import Path
@@ -26,8 +26,8 @@ from skimage.measure import find_contours
 from timing import timed
 
 import vorotool
-from vorotool.batch.process_pool import local_results
 from vorotool.batch.tasks import Outcome, Task
+from vorotool.batch.workers import local_results
 from vorotool.engines.label_images.simplification import simplified_polygons
 from vorotool.formats.images.png_writer import write_png
 from vorotool.formats.io.sources import Source
@@ -167,23 +167,23 @@ def simplify() -> None:
             print(f"   {name}: moved by {moved:.2f} at the most, {shapely.get_num_coordinates(found).sum():,} vertices")
 
 
-def work(source: str, _outputs: Sequence[str] = ()) -> Outcome:
+def work(task: Task) -> Outcome:
     """Do nothing for a while; of source 3 kill the process."""
     time.sleep(0.1)
-    if source == "3":
+    if task.source == "3":
         os.kill(os.getpid(), signal.SIGKILL)
     return Outcome()
 
 
 def pool() -> None:
     """A worker that dies."""
-    from libraries import work as task  # by a name that workers know, too
+    from libraries import work as process  # by a name that workers know, too
 
-    names = [str(number) for number in range(8)]
-    outcomes = list(local_results(task, iter(enumerate(Task(name, ()) for name in names)), jobs=2))
+    tasks = [Task(str(number), ()) for number in range(8)]
+    outcomes = list(local_results(process, iter(enumerate(tasks)), jobs=2))
     ours, theirs = sum(not outcome.code for _, outcome in outcomes), 0
     with ProcessPoolExecutor(2) as executor:
-        for future in as_completed([executor.submit(task, name) for name in names]):
+        for future in as_completed([executor.submit(process, task) for task in tasks]):
             with suppress(BrokenExecutor):
                 future.result()
                 theirs += 1

@@ -29,7 +29,7 @@ class Outcome:
 def tasks_are_done_here(request, monkeypatch):
     """Have this process do the tasks of a batch, unless the test asks for workers."""
     if "workers" not in request.fixturenames:
-        monkeypatch.setattr("vorotool.batch.process_pool.local_results", results_here)
+        monkeypatch.setattr("vorotool.batch.workers.local_results", results_here)
 
 
 @pytest.fixture

@@ -17,7 +17,7 @@ PREPARED = "from fuzz import write_events; write_events.install_from_environment
 
 LAUNCH = f"""import sys
 sys.path.insert(0, {str(TESTS)!r})
-from vorotool.batch import process_pool as workers
+from vorotool.batch import workers
 workers.START = workers.START.replace("from vorotool", {PREPARED!r} + "from vorotool", 1)
 from vorotool.cli.main import main
 main(sys.argv[1:])

@@ -95,7 +95,7 @@ def read_only(place):
 
     def prepare():
         modules = [importlib.import_module(f"vorotool.formats.{name}") for name in MAKERS]
-        for owner in (*modules, importlib.import_module("vorotool.cli.batch.run_many")):
+        for owner in (*modules, importlib.import_module("vorotool.batch.run")):
             for made in {"new_file", "new_folder"} & set(vars(owner)):
                 setattr(owner, made, refuse)
 

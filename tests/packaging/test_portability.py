@@ -79,7 +79,7 @@ def test_a_batch_whose_worker_dies_goes_on(tmp_path):
     script = (
         "import os\n"
         "from pathlib import Path\n"
-        "from vorotool.batch.process_pool import local_results\n"
+        "from vorotool.batch.workers import local_results\n"
         "from vorotool.batch.tasks import Outcome, Task\n"
         "from support_of_test import work\n"
         "if __name__ == '__main__':\n"
@@ -89,8 +89,8 @@ def test_a_batch_whose_worker_dies_goes_on(tmp_path):
     (tmp_path / "run.py").write_text(script)
     (tmp_path / "support_of_test.py").write_text(
         "import os\nfrom vorotool.batch.tasks import Outcome\n"
-        "def work(source, outputs):\n"
-        "    if source == '2':\n        os._exit(7)\n"
+        "def work(task):\n"
+        "    if task.file == '2':\n        os._exit(7)\n"
         "    return Outcome()\n"
     )
     done = subprocess.run(

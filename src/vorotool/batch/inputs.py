@@ -1,25 +1,25 @@
-"""The inputs of a batch: names as they are given, what is in folders, what patterns match, lists of names."""
+"""The inputs of a batch: files, the contents of folders, matches of patterns, lists of names, pages of stacks."""
 
 from __future__ import annotations
 
 import glob
 import os
 import re
+import zlib
 from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 
-from vorotool.batch.pages import PageName
-from vorotool.batch.search import LeftOut, Search
+from vorotool.batch.search import ANY, Search
 from vorotool.errors import InputError, UsageError
-from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.layer_names import file_of, output_name
+from vorotool.formats.io.sources import GZIP, without_gz
 from vorotool.jobs.inputs import is_pattern, is_searched
 from vorotool.plain import plain
 
 RECORD_ENDING = ".manifest.jsonl"
-"""Of the names of manifests, which begin with that of the command."""
+"""Ends the names of records, which begin with the command."""
 
-STANDARD_INPUT = "-"
 HEAD = 2**16
 """Bytes of a text by which data and prose are told apart."""
 _NUMBER = re.compile(rb"(?<![\w.])[-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d+)?(?![\w.])")
@@ -29,26 +29,27 @@ _NUMBER = re.compile(rb"(?<![\w.])[-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d+
 class Input:
     """One input of a batch."""
 
-    source: str  # its path, beginning as the user wrote it
-    name: str  # what its outputs are named after: the path below the folder that was given, or the name of a file
+    source: str  # what messages and tables call it: its path, beginning as the user wrote it, or a page of it
+    name: str  # what its outputs are named after: the path below the folder that was named, or the name of a file
+    path: str = ""  # the file, where `source` is more than that
+    page: int | None = None
 
 
 def pages_of(inputs: Iterable[Input]) -> list[Input]:
-    """Give each page of the images among inputs as an input, whose outputs are named after it: ``stack-p003``."""
+    """Return each page of the images among inputs as an input, whose outputs are named after it: ``stack-p003``."""
     from vorotool.formats.pages import page_count
 
-    found: list[Input] = []
+    pages: list[Input] = []
     for each in inputs:
         count = page_count(each.source)
         if count is None:
-            found.append(each)
+            pages.append(each)
             continue
-        name, digits = Path(each.name), max(3, len(str(count - 1)))
-        found += [
-            Input(PageName.of(each.source, page), str(name.with_stem(f"{name.stem}-p{page:0{digits}}")))
-            for page in range(count)
-        ]
-    return found
+        name, digits = Path(without_gz(each.name)), max(3, len(str(count - 1)))
+        for page in range(count):
+            page_name = str(name.with_stem(f"{name.stem}-p{page:0{digits}}"))
+            pages.append(Input(f"{each.source}, page {page}", page_name, each.source, page))
+    return pages
 
 
 def expand_inputs(
@@ -57,28 +58,29 @@ def expand_inputs(
     extensions: Collection[str],
     without: str | os.PathLike[str] | None = None,
     follow: bool = False,
-    note: Callable[[str], None] | None = None,
+    note: Callable[[str], None] = lambda _: None,
 ) -> list[Input]:
     """Find the inputs that names stand for, in the order of the names, those of one name sorted."""
-    found: list[Input] = []
-    excluded = None if without is None else os.path.realpath(without)
-    search = Search(LeftOut(), follow, excluded)
+    inputs: list[Input] = []
+    search = Search(follow=follow, excluded=without)
     for name in names:
         if is_pattern(name):
-            found += _matching(name, search)
+            inputs += _matching(name, search)
         elif name and is_searched(name):
-            found += _inside(name, frozenset(extensions), search)
+            inputs += _inside(name, frozenset(extensions), search)
         else:
             _check_file(name)
-            found.append(Input(name, output_name(name)))
-    if note is not None:
-        for text in search.left_out.notes():
-            note(text)
-    return found
+            inputs.append(Input(name, output_name(name)))
+    for text in search.notes():
+        note(text)
+    return inputs
 
 
 def _check_file(name: str) -> None:
-    if name == STANDARD_INPUT:
+    """Refuse what is not a file that any process can read."""
+    if not name:
+        raise UsageError("the name of an input is empty: name a file, or a folder")
+    if name == STANDARD:
         raise UsageError("- is standard input, which is one input: name files, or give their list to --files-from")
     if (kind := stream_kind(file_of(name))) is not None:
         raise UsageError(
@@ -100,61 +102,55 @@ def read_names(path: str, *, null: bool = False) -> list[str]:
         raise InputError(f"the list {path or repr(path)} cannot be read: {reason}; check its name") from None
     names = data.split(b"\0") if null else [line.removesuffix(b"\r") for line in data.split(b"\n")]
     if not null and b"\0" in data:
-        raise InputError(f"the list {path} holds NUL bytes: are names ended by them? then give -0, too")
+        raise InputError(f"the list {path} holds NUL bytes: if names end with them, give -0, too")
     if null and b"\0" not in data and b"\n" in data:
-        raise InputError(f"the list {path} holds no NUL bytes, by which -0 ends names: leave it out for names on lines")
+        raise InputError(f"the list {path} holds no NUL bytes, by which -0 ends names: leave -0 out for names on lines")
     return [os.fsdecode(name) for name in names if name]
 
 
 def _matching(pattern: str, search: Search) -> list[Input]:
-    """Files that match, named below the folder that the pattern begins with."""
+    """Return the files that match, named below the folder that the pattern begins with."""
     parts = Path(pattern).parts
-    fixed = Path(*parts[: next(i for i, part in enumerate(parts) if glob.has_magic(part))])
-    files = search.left_out.files(path for path in search.matches(pattern) if not is_searched(path))
+    fixed = next(i for i, part in enumerate(parts) if glob.has_magic(part))
+    root = Path(*parts[:fixed])
+    files = search.files({*search.matches(root, parts[fixed:])})
     if not files:
         raise InputError(
-            f"no file matches {pattern}{search.left_out.reasons()}; check the pattern, or name a folder for what is in "
-            "it"
+            f"no file matches {pattern}{search.reasons()}; check the pattern, or name a folder for what is in it"
         )
-    return [Input(str(file), str(file.relative_to(fixed))) for file in files]
+    return [Input(str(file), str(file.relative_to(root))) for file in files]
 
 
 def _inside(folder: str, extensions: frozenset[str], search: Search) -> list[Input]:
-    """Files in a folder that are in a format that is read; companions of these are not worth a note."""
-    files: list[Path] = []
-    others: list[Path] = []
-    for place, names in search.folders(Path(folder)):
-        for path in (place / name for name in names if not name.startswith(".") and not name.endswith(RECORD_ENDING)):
-            (files if _is_known(path, extensions) else others).append(path)
-    stems = {(path.parent, path.name.partition(".")[0]) for path in files}
-    unknown = [path for path in others if (path.parent, path.name.partition(".")[0]) not in stems]
-    search.left_out.unknown.extend(map(str, unknown))
-    files = search.left_out.files(files)
+    """Return the files in a folder that are in a format that is read; companions of these are not worth a note."""
+    paths = [path for path in search.matches(Path(folder), (ANY,)) if not path.name.endswith(RECORD_ENDING)]
+    known = {path for path in paths if _is_known(path, extensions)}
+    stems = {(path.parent, path.name.partition(".")[0]) for path in known}
+    unknown = (path for path in paths if path not in known)
+    search.unknown += [str(path) for path in unknown if (path.parent, path.name.partition(".")[0]) not in stems]
+    files = search.files(known)
     if not files:
-        known = ", ".join(sorted(extensions))
         raise InputError(
-            f"{folder} holds no file that is read here ({known}){search.left_out.reasons()}; for others use a pattern, "
-            f"{folder}/*"
+            f"{folder} holds no file that is read here ({', '.join(sorted(extensions))}){search.reasons()}; for others "
+            f"use a pattern, {folder}/*"
         )
     return [Input(str(file), str(file.relative_to(folder))) for file in files]
 
 
 def _is_known(path: Path, extensions: frozenset[str]) -> bool:
-    """Whether a file is in a format that is read, by its extension; text must hold numbers or geometry, too."""
-    from vorotool.formats.io.sources import without_gz
-
-    plain = Path(without_gz(path.name))
-    extension = plain.suffix.lower().lstrip(".")
-    is_plain_text = extension == "txt" and plain.name == path.name and path.is_file()
-    return extension in extensions and (not is_plain_text or _is_data(path))
+    """Return whether a file is in a format that is read, by its extension; text must hold numbers or geometry, too."""
+    extension = Path(without_gz(path.name)).suffix.lower().lstrip(".")
+    return extension in extensions and (extension != "txt" or not path.is_file() or _is_data(path))
 
 
 def _is_data(path: Path) -> bool:
-    """Whether text looks like points or geometry: a readme does not."""
+    """Return whether text looks like points or geometry: a readme does not."""
     try:
         with path.open("rb") as file:
             head = file.read(HEAD)
-    except OSError:  # whoever reads it says what is wrong
+        if head.startswith(GZIP):
+            head = zlib.decompressobj(31).decompress(head, HEAD)
+    except (OSError, zlib.error):  # whoever reads it says what is wrong
         return True
     if b"\0" in head:
         return False

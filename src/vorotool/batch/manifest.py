@@ -7,7 +7,6 @@ import hashlib
 import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import field
 from pathlib import Path, PurePath
 from types import TracebackType
 from typing import Any, BinaryIO
@@ -19,40 +18,37 @@ from vorotool.formats.io.atomic_output import make_folder
 from vorotool.plain import plain
 
 LEVELS = 8
-"""Of brackets in a line; ours have three."""
+"""Levels of brackets in a line; ours have three."""
 
 LONGEST_LINE = 2**24
-"""Bytes of a line that is read; ours have hundreds, and thousands where much was said."""
+"""Bytes of a line that is read; ours have hundreds, and thousands where there are many warnings."""
 
 
 def digest_of_values(values: Any) -> str:
-    """SHA-256 of what JSON can say; other values count by their text."""
+    """Return the SHA-256 of values; what JSON does not have counts by its text."""
     return hashlib.sha256(json.dumps(values, sort_keys=True, default=str).encode()).hexdigest()
 
 
 @plain
 class Done:
-    """A manifest's line of an input that was done: all of it is text that anybody may have written."""
+    """A line of an input that was done: all of it is text that anybody may have written."""
 
-    options: str  # digests of the options and of the input
-    digest: str  # digests of the options and of the input
-    outputs: dict[str, str]  # digests of the outputs by their paths in the folder
+    options: str  # the digest of the options
+    digest: str  # that of the input
+    outputs: dict[str, str]  # those of outputs by their paths in the folder
 
 
-@plain
-class History:
-    """Contents of manifests."""
-
-    done: dict[str, Done] = field(default_factory=dict)  # the last line of each input, if it says that it was done
+History = dict[str, Done]
+"""The last line of each input, if it says that it was done."""
 
 
 def read_history(paths: Iterable[str | os.PathLike[str]]) -> History:
     """Read manifests; a line that is torn or damaged says nothing, so that its input is done again."""
-    history = History()
+    history: History = {}
     for path in map(Path, paths):
         try:
             if path.exists() and not path.is_file():
-                raise OSError(errno.EINVAL, "it is no file")
+                raise OSError(errno.EINVAL, "it is not a file")
             with path.open("rb") as file:
                 for line in _lines(file):
                     _take(history, line)
@@ -64,7 +60,7 @@ def read_history(paths: Iterable[str | os.PathLike[str]]) -> History:
 
 
 def _lines(file: BinaryIO) -> Iterator[bytes]:
-    """Lines; those that are longer than ours can be are left out."""
+    """Yield lines; those that are longer than ours can be are left out."""
     while line := file.readline(LONGEST_LINE):
         if len(line) < LONGEST_LINE:
             yield line
@@ -83,9 +79,9 @@ def _take(history: History, line: bytes) -> None:
     except (InputError, ValueError, TypeError, KeyError):
         return
     if isinstance(source, str) and status != "done":
-        history.done.pop(source, None)
+        history.pop(source, None)
     elif isinstance(source, str) and (done := _done(record)) is not None:
-        history.done[source] = done
+        history[source] = done
 
 
 def _done(record: Mapping[str, Any]) -> Done | None:
@@ -98,7 +94,7 @@ def _done(record: Mapping[str, Any]) -> Done | None:
 
 
 def _leaves(path: str) -> bool:
-    """Whether a path may lead out of the folder that it is in."""
+    """Return whether a path may lead out of the folder that it is in."""
     return PurePath(path).is_absolute() or ".." in PurePath(path).parts
 
 
@@ -110,7 +106,7 @@ class Manifest:
         self._file: BinaryIO | None = None
 
     def __enter__(self) -> Manifest:
-        """Open the file; what a killed run has left of a line is ended."""
+        """Open the file; end a line that a killed run began."""
         make_folder(self.folder)
         try:
             self._file = self.path.open("a+b", buffering=0)
@@ -130,19 +126,19 @@ class Manifest:
             self._file.close()
 
     def done_before(self, source: str, history: History) -> dict[str, str] | None:
-        """Digests of an input (at `INPUT`) and of its outputs by their paths, if it was done with the same options."""
-        record = history.done.get(source)
+        """Return the digests of an input (at `INPUT`) and of its outputs if it was done with the same options."""
+        record = history.get(source)
         if record is None or record.options != self.options:
             return None
         outputs = {str(self.folder / path): digest for path, digest in record.outputs.items()}
         return {INPUT: record.digest, **outputs}
 
     def begin(self, run: str, command: str, inputs: int) -> None:
-        """Say that a run begins, and which tag is in the names of its temporary files."""
+        """Add the line of a run; its name is in the names of its temporary files."""
         self._add({"run": run, "command": command, "version": __version__, "inputs": inputs})
 
     def add(self, task: Task, outcome: Outcome) -> None:
-        """Tell what became of an input; of one that was kept there is a line already."""
+        """Add the line of an input; one that was kept has a line already."""
         if outcome.kept:
             return
         record: dict[str, Any] = {"input": task.source, "status": "failed" if outcome.code else "done"}
@@ -152,8 +148,8 @@ class Manifest:
         if not outcome.code:
             outputs = outcome.outputs.items()
             record["outputs"] = {str(PurePath(path).relative_to(self.folder)): digest for path, digest in outputs}
-        said = {"warnings": outcome.warnings, "notes": outcome.notes}
-        self._add(record | {name: texts for name, texts in said.items() if texts})
+        texts = {"warnings": outcome.warnings, "notes": outcome.notes}
+        self._add(record | {name: lines for name, lines in texts.items() if lines})
 
     def _add(self, record: Mapping[str, Any]) -> None:
         assert self._file is not None

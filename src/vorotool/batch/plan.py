@@ -1,117 +1,237 @@
-"""The plan of a batch: the outputs of each input, checked before anything is written."""
+"""The plan of a batch: its inputs and their outputs, the joint table, the record. Nothing is written."""
 
 from __future__ import annotations
 
-import os
-import stat
-import sys
-from collections.abc import Iterable, Mapping, Sequence
+import re
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path, PurePath
+from typing import Any
 
-from vorotool.batch.inputs import RECORD_ENDING, Input
-from vorotool.batch.pages import path_of
-from vorotool.batch.tasks import Task
-from vorotool.errors import OutputError, UsageError
-from vorotool.formats.io.descriptors import STANDARD, descriptor_of
-from vorotool.formats.io.layer_names import file_of
-from vorotool.formats.io.sources import without_gz
+from vorotool import __version__
+from vorotool.batch.inputs import RECORD_ENDING, Input, expand_inputs, pages_of, read_names
+from vorotool.batch.manifest import Manifest, digest_of_values, read_history
+from vorotool.batch.outputs import check_outputs, output_paths
+from vorotool.batch.tables import TABLE_FORMATS, JointTable, NameFields
+from vorotool.batch.tasks import Task, digest_of
+from vorotool.errors import UsageError
+from vorotool.formats.io.descriptors import STANDARD, stream_kind
+from vorotool.jobs.inputs import is_several
+from vorotool.jobs.job import Recipe
+from vorotool.jobs.options import ALL_PAGES, Options, changed
+from vorotool.jobs.targets import Target, plan_targets
+from vorotool.jobs.units import check_units, lengths_in_pixels
+from vorotool.plain import plain
+from vorotool.products.formats import EXTENSIONS
+from vorotool.products.options import GROUPS
 
-_NOWHERE = (-1, -1)
+WITHOUT_EFFECT = {
+    *(row.parameter for row in GROUPS["Many inputs"]),
+    *("inputs", "output", "threads", "quiet", "verbose", "stats", "no_clobber", "overwrite"),
+    *("max_pixels", "max_sites", "sources"),
+}
+"""Options that change no byte of an output."""
 
-
-def output_paths(name: str, endings: Sequence[str], folder: str | os.PathLike[str]) -> tuple[str, ...]:
-    """Paths of the outputs of an input."""
-    stem = Path(folder) / PurePath(without_gz(os.path.normpath(name))).with_suffix("")
-    return tuple(f"{stem}{ending}" for ending in endings)
-
-
-def check_outputs(
-    tasks: Sequence[Task],
-    folder: str | os.PathLike[str],
-    *,
-    others: Mapping[str, str | None] | None = None,
-    read: Mapping[str, str] | None = None,
-) -> None:
-    """Refuse outputs that would replace an input or one another, or lie outside their folder."""
-    written = {option: path for option, path in (others or {}).items() if path is not None and not _is_open(path)}
-    _check_collisions(tasks, folder, written)
-    _check_inputs(tasks, written, read or {})
-    _check_records(folder, written)
-    check_inside((path for task in tasks for path in task.outputs), folder)
+_NO_ROWS = frozenset(["skeleton", "diagram", "offset", "parts", "cells"])
+"""Results whose JSON is not a list of rows."""
 
 
-def _is_open(path: str) -> bool:
-    """Whether it is open already, so that it is gone on with and never replaced."""
-    return path == STANDARD or descriptor_of(path) is not None
+@plain
+class Plan:
+    """What is to be done."""
+
+    # of the command line, but `what` has all that is computed, and files of one part of the inputs have its name
+    options: Options
+    tasks: list[Task]
+    targets: list[Target]  # what each task writes, in which format; the paths are those of no input
+    table: JointTable | None
+    manifest: Manifest | None  # where it is recorded what was done
+    notes: list[str]  # what is said before the work begins
 
 
-def _check_collisions(tasks: Sequence[Task], folder: str | os.PathLike[str], others: Mapping[str, str]) -> None:
-    owner: dict[str, str] = {}
-    for task in tasks:
-        for path in task.outputs:
-            key = _comparable(path)
-            if owner.get(key) == task.source:
-                raise UsageError(f"{task.source} is given twice: leave one out")
-            if key in owner:
-                raise UsageError(
-                    f"{owner[key]} and {task.source} would both be written to {path}: rename one, "
-                    "or name the folder above both, whose folders are mirrored"
-                )
-            owner[key] = task.source
-    for option, path in others.items():
-        key = _comparable(str(Path(folder) / os.path.relpath(path, folder or ".")))
-        if key in owner:
-            raise UsageError(f"{option} {path} is also the output of {owner[key]}: choose another name")
+def plan_batch(recipe: Recipe, o: Options, *, is_alone: bool) -> Plan:
+    """Lay out a batch, or one input that is processed here and now."""
+    _check_options(o, is_alone=is_alone)
+    o, notes = _named_for_shard(o)
+    table = _joint_table(recipe, o)
+    if o.out_dir is None and o.output is None and table is not None:
+        o, targets = changed(o, what=()), []
+    else:
+        source = o.inputs[0] if is_alone else "input"
+        targets = plan_targets(
+            recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source
+        )  # fmt: skip
+    tasks = _tasks(recipe, o, targets, notes, is_alone=is_alone)
+    manifest = None
+    if o.out_dir is not None and not is_alone:
+        manifest = _manifest(recipe, o, targets)
+        if o.resume:
+            history = read_history(sorted(manifest.folder.glob(f"{recipe.name}*{RECORD_ENDING}")))
+            tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
+    if table is not None:
+        o = changed(o, what=tuple(dict.fromkeys((*o.what, table.what))))
+        targets.append(Target(table.what, f"part.{table.fmt}", table.fmt))
+        notes += table.fields.notes([task.source for task in tasks])
+    check_units(o, targets)
+    o = lengths_in_pixels(o, o.unit)
+    recipe.check(o, targets)
+    return Plan(o, tasks, targets, table, manifest, notes)
 
 
-def _comparable(path: str) -> str:
-    """A path as it is compared: the usual file systems of macOS take A and a for the same."""
-    return path.casefold() if sys.platform == "darwin" else path
+def _check_options(o: Options, *, is_alone: bool) -> None:
+    """Refuse options that do not go together."""
+    if o.null and o.files_from is None:
+        raise UsageError("-0 is about the list of --files-from: leave it out")
+    if o.resume and (o.out_dir is None or is_alone):
+        raise UsageError("--resume needs --out-dir DIR, which has the record of what was done, and files as inputs")
+    if is_alone:
+        return
+    inputs = _several(o)
+    if o.output is not None:
+        raise UsageError(f"{inputs}, but -o names one output: name a folder for all with --out-dir")
+    if o.out_dir is None and o.table is None and o.table_inputs is None:
+        raise UsageError(f"{inputs}: name a folder for their outputs with --out-dir")
+    for name, path in o.files_of_inputs().items():
+        if (kind := stream_kind(path)) is not None:
+            what = "standard input" if path == STANDARD else kind
+            raise UsageError(f"--{name} {path} is {what}, which not every input can read: name a file")
+    if o.cluster not in (None, "local") and o.jobs is not None:
+        raise UsageError("-j is for this machine: a cluster has the workers that it has")
 
 
-def _check_inputs(tasks: Sequence[Task], others: Mapping[str, str], read: Mapping[str, str]) -> None:
-    """An output that is there already may be what is read, by a link or by the same name."""
-    sources = {_identity(path): f"file of {option}, {path}" for option, path in read.items()}
-    sources |= {_identity(path_of(task.source)): f"input {path_of(task.source)}" for task in tasks}
-    sources.pop(_NOWHERE, None)
-    for path in (path for task in tasks for path in task.outputs):
-        if (source := sources.get(_identity(path))) is not None:
-            raise UsageError(f"{path} is also the {source}, which is never replaced: choose another --out-dir")
-    for option, path in others.items():
-        if (source := sources.get(_identity(path))) is not None:
-            raise UsageError(f"{option} {path} is also the {source}, which is never replaced: choose another name")
+def _several(o: Options) -> str:
+    """Return why this is a batch, by what the user typed."""
+    if len(o.inputs) > 1:
+        return f"{len(o.inputs)} inputs are given"
+    if o.files_from is not None:
+        return f"--files-from {o.files_from} lists inputs"
+    if any(map(is_several, o.inputs)):
+        return f"{o.inputs[0]} stands for several inputs"
+    return "--page all makes each page an input" if o.page == ALL_PAGES else "--cluster is for several inputs"
 
 
-def _check_records(folder: str | os.PathLike[str], others: Mapping[str, str]) -> None:
-    """The records of batches in the folder are not written over: `--resume` reads them."""
-    for option, path in others.items():
-        place = Path(os.path.realpath(path))
-        if place.name.endswith(RECORD_ENDING) and folder and place.parent == Path(os.path.realpath(folder)):
-            raise UsageError(f"{option} {path} is the name of a record that --resume reads: choose another name")
+# ---- the inputs and their outputs --------------------------------------------------------------------------------
+def _tasks(recipe: Recipe, o: Options, targets: list[Target], notes: list[str], *, is_alone: bool) -> list[Task]:
+    """Return the tasks of the shard, after a check of all."""
+    if is_alone:
+        inputs = [Input(o.inputs[0], Path(o.inputs[0]).name)]
+        tasks = [Task(o.inputs[0], tuple(target.path for target in targets))]
+    else:
+        inputs = _inputs(recipe, o, notes.append)
+        folder = o.out_dir or ""  # without one there are no targets
+        endings = [target.path.removeprefix(str(Path(folder) / "input")) for target in targets]
+        tasks = [Task(each.source, output_paths(each.name, endings, folder), each.path, each.page) for each in inputs]
+    others = {"--table": o.table, "--table-inputs": o.table_inputs, "--stats": o.stats}
+    check_outputs(tasks, None if is_alone else o.out_dir, others=others, read=o.files_read())
+    if o.shard is None:
+        return tasks
+    chosen = {each.source for each in share(inputs, *o.shard)}
+    if is_alone and not chosen:
+        notes.append(f"{o.inputs[0]} is in part 1 of {o.shard[1]}: nothing is done for part {o.shard[0]}")
+    return [task for task in tasks if task.source in chosen]
 
 
-def _identity(path: str) -> tuple[int, int]:
-    """The identity of a file in the file system; nothing for one that is not there, or that is a stream."""
-    try:
-        found = Path(file_of(path)).stat()
-    except (OSError, ValueError):
-        return _NOWHERE
-    is_held = stat.S_ISREG(found.st_mode) or stat.S_ISDIR(found.st_mode)
-    return (found.st_dev, found.st_ino) if is_held else _NOWHERE
+def _inputs(recipe: Recipe, o: Options, note: Callable[[str], None]) -> list[Input]:
+    from vorotool.products.inputs import NAMES_WITH, TABLE_NAMES
+
+    geometry = recipe.geometry or "polygons"
+    known = NAMES_WITH[geometry].keys() - (TABLE_NAMES if geometry == "polygons" else set())
+    names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
+    if not names:
+        raise UsageError(f"no input given: --files-from {o.files_from} holds no names; write one on each line")
+    inputs = expand_inputs(names, extensions=known, without=o.out_dir, follow=o.follow, note=note)
+    return pages_of(inputs) if o.page == ALL_PAGES else inputs
 
 
-def check_inside(paths: Iterable[str | os.PathLike[str]], folder: str | os.PathLike[str]) -> None:
-    """Refuse files that would be written outside a folder, through links in it."""
-    inside, known = Path(os.path.realpath(folder)), set[Path]()
-    for path in map(Path, paths):
-        place = path if path.is_symlink() else path.parent
-        if place not in known and not Path(os.path.realpath(place)).is_relative_to(inside):
-            raise OutputError(f"{path} would lie outside {inside}, through a link: remove the link")
-        known.add(place)
-
-
-def share(inputs: Iterable[Input], part: int, parts: int) -> list[Input]:
+def share(inputs: list[Input], part: int, parts: int) -> list[Input]:
     """Return one part of the inputs: every `parts`-th in the order of their names, beginning with number `part`."""
-    inputs = list(inputs)
     ranked = sorted(range(len(inputs)), key=lambda i: (PurePath(inputs[i].name).as_posix(), inputs[i].source))
     return [inputs[i] for i in sorted(ranked[part - 1 :: parts])]
+
+
+def _named_for_shard(o: Options) -> tuple[Options, list[str]]:
+    """Give the tables and the statistics of a part names of their own: parts would replace those of each other."""
+    named: dict[str, Any] = {}
+    for option in ("table", "table_inputs", "stats") if o.shard is not None else ():
+        path = getattr(o, option)
+        if path is not None and (name := _name_of_part(path, *o.shard)) != path:
+            named[option] = name
+    part = "" if o.shard is None else "part {} of {}".format(*o.shard)
+    return changed(o, **named), [f"--{name.replace('_', '-')} of {part} is {path}" for name, path in named.items()]
+
+
+def _name_of_part(path: str, part: int, parts: int) -> str:
+    """Return the name of a part's file, like that of its manifest; streams and names that have the part stay."""
+    name, mark = Path(path), f"{part}-of-{parts}"
+    if parts == 1 or not name.name or stream_kind(path) is not None or mark in re.split("[._]", name.name):
+        return path
+    return str(name.with_name(f"{name.stem}.{mark}{name.suffix}"))
+
+
+# ---- the joint table and the record ------------------------------------------------------------------------------
+def _joint_table(recipe: Recipe, o: Options) -> JointTable | None:
+    """Return the table of all inputs; -f is its format where there is no other output."""
+    fields = NameFields.of(o.fields)
+    if o.table is None and o.table_inputs is None:
+        if o.fields is not None:
+            raise UsageError("--fields is for the columns of --table and --table-inputs: name such a file")
+        return None
+    inputs = None if o.table_inputs is None else (o.table_inputs, _table_format("--table-inputs", o.table_inputs))
+    has_outputs = o.out_dir is not None or o.output is not None
+    fmt = "csv" if o.table is None else _table_format("--table", o.table, None if has_outputs else o.format)
+    what = _collected(recipe, o, fmt)
+    return JointTable(o.table, fmt, what, fields, inputs, o.safe_csv, o.unit is not None)
+
+
+def _table_format(option: str, path: str, fmt: str | None = None) -> str:
+    """Return the format of a table, by default by its name; a stream is CSV."""
+    usual = "" if stream_kind(path) is None else "csv"
+    fmt = fmt.lower() if fmt is not None else EXTENSIONS.get(Path(path).suffix.lower(), usual)
+    if fmt not in TABLE_FORMATS:
+        raise UsageError(f"{option} {path} is written as CSV, TSV or JSON: name it .csv, .tsv or .json")
+    return fmt
+
+
+def _collected(recipe: Recipe, o: Options, fmt: str) -> str:
+    """Return the result whose rows are collected: one of --what, if that is a table, else `table`."""
+    has_what, has_outputs = "what" in o.sources, o.out_dir is not None or o.output is not None
+    if not has_what or "table" in o.what:
+        results = ["table"]
+    elif has_outputs:  # results with geometry are written by themselves
+        tables = [what for what in o.what if "csv" in recipe.formats[what] and "geojson" not in recipe.formats[what]]
+        results = tables or ["table"]
+    else:
+        results = list(o.what)
+    if (has_what and not has_outputs and len(o.what) > 1) or len(results) > 1:
+        raise UsageError(
+            f"--what {','.join(o.what)}: --table collects the rows of one result; other results need -o FILE or "
+            "--out-dir DIR"
+        )
+    (what,) = results
+    if fmt not in recipe.formats.get(what, ()) or (fmt == "json" and what in _NO_ROWS):
+        possible = [name for name, formats in recipe.formats.items() if "csv" in formats]
+        raise UsageError(f"--table cannot collect {what} as {fmt.upper()}: use --what {', '.join(possible)} as CSV")
+    return what
+
+
+def _manifest(recipe: Recipe, o: Options, targets: list[Target]) -> Manifest:
+    """Return the record of this batch, or of this part of it."""
+    digest = digest_of_values(
+        {
+            "version": __version__,
+            "options": {name: value for name, value in vars(o).items() if name not in WITHOUT_EFFECT},
+            "files": {name: _digest(name, path) for name, path in o.files_of_inputs().items()},
+            "outputs": [(target.what, target.fmt) for target in targets],
+        }
+    )
+    shard = "" if o.shard is None else ".{}-of-{}".format(*o.shard)
+    return Manifest(Path(o.out_dir) / f"{recipe.name}{shard}{RECORD_ENDING}", digest, o.out_dir)
+
+
+def _digest(name: str, path: str) -> str:
+    """Return the digest of a file that is read with all inputs; of that of ``--like`` its header."""
+    if name != "like":
+        return digest_of(path)
+    from vorotool.formats.images.image_header import image_header
+
+    return repr(image_header(path))

@@ -6,134 +6,89 @@ import fnmatch
 import glob
 import os
 from collections import deque
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from vorotool.errors import InputError
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.zarr.store import is_folder, is_store
-from vorotool.plain import plain
+from vorotool.jobs.inputs import is_searched
 
 MOST_NAMED = 10
 """Names that a note lists."""
 
+ANY = "**"
+"""The part of a pattern that stands for any folders, or none."""
 
-@dataclass
-class LeftOut:
-    """Names that a search found and left out."""
 
-    streams: list[str] = field(default_factory=list)  # pipes, sockets and devices, each with its kind
-    links: list[str] = field(default_factory=list)  # links to folders that were not followed
-    unknown: list[str] = field(default_factory=list)  # files in folders that are not in a format that is read
+class Search:
+    """A search of folders, which knows what it left out."""
+
+    def __init__(self, *, follow: bool = False, excluded: str | os.PathLike[str] | None = None) -> None:
+        self._follow = follow  # links to folders
+        self._excluded = None if excluded is None else os.path.realpath(excluded)
+        self._streams: list[str] = []  # pipes, sockets and devices, each with its kind
+        self._links: set[str] = set()  # links to folders that were not followed
+        self.unknown: list[str] = []  # files in folders that are not in a format that is read
 
     def notes(self) -> list[str]:
-        """Return a line for each kind, with a count and the first names."""
-        said = [f"{stream}: left out" for stream in self.streams]
-        links = set(self.links)
-        if count := len(links):
+        """Return a line for each kind that was left out, with a count and the first names."""
+        lines = [f"{stream}: left out" for stream in self._streams]
+        if count := len(self._links):
             kind = "link to a folder" if count == 1 else "links to folders"
-            said.append(f"{count} {kind} not followed (use --follow): {_listed(links)}")
+            lines.append(f"{count} {kind} not followed (use --follow): {_listed(self._links)}")
         if count := len(self.unknown):
             kind = "file" if count == 1 else "files"
-            said.append(f"{count} {kind} left out, not in a format that is read here: {_listed(self.unknown)}")
-        return said
+            lines.append(f"{count} {kind} left out, not in a format that is read here: {_listed(self.unknown)}")
+        return lines
 
     def reasons(self) -> str:
         """Return the notes as a part of a message that nothing was found."""
         return "".join(f"; {note}" for note in self.notes())
 
-    def files(self, paths: Iterable[Path]) -> list[Path]:
-        """Sort paths, and leave out streams."""
-        found = []
-        for path in sorted(set(paths)):
-            kind = stream_kind(str(path))
-            if kind is None:
-                found.append(path)
-            else:
-                self.streams.append(f"{path} is {kind}")
-        return found
+    def files(self, paths: Collection[Path]) -> list[Path]:
+        """Sort paths and leave out streams."""
+        kinds = {path: stream_kind(str(path)) for path in sorted(paths)}
+        self._streams += [f"{path} is {kind}" for path, kind in kinds.items() if kind is not None]
+        return [path for path, kind in kinds.items() if kind is None]
+
+    def matches(self, root: Path, parts: tuple[str, ...]) -> Iterator[Path]:
+        """Yield the files and Zarr stores below a folder that match a pattern, once each."""
+        waiting, seen = deque([(root, parts)]), set[tuple[str, tuple[str, ...]]]()
+        while waiting:
+            folder, (part, *rest) = waiting.popleft()
+            inner = (ANY, *rest) if part == ANY else tuple(rest)
+            here = os.path.realpath(folder)
+            if (here, (part, *rest)) in seen or (part == ANY and here == self._excluded and folder != root):
+                continue
+            seen.add((here, (part, *rest)))
+            if part == ANY:
+                waiting.appendleft((folder, tuple(rest) or ("*",)))
+            for path in _entries(folder, part):
+                if not is_searched(path):
+                    if not inner:
+                        yield path
+                elif inner and not (path.is_symlink() and glob.has_magic(part)):
+                    waiting.appendleft((path, inner))
+                elif inner and self._follow:
+                    waiting.append((path, inner))  # after the folders themselves, whose names are the better ones
+                elif inner:
+                    self._links.add(str(path))
+
+
+def _entries(folder: Path, part: str) -> list[Path]:
+    """Return what a part of a pattern matches in a folder."""
+    if not glob.has_magic(part):
+        return [folder / part] if os.path.lexists(folder / part) else []
+    try:
+        names = os.listdir(folder)  # noqa: PTH208, since a path for each name takes time
+    except OSError as error:
+        if part == ANY and is_searched(folder):
+            raise InputError(f"the folder {folder} cannot be read: {error.strerror}; check who owns it") from None
+        return []
+    shown = [name for name in names if part.startswith(".") or not name.startswith(".")]
+    return [folder / name for name in (shown if part == ANY else fnmatch.filter(shown, part))]
 
 
 def _listed(names: Collection[str]) -> str:
     more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
     return ", ".join(sorted(names)[:MOST_NAMED]) + more
-
-
-@plain
-class Search:
-    """A search of folders."""
-
-    left_out: LeftOut  # takes links that are not followed
-    follow: bool = False  # follow links to folders
-    excluded: str | None = None  # the real path of a folder that is not searched
-
-    def folders(self, root: Path) -> Iterator[tuple[Path, list[str]]]:
-        """Yield a folder and those below it, each with the names of its files and Zarr stores."""
-
-        def fail(error: OSError) -> None:
-            raise InputError(f"the folder {error.filename} cannot be read: {error.strerror}; check who owns it")
-
-        seen: set[str] = set()
-        waiting = deque([root])
-        while waiting:
-            for name, folders, files in os.walk(waiting.popleft(), onerror=fail):
-                place, here = Path(name), os.path.realpath(name)
-                if here in seen or (here == self.excluded and place != root):
-                    folders.clear()
-                    continue
-                seen.add(here)
-                inner = [place / each for each in sorted(folders) if not each.startswith(".")]
-                stores = [path for path in inner if is_store(path)]
-                links = [path for path in inner if path.is_symlink() and path not in stores]
-                folders[:] = [path.name for path in inner if path not in stores and path not in links]
-                if self.follow:
-                    waiting.extend(links)
-                else:
-                    self.left_out.links.extend(map(str, links))
-                yield place, [*files, *(path.name for path in stores)]
-
-    def matches(self, pattern: str) -> Iterator[Path]:
-        """Yield the paths that match a pattern of ``*``, ``?``, ``[...]`` and ``**``, which stands for any folders."""
-        seen: set[tuple[str, str]] = set()
-        for path in self._below(Path(), Path(pattern).parts):
-            identity = os.path.realpath(path.parent), path.name
-            if identity not in seen:
-                seen.add(identity)
-                yield path
-
-    def _below(self, base: Path, parts: Sequence[str]) -> Iterator[Path]:
-        if not parts:
-            yield base
-            return
-        part, rest = parts[0], parts[1:]
-        if part == "**":
-            for place, names in self.folders(base):
-                shown = [place / name for name in names if not name.startswith(".")]
-                yield from self._below(place, rest) if rest else shown
-        elif not glob.has_magic(part):
-            path = base / part
-            if os.path.lexists(path):
-                yield from self._below(path, rest)
-        else:
-            for path in _paths_in(base):
-                is_shown = part.startswith(".") or not path.name.startswith(".")
-                if is_shown and fnmatch.fnmatch(path.name, part) and (not rest or self._enters(path)):
-                    yield from self._below(path, rest)
-
-    def _enters(self, path: Path) -> bool:
-        """Whether a match is searched further: a link to a folder only on request, and not to a folder above it."""
-        if not is_folder(path) or not path.is_symlink():
-            return is_folder(path)
-        if not self.follow:
-            self.left_out.links.append(str(path))
-            return False
-        return os.path.realpath(path) not in map(os.path.realpath, path.parents)
-
-
-def _paths_in(folder: Path) -> list[Path]:
-    """Return sorted paths, none of what is no folder or cannot be read."""
-    try:
-        return sorted(folder.iterdir())
-    except OSError:
-        return []

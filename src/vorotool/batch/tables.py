@@ -1,4 +1,4 @@
-"""One table of those of all inputs."""
+"""One table of those of all inputs, and a table with a row an input."""
 
 from __future__ import annotations
 
@@ -11,16 +11,107 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from vorotool.batch.name_fields import NameFields
-from vorotool.errors import InputError
+from vorotool.batch.tasks import Outcome, Task
+from vorotool.errors import InputError, Message, UsageError
+from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.text.tables import safe_text
+from vorotool.plain import plain
 
 TABLE_FORMATS = ("csv", "tsv", "json")
 """Formats that are joined row by row."""
 
+EXAMPLE = "(?P<well>[A-H]\\d+)_(?P<field>\\d+)"
+
+_OF_INPUTS = ("input", "status", "count", "error")
+"""Columns of the table of inputs."""
+
+
+@plain
+class NameFields:
+    """Columns of what the named groups of a regular expression match in the names of inputs."""
+
+    pattern: re.Pattern[str] | None = None
+
+    @staticmethod
+    def of(text: str | None) -> NameFields:
+        """Read a regular expression with named groups; None has no columns."""
+        try:
+            pattern = None if text is None else re.compile(text)
+        except (re.error, OverflowError, RecursionError) as error:
+            raise UsageError(
+                f"invalid --fields {text!r}: {error}; expected a regular expression, such as '{EXAMPLE}'"
+            ) from None
+        if pattern is not None and not pattern.groupindex:
+            raise UsageError(f"invalid --fields {text!r}: no group has a name; write (?P<name>...), as in '{EXAMPLE}'")
+        return NameFields(pattern)
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the groups, in order."""
+        return [] if self.pattern is None else list(self.pattern.groupindex)
+
+    def values(self, source: str) -> list[str | None]:
+        """Return what the groups match in the path of an input; None where they match nothing."""
+        match = self._match(source)
+        return [match and match[name] for name in self.names]
+
+    def _match(self, source: str) -> re.Match[str] | None:
+        return self.pattern and self.pattern.search(source.replace("\\", "/"))
+
+    def notes(self, sources: Sequence[str]) -> list[str]:
+        """Return a line on the names that do not match, if there are any."""
+        left = [source for source in sources if self.pattern and not self._match(source)]
+        if not left:
+            return []
+        number = f"{len(left)} of {len(sources)}"
+        return [f"--fields does not match {number} inputs, such as {left[0]}: their fields are empty"]
+
+
+@plain
+class JointTable:
+    """The tables that are written of all inputs."""
+
+    path: str | None  # where the rows of all go; None where they are only counted
+    fmt: str
+    what: str  # the result whose rows it has
+    fields: NameFields
+    inputs: tuple[str, str] | None  # where there is a row an input, and in which format
+    is_safe: bool  # texts are not formulas
+    has_unit: bool  # tables have a column of their unit
+
+    @property
+    def place(self) -> str:
+        """The path of one of them."""
+        return self.path or self.inputs[0]  # type: ignore[index]  # one of the two is there
+
+    def write(self, tasks: Sequence[Task], outcomes: Sequence[Outcome], *, no_clobber: bool) -> None:
+        """Write the rows of all inputs that were done, which the last output of each task has, and a row an input."""
+        done = [
+            (task.source, task.outputs[-1]) for task, outcome in zip(tasks, outcomes, strict=True) if not outcome.code
+        ]
+        if self.path is not None:
+            with open_output(self.path, no_clobber=no_clobber, option="--table") as out:
+                join_tables(out, done, self.fmt, fields=self.fields, is_safe=self.is_safe, has_unit=self.has_unit)
+        if self.inputs is not None:
+            counts = {source: row_count(path, self.fmt) for source, path in done}
+            rows = [self._row(task.source, outcome, counts) for task, outcome in zip(tasks, outcomes, strict=True)]
+            with open_output(self.inputs[0], no_clobber=no_clobber, option="--table-inputs") as out:
+                write_inputs(out, rows, self.inputs[1], is_safe=self.is_safe)
+
+    def _row(self, source: str, outcome: Outcome, counts: Mapping[str, int]) -> dict[str, Any]:
+        """Return the row of an input."""
+        names = [f"voro_{name}" if name in _OF_INPUTS else name for name in self.fields.names]
+        row = {"input": source, **dict(zip(names, self.fields.values(source), strict=True))}
+        return {
+            **row,
+            "status": outcome.status,
+            "count": counts.get(source),
+            "error": Message.of(outcome.message) or None,
+        }
+
 
 def part_path(folder: str | os.PathLike[str], source: str, fmt: str) -> str:
-    """Where the table of an input is kept until all are there."""
+    """Return where the table of an input is kept until all are there."""
     return str(Path(folder) / f"{hashlib.sha256(os.fsencode(source)).hexdigest()[:32]}.{fmt}")
 
 
@@ -33,7 +124,7 @@ def join_tables(
     is_safe: bool = False,
     has_unit: bool = False,
 ) -> None:
-    """Write the rows of several tables as one, after columns that name their input and what its name tells."""
+    """Write the rows of several tables as one, after columns of the input and of the fields of its name."""
     fields = fields or NameFields()
     if has_unit:
         _check_units(parts, fmt)
@@ -46,12 +137,11 @@ def join_tables(
 def write_inputs(out: BinaryIO, rows: Sequence[Mapping[str, Any]], fmt: str, *, is_safe: bool = False) -> None:
     """Write a row an input."""
     if fmt == "json":
-        lines = [json.dumps(row).encode() for row in rows]
-        out.write(b"[\n" + b",\n".join(lines) + b"\n]\n")
+        out.write(b"[\n" + b",\n".join(json.dumps(row).encode() for row in rows) + b"\n]\n")
         return
     delimiter = b"\t" if fmt == "tsv" else b","
-    for row in [{name: name for name in rows[0]}, *rows] if rows else []:
-        out.write(delimiter.join(_field(value, is_safe=is_safe) for value in row.values()) + b"\n")
+    for row in [[*rows[0]], *(row.values() for row in rows)] if rows else []:
+        out.write(delimiter.join(_field(value, is_safe=is_safe) for value in row) + b"\n")
 
 
 def row_count(path: str, fmt: str) -> int:
@@ -62,19 +152,19 @@ def row_count(path: str, fmt: str) -> int:
 
 
 def _check_units(parts: Sequence[tuple[str, str]], fmt: str) -> None:
-    """Refuse tables in different units; those without rows are in none."""
+    """Refuse tables in different units; those without rows have none."""
     first: tuple[str, str] | None = None
     for source, path in parts:
         row = _first_row(path, fmt)
         if row is None:
             continue
         unit = row.get("voro_unit", row.get("unit"))
-        said = f"in {unit}" if unit else "in no unit"
-        if first is not None and first[1] != said:
+        text = f"in {unit}" if unit else "in no unit"
+        if first is not None and first[1] != text:
             raise InputError(
-                f"{source} is {said}, but {first[0]} {first[1]}: give --pixel-size for all, or a --table to each unit"
+                f"{source} is {text}, but {first[0]} {first[1]}: give --pixel-size for all, or a --table to each unit"
             )
-        first = first or (source, said)
+        first = first or (source, text)
 
 
 def _first_row(path: str, fmt: str) -> dict[str, Any] | None:
@@ -86,7 +176,7 @@ def _first_row(path: str, fmt: str) -> dict[str, Any] | None:
 
 
 def _columns(headers: Iterable[Iterable[bytes]], fields: NameFields) -> tuple[list[bytes], list[bytes]]:
-    """Our columns and all others; ours take the prefix ``voro_`` where an input has one of their name."""
+    """Return our columns and all others; ours take the prefix ``voro_`` where an input has one of their name."""
     names = list(dict.fromkeys(name for header in headers for name in header))
     ours = [name.encode() for name in ("input", *fields.names)]
     return [b"voro_" + name if name in names else name for name in ours], names
@@ -105,39 +195,26 @@ def _join_delimited(
     out: BinaryIO, parts: Sequence[tuple[str, str]], delimiter: bytes, own: NameFields, *, is_safe: bool
 ) -> None:
     fields_of = _FIELDS[delimiter].findall
-    ours, names = _columns((tuple(_header(path, delimiter)) for _, path in parts), own)
+    headers = (_RECORD.match(Path(path).read_bytes()) for _, path in parts)
+    ours, names = _columns((fields_of(header[0][:-1]) for header in headers if header), own)
     out.write(delimiter.join([*ours, *names]) + b"\n")
     for source, path in parts:
-        header, *records = _RECORD.findall(Path(path).read_bytes())
+        head, *records = _RECORD.findall(Path(path).read_bytes())
         texts = [_field(value, is_safe=is_safe) for value in (source, *own.values(source))]
         before = b"".join(text + delimiter for text in texts)
-        place = _places(fields_of(header[:-1]), names)
+        header = fields_of(head[:-1])
+        places = [header.index(name) if name in header else -1 for name in names]  # the last is empty
         for record in records:
-            if place is None:
+            if header == names:
                 out.write(before + record)
             else:
                 fields = [*fields_of(record[:-1]), b""]
-                out.write(before + delimiter.join(fields[at] for at in place) + b"\n")
-
-
-def _header(path: str, delimiter: bytes) -> list[bytes]:
-    found = _RECORD.match(Path(path).read_bytes())
-    return [] if found is None else _FIELDS[delimiter].findall(found[0][:-1])
-
-
-def _places(header: list[bytes], names: list[bytes]) -> list[int] | None:
-    """Where each column is, at the end those that are not; None if all are where they should be."""
-    return None if header == names else [header.index(name) if name in header else -1 for name in names]
+                out.write(before + delimiter.join(fields[at] for at in places) + b"\n")
 
 
 def _field(value: Any, *, is_safe: bool) -> bytes:
-    """Return the text of a field; nothing for None."""
-    text = "" if value is None else str(value)
-    return _quoted(safe_text(text) if is_safe else text)
-
-
-def _quoted(name: str) -> bytes:
-    text = os.fsencode(name)
+    """Return the text of a field, in quotes where it needs them; nothing for None."""
+    text = os.fsencode("" if value is None else safe_text(str(value)) if is_safe else str(value))
     return text if re.fullmatch(rb"[\w./+@=~%'-]*", text) else b'"' + text.replace(b'"', b'""') + b'"'
 
 
@@ -157,12 +234,12 @@ def _join_json(out: BinaryIO, parts: Sequence[tuple[str, str]], own: NameFields)
 
 
 def _json_rows(path: str) -> Iterator[bytes]:
-    """Text of each object: our tables have one a line."""
+    """Yield the text of each object: our tables have one a line."""
     with Path(path).open("rb") as file:
         yield from (line.rstrip(b",\n") for line in file if line.startswith(b"{"))
 
 
 def _json_header(path: str) -> list[bytes]:
-    """Names of columns, as they are written."""
+    """Return the names of columns, as they are written."""
     row: dict[str, Any] = json.loads(next(_json_rows(path), b"{}"))
     return [json.dumps(name, ensure_ascii=False)[1:-1].encode() for name in row]

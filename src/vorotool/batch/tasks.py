@@ -1,90 +1,122 @@
-"""One input of a batch, and what became of it: what is sent to those who do the work and what they send back."""
+"""Tasks of a batch and their outcomes: what is sent to workers, and what they send back."""
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Generator, Hashable, Iterator, Mapping, MutableMapping
 from dataclasses import field, replace
+from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from vorotool import __version__
-from vorotool.batch.pages import path_of
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.layer_names import file_of
 from vorotool.formats.io.temporaries import tagged_temporaries
 from vorotool.plain import plain
 
 INPUT = ""
-"""Stands for the input where digests are by the paths of outputs."""
+"""Key of the input where digests are by the paths of outputs."""
+
+T = TypeVar("T")
+Key = TypeVar("Key", bound=Hashable)
+Result = TypeVar("Result")
 
 
 @plain
 class Task:
     """The work for one input."""
 
-    source: str  # path of the input
+    source: str  # what messages, tables and the record call the input: its path, or a page of it
     outputs: tuple[str, ...]  # paths of its outputs
-    tag: str = ""  # in the names of temporary files, so that those of a killed process can be told
+    path: str = ""  # the file, where `source` is more than that
+    page: int | None = None
+    tag: str = ""  # in the names of temporary files, so that those of a killed process are known
     # digests of the input (at `INPUT`) and of outputs when it was done before, with the same options
     done: Mapping[str, str] | None = None
+
+    @property
+    def file(self) -> str:
+        """The path of the input."""
+        return self.path or self.source
 
 
 @plain
 class Outcome:
     """The outcome of one input."""
 
-    code: int = 0  # the exit code that it would have alone; 0 is done
-    message: str = ""  # what went wrong
+    code: int = 0  # the exit code that this input would give on its own; 0 is done
+    message: str = ""  # the error
     warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     stats: Mapping[str, Any] = field(default_factory=dict)  # counts and sizes
     seconds: Mapping[str, float] = field(default_factory=dict)  # seconds a phase
     digest: str = ""  # SHA-256 of the input
     outputs: Mapping[str, str] = field(default_factory=dict)  # SHA-256 of the outputs, by their paths
-    kept: bool = False  # nothing was done, as all was there
+    kept: bool = False  # it was done before
     version: str = __version__  # of the package that did it
 
+    @property
+    def status(self) -> str:
+        """What became of the input, in a word."""
+        return "kept" if self.kept else "failed" if self.code else "done"
 
-Process = Callable[[str, Sequence[str]], Outcome]
-"""``process(source, outputs)`` does what a command does with one input, and tells what became of it: of what goes
-wrong it raises only what ends the whole program. It can be pickled."""
+
+Process = Callable[[Task], Outcome]
+"""Does what a command does with one input. It can be pickled, and raises only what ends the whole program."""
+
+Results = Callable[[Iterator[tuple[int, Task]]], Generator[tuple[int, Outcome], None, None]]
+"""Does numbered tasks, which it takes when a worker is free, and yields the outcome of each."""
+
+
+def keep_busy(
+    items: Iterator[T],
+    start: Callable[[T], Key],
+    done: Iterator[tuple[Key, Result]],
+    most: int,
+    going: MutableMapping[Key, T],
+) -> Iterator[tuple[T, Key, Result]]:
+    """Start items, `most` at a time; yield each with its key and result when it is done."""
+    for item in islice(items, most):
+        going[start(item)] = item
+    while going:
+        key, result = next(done)
+        yield going.pop(key), key, result
+        for item in islice(items, 1):
+            going[start(item)] = item
 
 
 def carry_out(process: Process, task: Task) -> Outcome:
-    """Do what is to be done with one input, unless it is done already, and take the digests of what is there then."""
-    digest = digest_of(path_of(task.source))
-    if task.done is not None and is_done(task, digest):
+    """Do a task, unless it was done before, and take the digests of its files."""
+    digest = digest_of(task.file)
+    if is_done(task, digest):
+        assert task.done is not None
         return Outcome(digest=digest, outputs={path: task.done[path] for path in task.outputs}, kept=True)
     with tagged_temporaries(task.tag):
-        outcome = process(task.source, task.outputs)
+        outcome = process(task)
     outputs = {} if outcome.code else {path: digest_of(path) for path in task.outputs}
     return replace(outcome, digest=digest, outputs=outputs)
 
 
 def is_done(task: Task, digest: str) -> bool:
-    """Whether an input with this digest was done before, and its outputs are still what they were then."""
+    """Return whether an input with this digest was done before, and its outputs are unchanged."""
     done = task.done
-    if not digest or done is None or done[INPUT] != digest or not all(path in done for path in task.outputs):
+    if not digest or done is None or done[INPUT] != digest:
         return False
-    return all(digest_of(path) == done[path] for path in task.outputs)
+    return all(path in done and digest_of(path) == done[path] for path in task.outputs)
 
 
 def digest_of(path: str) -> str:
-    """SHA-256 of a file, or of the names and digests of those in a folder, as text; empty where nothing can be read."""
+    """Return the SHA-256 of a file, or of the names and digests in a folder; empty where nothing can be read."""
     path = file_of(path)
     try:
         if Path(path).is_dir():
-            return _digest_of_folder(Path(path))
+            names = sorted(each.relative_to(path).as_posix() for each in Path(path).rglob("*") if each.is_file())
+            lines = [f"{digest_of(str(Path(path) / name))} {name}\n" for name in names]
+            return hashlib.sha256("".join(lines).encode()).hexdigest()
         if stream_kind(path) is not None:
             return ""
         with Path(path).open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
     except (OSError, ValueError):
         return ""
-
-
-def _digest_of_folder(folder: Path) -> str:
-    files = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
-    lines = [f"{digest_of(str(folder / name))} {name}\n" for name in files]
-    return hashlib.sha256("".join(lines).encode()).hexdigest()

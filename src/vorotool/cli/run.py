@@ -29,19 +29,13 @@ def run_command(recipe: Recipe, o: Options) -> None:
     check_streams([*(("the input", name) for name in o.inputs), *o.files_read().items()])
     o = with_spacing(_workers_chosen(o, from_environment))
     is_many = _is_batch(o)
-    if is_many or (o.inputs and o.is_shared):
-        has_what = "what" in o.sources
-        if is_many:
-            from vorotool.cli.batch.run_many import run_many
-
-            run_many(recipe, o, has_what=has_what, bar=progress_bar)
-        else:
-            from vorotool.cli.batch.one_input import run_one
-
-            run_one(recipe, o, has_what=has_what, bar=progress_bar)
-        return
-    if not o.inputs:
+    if not o.inputs and not is_many:
         raise UsageError("no input given: name a file, a folder, or - for standard input")
+    if is_many or o.is_shared:
+        from vorotool.batch.run import run_batch
+
+        run_batch(recipe, o, is_alone=not is_many, bar=progress_bar)
+        return
     (path,) = o.inputs
     targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=path)
     check_stats(o, targets, path)

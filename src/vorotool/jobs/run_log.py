@@ -110,8 +110,8 @@ class Run:
             if self._inner:
                 self._inner[-1] += elapsed
 
-    def progress(self, label: str) -> Progress:
-        """Give what shows a bar on a terminal, once the work has taken a second; a phase has its own."""
+    def progress(self, label: str, *, after: float = PROGRESS_AFTER) -> Progress:
+        """Return what shows a bar on a terminal, once the work has taken a second; a phase has its own."""
         make_bar = self._make_bar
         if make_bar is None or not sys.stderr.isatty():
             return None
@@ -120,7 +120,7 @@ class Run:
 
         def show(fraction: float) -> None:
             if not bar:
-                if time.monotonic() - start < PROGRESS_AFTER:
+                if time.monotonic() - start < after:
                     return
                 end_by_exceptions()  # a bar that is left as it is hides the cursor
                 bar.append(self._stack.enter_context(make_bar(label)))

@@ -191,7 +191,7 @@ def _write_on_cluster(
     run: Run, folder: Path, band_of: Callable[[int, int], Band], limits: Limits, *, address: str, jobs: int | None
 ) -> None:
     """Let a cluster compute the parts of an image or a volume, and write them into a store."""
-    from vorotool.batch.dask_bands import write_bands
+    from vorotool.batch.cluster import write_bands
 
     show = run.progress("tessellate")
     bands = ((first, band_of(first, count)) for first, count in limits)

@@ -95,7 +95,7 @@ def test_a_cluster_that_is_started_here(run, many):
 
 
 def test_what_a_cluster_needs(run, many, monkeypatch):
-    monkeypatch.setattr("vorotool.batch.dask_cluster.PATIENCE", 0.2)
+    monkeypatch.setattr("vorotool.batch.cluster.PATIENCE", 0.2)
     failed = run("tessellate", "many", "--out-dir", "out", "--cluster", "tcp://127.0.0.1:1")
     assert failed.code == 2
     assert "--cluster tcp://127.0.0.1:1" in failed.err
@@ -169,7 +169,7 @@ def test_what_bands_give_and_a_failing_cluster(run, dots, cluster, monkeypatch):
     for worker in workers:
         worker.kill()
         worker.wait()
-    monkeypatch.setattr("vorotool.batch.dask_cluster.FIRST_WORKER", 0.2)
+    monkeypatch.setattr("vorotool.batch.cluster.FIRST_WORKER", 0.2)
     wait_until(lambda: "nobody works there" in run(*command, "-o", f"there {name}.zarr", "--cluster", address).err)
     assert contents(dots / f"there {name}.zarr") == contents(dots / f"here {name}.zarr")
     assert not list(dots.glob(".*"))

@@ -21,19 +21,19 @@ class Sleeper:
         time.sleep(LONG)
 
 
-def obey(source, outputs):
+def obey(task):
     """Copy a text, fail, die, or take long."""
-    text = Path(source).read_text()
+    text = Path(task.file).read_text()
     if text == "fail":
         return Outcome(code=3, message="bad text", warnings=("one",))
-    for path in outputs:
+    for path in task.outputs:
         with open_output(path) as out:
             out.write(text.encode())
             out.flush()
             if text == "die":
                 os.kill(os.getpid(), signal.SIGKILL)
             if text == "deaf":
-                Sleeper(Path(source).with_suffix(".asleep"))  # goes at once, and its method lets no exception out
+                Sleeper(Path(task.file).with_suffix(".asleep"))  # goes at once, and its method lets no exception out
             if text in ("sleep", "deaf"):
                 time.sleep(LONG)
     return Outcome(stats={"letters": len(text)}, seconds={"copy": 0.5})

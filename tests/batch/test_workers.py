@@ -5,13 +5,14 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from queue import SimpleQueue
 
 import pytest
 
 from support.processes.batch_jobs import LONG, obey, written
 from support.processes.leftovers import wait_until
-from vorotool.batch import process_pool as workers
-from vorotool.batch.process_pool import Worker, local_results
+from vorotool.batch import workers
+from vorotool.batch.workers import Worker, local_results
 
 
 def results(folder, texts, jobs):
@@ -40,19 +41,19 @@ def test_a_failure_is_told_before_more_are_taken(tmp_path):
 
     for number, _ in local_results(obey, feed(), jobs=1):
         told.append(number)
-    assert taken == [(0, []), (1, [0]), (2, [0])]  # after a success the next is taken first
+    assert taken == [(0, []), (1, [0]), (2, [0, 1])]
 
 
 def test_an_end_leaves_no_process_and_no_file(tmp_path, monkeypatch):
     made = []
     monkeypatch.setattr(workers, "Worker", lambda process: made.append(Worker(process)) or made[-1])
-    going = local_results(obey, iter(enumerate(written(tmp_path, "a", "sleep", "sleep"))), jobs=2)
+    going = local_results(obey, iter(enumerate(written(tmp_path, "a", "sleep", "sleep"))), jobs=3)
     assert next(going)[0] == 0
     wait_until(lambda: len(begun(tmp_path)) == 2)
     started = time.monotonic()
     going.close()
     assert time.monotonic() - started < LONG / 2  # whoever waited for the sleepers would take longer
-    assert len(made) == 2
+    assert len(made) == 3
     assert all(worker._process.returncode is not None for worker in made)
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["0.txt"]
 
@@ -72,11 +73,11 @@ def test_a_worker_that_cannot_start_leaves_no_socket(tmp_path, monkeypatch):
 
 def test_a_worker_ends_quietly_where_exceptions_are_swallowed(tmp_path, capfd):
     worker = Worker(obey)
-    worker.give(*written(tmp_path, "deaf"))
+    worker.give(*written(tmp_path, "deaf"), SimpleQueue())
     wait_until((tmp_path / "0.asleep").exists)
     worker._process.terminate()
     assert worker._process.wait(30) == 143
-    worker.connection.close()
+    worker.wait(0)
     assert list((tmp_path / "out").iterdir()) == []
     assert capfd.readouterr() == ("", "")
 
@@ -86,7 +87,7 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path):
     script = (
         "import sys\nfrom pathlib import Path\nfrom support.processes.batch_jobs import obey\n"
         "from vorotool.batch.tasks import Task\n"
-        "from vorotool.batch.process_pool import local_results\n"
+        "from vorotool.batch.workers import local_results\n"
         "list(local_results(obey, iter([(0, Task('0.txt', ('out/0.txt',)))]), jobs=1))"
     )
     path = os.pathsep.join(sys.path)

@@ -1,0 +1,224 @@
+"""A Dask cluster that does the tasks of a batch, or computes one image or volume band by band into one store."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import threading
+from collections.abc import Callable, Generator, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import replace
+from itertools import takewhile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from vorotool import __version__
+from vorotool.batch.tasks import Outcome, Process, Task, carry_out, keep_busy
+from vorotool.errors import OutputError, UsageError, VorotoolError
+from vorotool.formats.zarr.arrays import open_array, write_rows
+from vorotool.formats.zarr.volumes import write_slices
+
+if TYPE_CHECKING:
+    from vorotool.engines.tessellation.bands import Band
+
+LOCAL = "local"
+PATIENCE = 10.0
+"""Seconds for a scheduler to answer."""
+
+FIRST_WORKER = 120.0
+"""Seconds for a first worker to come: a cluster may just have been asked for some."""
+
+CLOSING = 0.1
+"""Seconds for taking leave: an interrupt is over within 0.2 s."""
+
+AHEAD = 2
+"""Items a worker that are handed over: one is computed while the next one comes."""
+
+ONE_AT_A_TIME = threading.Lock()
+"""Warnings belong to a whole process, and so does memory: a worker with several threads does one task at a time."""
+
+_PLANE = ("y", "x")
+
+T = TypeVar("T")
+
+
+# ---- what is done ------------------------------------------------------------------------------------------------
+def cluster_results(
+    process: Process, tasks: Iterator[tuple[int, Task]], *, address: str, jobs: int | None = None
+) -> Generator[tuple[int, Outcome], None, None]:
+    """Do tasks on a Dask cluster, whose workers see the same files by the same paths."""
+
+    def submit(client: Any, numbered: tuple[int, Task]) -> Any:
+        number, task = numbered
+        return client.submit(_carry_out, process, _absolute(task), pure=False, key=f"vorotool-{task.tag}{number}")
+
+    for (number, task), failure, outcome in _done_on_cluster(tasks, submit, address, jobs):
+        if failure is not None:
+            yield number, Outcome(code=1, message=str(failure))
+        else:
+            yield number, replace(outcome, outputs=dict(zip(task.outputs, outcome.outputs.values(), strict=False)))
+
+
+def write_bands(
+    folder: Path, bands: Iterator[tuple[int, Band]], *, address: str, jobs: int | None = None
+) -> Iterator[int]:
+    """Compute bands on a Dask cluster, whose workers write them into a store that all see by the same path."""
+
+    def submit(client: Any, numbered: tuple[int, Band]) -> Any:
+        first, band = numbered
+        return client.submit(_write_band, str(folder), first, band, pure=False, key=f"{folder.name}-{first}")
+
+    for (first, _), failure, _ in _done_on_cluster(bands, submit, address, jobs):
+        if failure is not None:
+            raise failure
+        yield first
+    for left in folder.rglob("*.partial"):  # of workers that were lost while they wrote a chunk
+        left.unlink()
+
+
+def _done_on_cluster(
+    items: Iterator[T], submit: Callable[[Any, T], Any], address: str, jobs: int | None
+) -> Iterator[tuple[T, Exception | None, Any]]:
+    """Yield each item as it is done: with its result, or with what went wrong."""
+    going: dict[Any, T] = {}
+    with ExitStack() as stack:
+        client = stack.enter_context(_connected(address, jobs))
+        stack.callback(_cancel, client, going)
+        from distributed import as_completed
+
+        done = as_completed(loop=client.loop, with_results=True, raise_errors=False)
+        is_lost = False
+
+        def start(item: T) -> Any:
+            future = submit(client, item)
+            done.add(future)
+            return future
+
+        wanted = takewhile(lambda _: not is_lost, items)
+        for item, future, result in keep_busy(wanted, start, done, AHEAD * len(client.nthreads()), going):
+            is_lost = future.status not in ("finished", "error")
+            yield item, _failure(future, result), result
+
+
+def _failure(future: Any, result: Any) -> Exception | None:
+    """Return what went wrong with an item; the result of others is, or has, the version of the worker's package."""
+    if future.status == "finished":
+        version = getattr(result, "version", result)
+        return None if version == __version__ else VorotoolError(
+            f"a worker has vorotool {version}, but this is {__version__}"
+        )  # fmt: skip
+    error = result[1] if future.status == "error" else "the scheduler does not answer any more"
+    if isinstance(error, VorotoolError | OSError):
+        return error
+    return VorotoolError(f"the cluster gave it up: {error}")
+
+
+def _cancel(client: Any, going: dict[Any, Any]) -> None:
+    """Forget what is not done at the end."""
+    if going:
+        with suppress(OSError):
+            client.cancel(list(going))
+
+
+# ---- in a worker -------------------------------------------------------------------------------------------------
+def _carry_out(process: Process, task: Task) -> Outcome:
+    with ONE_AT_A_TIME:
+        return carry_out(process, task)
+
+
+def _absolute(task: Task) -> Task:
+    """Return the task for a process in another folder."""
+    done = task.done and {name and str(Path(name).absolute()): digest for name, digest in task.done.items()}
+    outputs = tuple(str(Path(path).absolute()) for path in task.outputs)
+    return replace(task, path=str(Path(task.file).absolute()), outputs=outputs, done=done)
+
+
+def _write_band(folder: str, first: int, band: Band) -> str:
+    """Compute and write a band; return the version of the package."""
+    from distributed import get_worker
+
+    threads = get_worker().state.nthreads
+
+    def check(_: float = 0.0) -> None:
+        if not (Path(folder) / "zarr.json").exists():
+            raise OutputError(f"{folder} cannot be written: it is gone, or is not the same folder for all workers")
+
+    with ONE_AT_A_TIME:
+        check()
+        array = open_array(folder)
+        write = write_rows if array.ndim == len(_PLANE) else write_slices
+        write(array, first, band.rows(threads=threads, progress=check), threads=threads, check=check)
+    return __version__
+
+
+# ---- the cluster -------------------------------------------------------------------------------------------------
+@contextmanager
+def _connected(address: str, jobs: int | None) -> Iterator[Any]:
+    """Give a client of a cluster that has at least one worker."""
+    try:
+        import distributed
+    except ImportError:
+        raise UsageError("--cluster needs dask.distributed: pip install 'vorotool[distributed]'") from None
+    for name in ("distributed", "distributed.client"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # what it would say is in the outcomes
+    if address != LOCAL:
+        _check_address(address)
+    with ExitStack() as stack:
+        cluster = stack.enter_context(_started(distributed, jobs)) if address == LOCAL else address
+        try:
+            client = distributed.Client(cluster, timeout=PATIENCE, set_as_default=False)
+            stack.callback(_close, client)
+            client.wait_for_workers(1, timeout=FIRST_WORKER)
+        except TimeoutError:
+            raise UsageError(f"--cluster {address}: nobody works there; start workers") from None
+        except (OSError, ValueError) as error:
+            raise UsageError(f"--cluster {address}: no scheduler answers there ({error}); check the address") from None
+        yield client
+
+
+def _check_address(address: str) -> None:
+    """Refuse at once what can be no address: a client that fails as it begins ends late, and not quietly."""
+    from distributed import Security
+    from distributed.comm.addressing import get_address_host_port, normalize_address, parse_address
+
+    try:
+        full = normalize_address(address)
+        scheme, _ = parse_address(full)
+        host, port = get_address_host_port(full, strict=True)
+        if not host or not 0 < port < 1 << 16:
+            raise ValueError("HOST must not be empty, and PORT from 1 to 65535")
+    except ValueError as error:
+        raise UsageError(
+            f"--cluster {address!r} is not the address of a scheduler ({error}): give HOST:PORT, or local to start a "
+            "cluster"
+        ) from None
+    if scheme in ("tls", "wss") and Security().get_connection_args("client").get("ssl_context") is None:
+        raise UsageError(
+            f"--cluster {address} needs certificates: name them in distributed.comm.tls of Dask's settings"
+        )
+
+
+@contextmanager
+def _started(distributed: Any, jobs: int | None) -> Iterator[Any]:
+    """Start a cluster on this machine. Its workers have nothing to lose when it ends, so that they are killed."""
+    cluster = distributed.LocalCluster(
+        n_workers=jobs or os.cpu_count(),
+        threads_per_worker=1,
+        memory_limit=0,
+        scheduler_kwargs={"dashboard": False, "dashboard_address": ":0"},  # the usual port may be another cluster's
+        silence_logs=logging.CRITICAL,
+    )
+    try:
+        yield cluster
+    finally:
+        for nanny in cluster.workers.values():
+            nanny.auto_restart = False
+            with suppress(OSError, TypeError):  # it has gone already
+                os.kill(nanny.pid, signal.SIGKILL)
+        _close(cluster)
+
+
+def _close(connected: Any) -> None:
+    with suppress(OSError):  # nobody answers any more, or not so fast
+        connected.close(timeout=CLOSING)

@@ -1,0 +1,162 @@
+"""Worker processes of this machine.
+
+`ProcessPoolExecutor`, and loky like it, give up all tasks when one process dies: of 8, one of which kills its process,
+7 are done here and 3 there (`tests/benchmarks/libraries.py pool`). Nor do they end a task that runs at an interrupt.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Generator, Iterator
+from contextlib import suppress
+from pathlib import Path
+from queue import SimpleQueue
+from threading import Thread
+from typing import Any, NoReturn
+
+from vorotool.batch.tasks import Outcome, Process, Task, carry_out, keep_busy
+from vorotool.formats.io.temporaries import remove_tagged
+from vorotool.signals import insist_on_the_end
+
+START = "import sys; sys.path[:] = sys.argv[1:]; from vorotool.batch.workers import main; main()"
+"""The program of a worker: modules are looked for where this process finds them, and not in the current folder."""
+
+_ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
+"""numpy's linear algebra, which inputs have no use for, would start threads that take time from other workers."""
+
+ENDED = 128 + signal.SIGTERM
+"""The exit code of a worker that was asked to end."""
+
+PATIENCE = 0.15
+"""Seconds that workers have to remove what they have begun before they are killed: kernels look for signals more
+often, and an interrupt is over within 0.2 s."""
+
+
+class Worker:
+    """A process that does one task at a time, which come through its standard input."""
+
+    def __init__(self, process: Process) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", START, *sys.path],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=_ONE_THREAD | os.environ,
+            process_group=0,
+            creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+        )
+        self._task: Task | None = None
+        self._send(process)
+
+    def give(self, task: Task, done: SimpleQueue[tuple[Worker, Outcome | None]]) -> None:
+        """Hand a task over; its outcome goes to a queue, or None if the process ends instead."""
+        self._task = task
+        Thread(target=lambda: done.put((self, self._outcome(task))), daemon=True).start()
+
+    def _outcome(self, task: Task) -> Outcome | None:
+        self._send(task)
+        try:
+            outcome: Outcome = pickle.load(self._process.stdout)  # type: ignore[arg-type]  # it is a pipe
+        except (EOFError, OSError, pickle.UnpicklingError):
+            return None
+        self._task = None
+        return outcome
+
+    def _send(self, value: object) -> None:
+        stream: Any = self._process.stdin
+        with suppress(OSError):  # where the process has ended this is seen when the result is asked for
+            pickle.dump(value, stream)
+            stream.flush()
+
+    def end(self) -> str:
+        """Wait for a process whose pipe was closed, and say how it ended."""
+        self.wait(time.monotonic() + PATIENCE)
+        code = self._process.returncode
+        how = f"with exit code {code}" if code >= 0 else f"by {signal.Signals(-code).name}"
+        return f"the process that worked on it ended {how}"
+
+    def stop(self) -> None:
+        """Ask the process to remove what it has begun, and to end."""
+        self._process.terminate()
+
+    def wait(self, deadline: float) -> None:
+        """Wait until the process has ended; if it has not by then, kill it; remove what it has left."""
+        try:
+            self._process.wait(max(0.0, deadline - time.monotonic()))
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+        with suppress(OSError), self._process:  # closes the pipes
+            pass
+        if self._task is not None:
+            remove_tagged({Path(path).parent for path in self._task.outputs}, self._task.tag)
+
+
+def local_results(
+    process: Process, tasks: Iterator[tuple[int, Task]], *, jobs: int
+) -> Generator[tuple[int, Outcome], None, None]:
+    """Do tasks in processes of this machine."""
+    done: SimpleQueue[tuple[Worker, Outcome | None]] = SimpleQueue()
+    workers: set[Worker] = set()
+    idle: list[Worker] = []
+
+    def start(numbered: tuple[int, Task]) -> Worker:
+        worker = idle.pop() if idle else Worker(process)
+        workers.add(worker)
+        worker.give(numbered[1], done)
+        return worker
+
+    try:
+        for (number, _), worker, outcome in keep_busy(tasks, start, iter(done.get, None), jobs, {}):
+            if outcome is None:
+                workers.remove(worker)
+                yield number, Outcome(code=1, message=worker.end())
+            else:
+                idle.append(worker)
+                yield number, outcome
+    finally:
+        for worker in workers:
+            worker.stop()
+        deadline = time.monotonic() + PATIENCE
+        for worker in workers:
+            worker.wait(deadline)
+
+
+# ---- in the process of a worker ----------------------------------------------------------------------------------
+def main() -> None:
+    """Do the tasks that come through standard input and send back their outcomes, until it is closed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent decides
+    signal.signal(signal.SIGTERM, _end)
+    insist_on_the_end()
+    source, target = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    nothing = os.open(os.devnull, os.O_RDWR)
+    os.dup2(nothing, 0)
+    os.dup2(nothing, 1)
+    tasks: SimpleQueue[Any] = SimpleQueue()
+    Thread(target=_read, args=(source, tasks), daemon=True).start()
+    try:
+        process: Process = tasks.get()
+        while True:
+            pickle.dump(carry_out(process, tasks.get()), target)
+            target.flush()
+    except (SystemExit, BrokenPipeError):  # nothing is left to do or to remove
+        os._exit(ENDED)
+
+
+def _read(source: Any, tasks: SimpleQueue[Any]) -> None:
+    """Read tasks; end the process when the parent closes the pipe, in the middle of a task, too."""
+    try:
+        with suppress(EOFError, pickle.UnpicklingError):
+            while True:
+                tasks.put(pickle.load(source))
+    finally:
+        os.kill(os.getpid(), signal.SIGTERM)
+
+
+def _end(number: int, _frame: object) -> NoReturn:
+    """End as an exception does: temporary files are removed. A second signal does not disturb this."""
+    signal.signal(number, signal.SIG_IGN)
+    sys.exit()

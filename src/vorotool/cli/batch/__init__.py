@@ -1,1 +1,0 @@
-"""Many inputs on the command line: a plan of what is done, the run, the report."""
