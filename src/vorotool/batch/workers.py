@@ -50,12 +50,14 @@ class Worker:
             creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
         )
         self._task: Task | None = None
+        self._thread = Thread()  # waits for the outcome
         self._send(process)
 
     def give(self, task: Task, done: SimpleQueue[tuple[Worker, Outcome | None]]) -> None:
         """Hand a task over; its outcome goes to a queue, or None if the process ends instead."""
         self._task = task
-        Thread(target=lambda: done.put((self, self._outcome(task))), daemon=True).start()
+        self._thread = Thread(target=lambda: done.put((self, self._outcome(task))), daemon=True)
+        self._thread.start()
 
     def _outcome(self, task: Task) -> Outcome | None:
         self._send(task)
@@ -89,6 +91,9 @@ class Worker:
             self._process.wait(max(0.0, deadline - time.monotonic()))
         except subprocess.TimeoutExpired:
             self._process.kill()
+            self._process.wait()
+        if self._thread.is_alive():  # it sees that the pipe is closed
+            self._thread.join()
         with suppress(OSError), self._process:  # closes the pipes
             pass
         if self._task is not None:
