@@ -74,7 +74,7 @@ VolumePointsLike: TypeAlias = VolumePoints | ArrayLike | DataFrameLike | Mapping
 """Points of space: an (n, 3) array or list of triples x, y, z, or a data frame or mapping with these columns."""
 
 VolumeSeedsLike: TypeAlias = VolumeSeeds | VolumePointsLike | VolumeLike
-"""Seeds of the tessellation of a volume: points of space or a volume."""
+"""Seeds of the tessellation of a volume: points in space or a volume."""
 
 MeshLike: TypeAlias = Triangulation | SeedsLike
 """Points, or their triangulation, which is used as it is."""

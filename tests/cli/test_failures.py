@@ -40,9 +40,9 @@ BAD_INPUTS = {
     "empty.csv": (b"", 3, ["no seeds"]),
     "header.csv": (b"x,y\n", 3, ["no seeds"]),
     "three.csv": (b"1,2,3\n4,5,6\n", 3, ["--columns"]),
-    "negative.csv": (b"-3,1\n12,2\n", 3, ["points span x -3..12", "--window", "delaunay --what cells"]),
+    "negative.csv": (b"-3,1\n12,2\n", 3, ["x from -3 to 12", "--window", "delaunay --what cells"]),
     "huge.csv": (b"1e300,0\n", 3, ["2^44"]),
-    "no-name.csv": (b"x,y\n", 3, ["no-name.csv: there are no seeds"]),
+    "no-name.csv": (b"x,y\n", 3, ["no seeds"]),
     "label.npy": (
         npy_header("{'descr': '<i2', 'fortran_order': False, 'shape': (2, 3), }\n")
         + struct.pack("<6h", 1, 2, 2, 0, 3, -7),

@@ -134,10 +134,10 @@ def test_grey_values_name_the_way():
     ("source", "message"),
     [
         (None, "None"),
-        ("a.png", r"files are read with vorotool.read\('a.png'\)"),
+        ("a.png", r"vorotool.read\('a.png'\)"),
         ([[1, 2], [3]], "expected an image: .* but got a list"),
         (LABELS[0], r"but got an array of int64 and shape \(5,\)"),
-        (LABELS.astype(float), r"seeds_from_raster\(mask, threshold=…\) takes grey values"),
+        (LABELS.astype(float), r"seeds_from_raster\(mask, threshold=…\)"),
         (LABELS.astype(str), "expected an image: .* but got an array of <U21"),
         (np.zeros((4, 5, 3), np.uint8), r"a color image, .* give vorotool.seeds_from_raster\(mask, threshold=…\)"),
         (np.zeros((6, 9, 9), np.uint8), r"a stack of 6 images, .* give one of them, mask\[0\]"),
@@ -209,9 +209,9 @@ def test_grids_of_other_directions_and_units():
     [
         (with_axes(LABELS, [0, 1, 2, 4, 5], np.arange(4)), "the coordinates of x are not evenly spaced: .* 1 to 2"),
         (with_axes(LABELS, np.arange(5), [0, 0, 0, 0]), "the coordinates of y are not evenly spaced"),
-        (with_axes(LABELS, list("abcde"), np.arange(4)), "the coordinates of x are no numbers"),
-        (with_axes(LABELS, [0, 1, np.nan, 3, 4], np.arange(4)), "the coordinates of x are no numbers"),
-        (with_axes(LABELS, np.arange(5), np.arange(4)).transpose(), "its dimensions are x, y: give it transposed"),
+        (with_axes(LABELS, list("abcde"), np.arange(4)), "the coordinates of x are not numbers"),
+        (with_axes(LABELS, [0, 1, np.nan, 3, 4], np.arange(4)), "the coordinates of x are not numbers"),
+        (with_axes(LABELS, np.arange(5), np.arange(4)).transpose(), "its dimensions are x, y: transpose it"),
     ],
 )
 def test_axes_that_are_no_grid(image, message):

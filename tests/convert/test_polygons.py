@@ -59,7 +59,7 @@ def test_rings_too_small_for_shapely():
     ("source", "message"),
     [
         ("a.geojson", r"'a.geojson'"),
-        (Path("a.geojson"), r"invalid polygons: files are read with vorotool.read\('a.geojson'\)"),
+        (Path("a.geojson"), r"invalid polygons: .*vorotool.read\('a.geojson'\)"),
         (5, "invalid polygons: expected polygons or lines of .* but got an int$"),
         (np.array(5.0), "expected polygons .* but got an array of float64 and shape"),
         (PointSet([[1, 2]]), "item 1"),
@@ -188,9 +188,9 @@ def test_extended_text_names_its_system():
         (geopandas.GeoSeries.from_xy([1], [2]), "item 1"),
         ({"type": "Point", "coordinates": [1, 2]}, "item 1"),
         (pd.DataFrame({"x": [1], "y": [2]}), "DataFrame"),
-        (np.ones((9, 9), int), r"an image\? vorotool.outlines\(shapes\)"),
+        (np.ones((9, 9), int), r"vorotool.outlines\(shapes\)"),
         (vorotool.Raster(np.ones((9, 9), bool)), r"Raster"),
-        (np.ones((9, 3)), r"shapes\[:, :2\] leaves the heights out"),
+        (np.ones((9, 3)), r"shapes\[:, :2\]"),
         (np.ones((2, 9)), r"give the transpose, \.T"),
         (
             "GEOMETRYCOLLECTION (" * 10**5 + HOLED.wkt + ")" * 10**5,

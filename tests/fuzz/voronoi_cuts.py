@@ -27,7 +27,7 @@ KINDS = ("clip", "enclosures")
 PLACES = 40
 AREA = 3e-8
 """Of what is shared out: corners of cuts are moved onto the lattice."""
-REFUSED = "as far as doubles tell"
+REFUSED = "to within rounding"
 MOST_REFUSED = 1 / 500
 
 

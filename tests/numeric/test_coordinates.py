@@ -132,7 +132,7 @@ class TestMaskedImages:
     def test_one_that_is_given_for_points_is_recognised(self, masked):
         image = np.zeros((20, 26), dtype=np.uint8)
         given = np.ma.masked_array(image, mask=np.eye(20, 26)) if masked else image
-        with pytest.raises(InputError, match=r"^invalid points: .*shape \(20, 26\).* an image\? .*seeds_from_raster"):
+        with pytest.raises(InputError, match=r"^invalid points: .*shape \(20, 26\).*seeds_from_raster"):
             vorotool.delaunay(given)
         with pytest.warns(vorotool.VorotoolWarning, match="no foreground"):
             assert not vorotool.tessellate(given).labels.any()

@@ -55,5 +55,5 @@ def test_columns_of_the_input_stay():
 
 
 def test_what_has_no_size():
-    with pytest.raises(UsageError, match="a list is not scaled"):
+    with pytest.raises(UsageError, match="a list cannot be scaled"):
         scaled([1, 2], THIRD)

@@ -8,7 +8,7 @@ from vorotool.errors import InputError, UsageError
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.types.box import Box, Extent
 
-EXPECTED = "expected a Box or four finite numbers x, y, width, height, the last two above 0"
+EXPECTED = "expected a Box or four finite numbers x, y, width, height with width and height above 0"
 
 
 def as_box(source: Any, name: str) -> Box:

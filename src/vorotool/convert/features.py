@@ -97,7 +97,7 @@ def report_missing(held: HeldFeatures, owners: NDArray[Any]) -> None:
     if missing:
         more = f" and {len(missing) - NAMED} more" if len(missing) > NAMED else ""
         noun, has = ("features", "have") if len(missing) > 1 else ("feature", "has")
-        warn(f"{noun} at index {', '.join(map(str, missing[:NAMED]))}{more} {has} no geometry: left out")
+        warn(f"{noun} at index {', '.join(map(str, missing[:NAMED]))}{more} {has} no geometry: skipped")
 
 
 NAMED = 10
@@ -171,11 +171,11 @@ def _of_texts(texts: Sequence[Any], *, is_alone: bool = False) -> HeldFeatures:
         text = texts[wrong[0]]
         shown = repr(text if len(text) <= LONGEST else text[: LONGEST - 1] + "…")
         if is_alone and isinstance(text, str):
-            raise InputError(f"{shown} is no well-known text; files are read with vorotool.read(path)")
-        raise InputError(f"item {wrong[0] + 1} is {shown}, no well-known text such as POINT (3 4)")
+            raise InputError(f"{shown} is not well-known text (WKT); to read a file use vorotool.read(path)")
+        raise InputError(f"item {wrong[0] + 1} is {shown}, not well-known text (WKT) such as POINT (3 4)")
     numbers = sorted({number for _, number in plain if number})
     if len(numbers) > 1:
-        raise InputError(f"geometry is in EPSG:{numbers[0]} and EPSG:{numbers[1]}: bring all into one system")
+        raise InputError(f"geometry is in EPSG:{numbers[0]} and EPSG:{numbers[1]}: reproject it to one of them")
     crs = crs_member(f"EPSG:{numbers[0]}") if numbers else None
     return HeldFeatures(list(geometry), crs=crs, curves=curves, is_map=True)
 
@@ -210,9 +210,9 @@ def _of_geojson(document: Any) -> HeldFeatures | None:
     features = list(features)
     for number, feature in enumerate(features, 1):
         if not isinstance(feature, Mapping) or feature.get("type") != "Feature":
-            raise InputError(f'item {number} of the features is no Feature: give it "type": "Feature"')
+            raise InputError(f'item {number} of the features is not a Feature: give it "type": "Feature"')
         if not isinstance(feature.get("properties"), Mapping | None):
-            raise InputError(f"the properties of feature {number} are no object: give one, or null")
+            raise InputError(f"the properties of feature {number} are not an object: give an object or null")
     rows = [feature.get("properties") or {} for feature in features]
     names = dict.fromkeys(key for row in rows for key in row)
     return HeldFeatures(
@@ -255,7 +255,7 @@ def joined_parts(geometry: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
         kind = each.get("type") if isinstance(each, Mapping) else None
         member = "geometries" if kind == "GeometryCollection" else "coordinates"
         if kind not in GEOMETRY_TYPES or not isinstance(each.get(member), Sequence | np.ndarray):
-            raise InputError(f"a geometry has the type {kind!r} and no {member}: give an object of GeoJSON")
+            raise InputError(f"a geometry of type {kind!r} has no {member}: give a GeoJSON geometry")
         if kind == "GeometryCollection":
             pending.extend(reversed(each["geometries"]))
         elif kind.startswith("Multi"):

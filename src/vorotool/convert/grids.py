@@ -22,7 +22,7 @@ def grid_of(image: Any) -> PixelGrid | None:
     """Give the grid of an image with named axes; None where its axes have no coordinates."""
     rows, columns = image.dims
     if plain_name(str(rows)) in COLUMN_AXES:
-        raise InputError(f"its dimensions are {rows}, {columns}: give it transposed, rows first")
+        raise InputError(f"its dimensions are {rows}, {columns}: transpose it, so that rows are first")
     if rows not in image.coords or columns not in image.coords:
         return None
     x, dx = _even(image.coords[columns], columns)
@@ -37,7 +37,7 @@ def _even(coordinate: Any, name: Any) -> tuple[float, float]:
     """Give the first coordinate of an axis and the step; a single one has a step of 1."""
     values: NDArray[Any] = np.asarray(coordinate)
     if values.ndim != 1 or values.dtype.kind not in "iuf" or not np.isfinite(values).all():
-        raise InputError(f"the coordinates of {name} are no numbers: drop them, as with drop_vars({name!r})")
+        raise InputError(f"the coordinates of {name} are not numbers: drop them, as with drop_vars({name!r})")
     places = values.astype(np.float64)
     if len(places) < 2:
         return (float(places[0]) if len(places) else 0.0), 1.0
@@ -47,8 +47,8 @@ def _even(coordinate: Any, name: Any) -> tuple[float, float]:
     if step == 0 or (np.abs(places - wanted) > float(ALIKE) * abs(step) + rounding).any():
         gaps = np.diff(places)
         raise InputError(
-            f"the coordinates of {name} are not evenly spaced: their steps are {gaps.min():g} to {gaps.max():g}; bring "
-            f"it to an even grid, as with interp, or drop them, as with drop_vars({name!r})"
+            f"the coordinates of {name} are not evenly spaced: their steps are {gaps.min():g} to {gaps.max():g}; "
+            f"resample it to an even grid, as with interp, or drop them, as with drop_vars({name!r})"
         )
     return float(places[0]), float(step)
 

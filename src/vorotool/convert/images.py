@@ -51,8 +51,8 @@ def is_image(source: Any, name: str, image: bool | None = None) -> bool:
         return 0 not in shape and shape[1] not in POINT_WIDTHS
     if min(shape) > MOST_AXES:
         raise InputError(
-            f"invalid {name}: it is {described(source)}, grey values of an image? give "
-            f"vorotool.seeds_from_raster({name}, threshold=…)"
+            f"invalid {name}: it is {described(source)}, is it a gray image? give vorotool.seeds_from_raster({name}, "
+            "threshold=…)"
         )
     return False
 
@@ -72,7 +72,7 @@ def as_raster(source: Any, name: str, *, is_grey: bool = False, max_pixels: int 
             raise unexpected(source, EXPECTED)
         _check_shape(array, name, is_grey=is_grey, max_pixels=max_pixels)
         if array.dtype.kind == "f" and not is_grey:
-            how = f"vorotool.seeds_from_raster({name}, threshold=…) takes grey values"
+            how = f"vorotool.seeds_from_raster({name}, threshold=…) takes gray values"
             raise InputError(f"expected truth values or integers, but got {described(array)}; {how}")
         return Raster(array, grid)
 

@@ -51,7 +51,7 @@ def _points_of(source: Any, name: str) -> PointSet:
     if is_of(source, "PolygonSet"):
         raise InputError("these are polygons or lines: give points, for example their centroids or vertices")
     if is_of(source, "Raster", "LabelImage"):
-        raise unexpected(source, f"points; of an image take vorotool.seeds_from_raster({name})")
+        raise unexpected(source, f"points; for an image use vorotool.seeds_from_raster({name})")
     refuse_paths(source)
     if isinstance(source, Iterator):
         source = items_of(source)
@@ -81,7 +81,7 @@ def _checked(source: Any, name: str) -> NDArray[Any]:
     if shape == (2,):
         raise InputError(f"{said}: one point is [[x, y]]")
     if array.ndim == 2 and shape[1] == 3:
-        raise InputError(f"{said}: points have two coordinates; {name}[:, :2] gives the plan")
+        raise InputError(f"{said}: points have two coordinates; {name}[:, :2] drops the others")
     if array.ndim == 2 and shape[0] == 2:
         raise InputError(f"{said}: give {name}.T")
     if array.ndim == 2 and min(shape) > MOST_AXES:
@@ -106,7 +106,7 @@ def _position(point: Any, place: str) -> Any:
 
 
 def _no_point(what: str, place: str) -> InputError:
-    return InputError(f"{place} is {what}: give points; of a polygon or line its centroid or its vertices")
+    return InputError(f"{place} is {what}: give points, such as the centroid or the vertices of a polygon or line")
 
 
 # ---- features --------------------------------------------------------------------------------------

@@ -57,7 +57,7 @@ def as_geometry(source: Any, name: str) -> tuple[NDArray[np.object_], Any]:
 def _polygons_in(source: Any, name: str) -> PolygonSet:
     refuse_paths(source)
     if isinstance(source, Raster | LabelImage):
-        raise unexpected(source, f"polygons; vorotool.outlines({name}) gives those of an image")
+        raise unexpected(source, f"polygons; for an image use vorotool.outlines({name})")
     if isinstance(source, Iterator):
         source = items_of(source)
     if isinstance(source, np.ndarray) and source.ndim == 2 and source.dtype == bool:
@@ -166,7 +166,7 @@ def _listed(rings: Any, what: str) -> list[Any]:
 
 
 def _flat_ring(positions: Any, place: str) -> NDArray[np.float64]:
-    array = number_array(positions, "vertex", f"{place} is no list of positions [x, y]")
+    array = number_array(positions, "vertex", f"{place} is not a list of positions [x, y]")
     if array.ndim == 2 and array.shape[1] > 2:
         array = array[:, :2]
     return _ring(array, place, "polygons")
@@ -175,7 +175,7 @@ def _flat_ring(positions: Any, place: str) -> NDArray[np.float64]:
 def _ring(vertices: Any, place: str, name: str) -> NDArray[np.float64]:
     if isinstance(vertices, str | bytes) or not (isinstance(vertices, Iterable) or hasattr(vertices, "__array__")):
         raise InputError(f"{place} is {described(vertices)}; expected {EXPECTED}")
-    array = number_array(vertices, "vertex", f"{place} is no (n, 2) array of numbers; expected {EXPECTED}")
+    array = number_array(vertices, "vertex", f"{place} is not an (n, 2) array of numbers; expected {EXPECTED}")
     if array.size and (array.ndim != 2 or array.shape[1] != 2):
         raise InputError(f"{place} must have shape (n, 2), but has shape {array.shape}; {_advice(array, name)}")
     return coordinate_rows(array, f"{place}, vertex")
@@ -183,9 +183,9 @@ def _ring(vertices: Any, place: str, name: str) -> NDArray[np.float64]:
 
 def _advice(array: NDArray[Any], name: str) -> str:
     if array.ndim == 2 and array.shape[1] == 3:
-        return f"polygons lie in the plane: {name}[:, :2] leaves the heights out"
+        return f"vertices have two coordinates; {name}[:, :2] drops the others"
     if array.ndim == 2 and array.shape[0] == 2:
         return "give the transpose, .T"
     if array.ndim == 2 and min(array.shape) > 3:
-        return f"an image? vorotool.outlines({name}) gives the polygons of one"
+        return f"for an image use vorotool.outlines({name})"
     return f"expected {EXPECTED}"

@@ -103,7 +103,7 @@ def _shapely_of(item: Any) -> Any:
     try:
         return shape(item)
     except (TypeError, ValueError, AttributeError, IndexError, KeyError, shapely.GEOSException) as error:
-        raise InputError(f"a geometry of type {item.get('type')!r} has coordinates that are none: {error}") from None
+        raise InputError(f"a geometry of type {item.get('type')!r} has invalid coordinates: {error}") from None
 
 
 def _of_points(points: PointSet) -> Sites:
@@ -171,16 +171,16 @@ def _values(features: Sites, by: Any) -> list[Any]:
         columns = features.properties if features.ids is None else {"id": features.ids, **features.properties}
         found = column_of(columns, by)
         if found is None:
-            names = ", ".join(columns) or "there is none"
-            more = option("", ", or one value a feature")
+            names = ", ".join(columns) or "they have none"
+            more = option("", ", or one value per feature")
             raise UsageError(f"invalid {_BY} {by!r}: expected a column of the sites ({names}){more}")
         by = found
     try:
         values = [*listed(by)]
     except (TypeError, ValueError):  # a closed file is a ValueError
-        raise InputError(f"invalid {_BY} {shown_number(by)}: expected a column, or one value a feature") from None
+        raise InputError(f"invalid {_BY} {shown_number(by)}: expected a column, or one value per feature") from None
     if len(values) != features.count:
-        raise InputError(f"invalid {_BY}: expected one value a feature, {features.count}, but got {len(values)}")
+        raise InputError(f"invalid {_BY}: expected one value per feature, {features.count}, but got {len(values)}")
     missing = [k for k, value in enumerate(values) if _is_missing(value)]
     if missing:
         raise InputError(f"invalid {_BY}: feature {missing[0]} has no value ({len(missing)} such features): fill it in")

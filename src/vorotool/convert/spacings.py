@@ -26,7 +26,7 @@ def asked_sides(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
     if spacing is not None and not isinstance(spacing, str):
         return pixel_sides(spacing, axes)
     if spacing not in (None, AUTO):
-        raise UsageError(f"invalid spacing {spacing!r}: expected numbers, or 'auto' for the size that an image carries")
+        raise UsageError(f"invalid spacing {spacing!r}: expected numbers, or 'auto' for the size that the image states")
     try:
         grid = carried_grid(source, axes)
     except InputError:
@@ -37,12 +37,12 @@ def asked_sides(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
     if spacing is None:
         if grid is not None and not isinstance(getattr(source, "sides", None), PixelSides):  # labels have theirs
             warn(
-                f"the input has {what} of {grid.size_text()}, but distances are in {what}: spacing='auto' measures in "
-                "their sides, spacing=1 does not"
+                f"the input has {what} of {grid.size_text()}, but distances are measured in {what}: spacing='auto' "
+                f"uses this size, spacing=1 confirms {what}"
             )
         return pixel_sides(None, axes)
     if grid is None:
-        raise UsageError(f"spacing='auto' is for images that carry the size of their {what}: give numbers")
+        raise UsageError(f"spacing='auto' needs an image that states the size of its {what}: give numbers instead")
     sides = sides_of_grid(grid) if isinstance(grid, PixelGrid) else sides_of_voxels(grid)
     if sides is None:
         raise UsageError(

@@ -63,7 +63,7 @@ def volume_points_of_table(table: Any) -> VolumePoints:
     texts = [str(each) for each in names]
     chosen = space_columns(texts)
     if chosen is None:
-        raise InputError(f"expected columns x, y, z, but got {described(table)}; name them so")
+        raise InputError(f"expected columns x, y, z, but got {described(table)}; rename the columns")
     taken = _taken(table, texts, columns, chosen, axes=3)
     return VolumePoints(taken.pop("xy"), **taken)
 
@@ -78,7 +78,7 @@ def _taken(table: Any, texts: list[str], columns: list[Any], chosen: list[int], 
     """Coordinates, labels, further columns and the index, by the names that points have for them."""
     for place in chosen:
         if not hasattr(columns[place], "__len__"):
-            raise InputError(f"the column {texts[place]} is {described(columns[place])}, and no list of numbers")
+            raise InputError(f"the column {texts[place]} is {described(columns[place])}, not a list of numbers")
     lengths = {len(columns[place]) for place in chosen}
     if len(lengths) > 1:
         *first, last = (texts[place] for place in chosen[:axes])
@@ -174,5 +174,5 @@ def _unknown(table: Any, names: list[Any], columns: list[Any], name: str) -> Inp
     if len(columns) == 2 and len(numeric) == 2:  # they look like y and x
         pair = pair[::-1]
     is_frame = hasattr(table, "iloc")
-    how = f"name them so, or give {name}[{pair!r}]" if is_frame else "name them so"
+    how = f"rename the columns, or give {name}[{pair!r}]" if is_frame else "rename the columns"
     return InputError(f"expected columns x, y or lon, lat, but got {described(table)}; {how}")

@@ -17,7 +17,7 @@ from vorotool.types.volumes.volume_points import VolumePoints
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
 EXPECTED = (
-    "points of space: an (n, 3) array of numbers, a data frame with columns x, y, z, or points of shapely with a z"
+    "points in space: an (n, 3) array of numbers, a data frame with columns x, y, z, or points of shapely with a z"
 )
 
 

@@ -49,8 +49,8 @@ def refuse_triples(source: Any, name: str, *, image: bool | None = None) -> None
     """Refuse an array or a list of triples where no volume is asked for: they may be points."""
     if not image and _width(source) == AXES:
         raise InputError(
-            f"invalid {name}: expected shape (n, 2), but got {described(source)}: for points of space give "
-            f"shape=(D, H, W) as well; {name}[:, :2] gives the plan"
+            f"invalid {name}: expected shape (n, 2), but got {described(source)}: for points in space give shape=(D, "
+            f"H, W) as well; {name}[:, :2] drops z"
         )
 
 
@@ -84,7 +84,7 @@ def as_volume(source: Any, name: str, *, is_grey: bool = False, max_pixels: int 
         if array.ndim != AXES or array.dtype.kind not in "biuf":
             raise unexpected(source, EXPECTED)
         if array.dtype.kind == "f" and not is_grey:
-            how = f"vorotool.seeds_from_volume({name}, threshold=…) takes grey values"
+            how = f"vorotool.seeds_from_volume({name}, threshold=…) takes gray values"
             raise InputError(f"expected truth values or integers, but got {described(array)}; {how}")
         return Volume(array)
 

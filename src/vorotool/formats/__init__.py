@@ -165,7 +165,7 @@ def read(
         options: dict[str, Any] = {"input_format": input_format, "max_voxels": max_pixels, "note": note}
         return cast("Volume", resolved(VOLUME_READER)(path, **options))
     if geometry == "space":
-        _refuse({"page": page, **of_maps}, "points of space")
+        _refuse({"page": page, **of_maps}, "points in space")
         options = {"input_format": input_format, "columns": columns, "max_sites": max_sites, "note": note}
         return cast("VolumePoints", resolved(SPACE_READER)(path, **options, properties=properties, threads=threads))
     with opened(path, geometry=geometry, input_format=input_format, page=page, layer=layer) as source:

@@ -38,7 +38,7 @@ def _wrong_shape(noun: str, shape: tuple[int, ...], axes: int) -> str:
     said = f"{plural(noun)} must have shape (n, {axes}), but have shape {shape}"
     if noun == "vertex" or len(shape) != 2 or min(shape) <= MOST_AXES:
         return said
-    return f"{said}; an image? give vorotool.Raster(array) to tessellate, else vorotool.seeds_from_raster(array)"
+    return f"{said}; for an image give vorotool.Raster(array) to tessellate, else vorotool.seeds_from_raster(array)"
 
 
 MOST_AXES = 4

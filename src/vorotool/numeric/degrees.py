@@ -28,5 +28,5 @@ def projected_advice(xy: NDArray[np.float64]) -> str:
         if west >= -180 and east <= 180 and south >= -80 and north <= 84 and east - west <= 12:
             zone = min(60, int(((west + east) / 2 + 180) // 6) + 1)
             code = f"EPSG:{(32600 if south + north >= 0 else 32700) + zone}"
-            return option(f"--crs {code}", f'to_crs="{code}"') + " works in metres (UTM)"
-    return f"{TO_CRS} brings them into a projected system"
+            return option(f"--crs {code}", f'to_crs="{code}"') + " works in meters (UTM)"
+    return f"{TO_CRS} reprojects them to a projected system"

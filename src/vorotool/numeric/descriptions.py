@@ -81,4 +81,6 @@ def column_names(value: Any) -> list[Any] | None:
 def refuse_paths(value: Any, *, texts: bool = False) -> None:
     """Refuse the path of a file, or any text: functions take what was read from it."""
     if isinstance(value, PathLike) or (texts and isinstance(value, str)):
-        raise InputError(f"files are read with vorotool.read({str(value)!r})")
+        raise InputError(
+            f"expected a value, but got the name of a file; to read a file use vorotool.read({str(value)!r})"
+        )

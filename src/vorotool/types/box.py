@@ -68,8 +68,8 @@ class Box:
             raise InputError(f"the frame is {self.sides}: its sides must be finite")
         if not (self.left < self.right and self.bottom < self.top):
             raise InputError(
-                f"the frame reaches from ({self.left:g}, {self.bottom:g}) to ({self.right:g}, {self.top:g}): its width "
-                "and height must be positive, and large enough beside the coordinates"
+                f"the frame extends from ({self.left:g}, {self.bottom:g}) to ({self.right:g}, {self.top:g}): its "
+                "width and height must be positive, and large enough for coordinates of this size"
             )
 
     @property

@@ -136,7 +136,7 @@ def without_places(table: Table, *places: str) -> dict[str, Any]:
 def features_of(value: Any, what: str | None = None, *, flatten: Flatten = None) -> Rows | Mixture:
     """Give the rows of a value with their geometry."""
     if not hasattr(value, "_features"):
-        raise UsageError(f"there is no geometry of a {type(value).__name__}")
+        raise UsageError(f"a {type(value).__name__} has no geometry")
     made: Rows | Mixture = value._features(what, checked_flatten(flatten))
     return made
 
@@ -147,7 +147,7 @@ def rows_of(value: Any, what: str | None = None, *, flatten: Flatten = None) -> 
     if own is not None:
         return own
     if not hasattr(value, "_features"):
-        raise UsageError(f"there is no table of a {type(value).__name__}")
+        raise UsageError(f"a {type(value).__name__} has no table")
     made: Rows = value._features(what, checked_flatten(flatten))
     return made
 

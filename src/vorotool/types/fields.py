@@ -82,7 +82,7 @@ class Declared:
         last = self.rows_of if isinstance(self.rows_of, int) else sizes.setdefault(str(self.rows_of), int(starts[-1]))
         if starts[0] != 0 or starts[-1] != last or (np.diff(starts) < self.least).any():
             empty = ", without empty rows" if self.least else ""
-            raise InputError(f"{name} must rise from 0 to {last}{empty}")
+            raise InputError(f"{name} must increase from 0 to {last}{empty}")
 
 
 def _read_only(array: NDArray[Any]) -> NDArray[Any]:

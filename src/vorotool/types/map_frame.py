@@ -36,8 +36,8 @@ def map_frame(
         if columns.denominator != 1 or rows.denominator != 1:
             nearest = ",".join(f"{float(max(1, round(number)) * side):.17g}" for number in (columns, rows))
             raise UsageError(
-                f"{option('--window')} is {float(window[2]):.17g} x {float(window[3]):.17g}, no whole number of cells "
-                f"of {float(side):.17g}: the nearest W,H is {nearest}"
+                f"{option('--window')} is {float(window[2]):.17g} x {float(window[3]):.17g}, not a whole number of "
+                f"cells of {float(side):.17g}: the nearest W,H is {nearest}"
             )
         width, height = int(columns), int(rows)
     else:
@@ -52,7 +52,7 @@ def map_frame(
         left, bottom = first[0] * side, first[1] * side
         if width * height > MOST_UNASKED:
             raise LimitError(
-                f"what is read needs {width} x {height} cells of {float(side):.17g}, more than {MOST_UNASKED}: use a "
+                f"the input needs {width} x {height} cells of {float(side):.17g}, more than {MOST_UNASKED}: use a "
                 f"larger {option('--cell-size', 'side')}, or choose a part with "
                 f"{option('--window X,Y,W,H', 'window=(x, y, w, h)')}"
             )

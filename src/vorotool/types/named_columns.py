@@ -34,7 +34,7 @@ def chosen_column(columns: Mapping[str, Any], name: str, option: str) -> Any:
     if found is not None:
         return found
     if not columns:
-        raise UsageError(f"invalid {option} {name!r}: the input has no columns of properties; leave it out")
+        raise UsageError(f"invalid {option} {name!r}: the input has no columns; leave it out")
     raise UsageError(f"invalid {option} {name!r}: expected a column of the input, {', '.join(columns)}")
 
 
@@ -46,6 +46,6 @@ def check_plain(values: Iterable[Any], option: str) -> None:
     for value in values:
         if isinstance(value, Mapping | list | tuple | set):
             raise InputError(
-                f"invalid {option}: {shown_number(value)} is {described(value)}, expected texts or numbers; a dot "
-                "leads into an object, such as column.name"
+                f"invalid {option}: {shown_number(value)} is {described(value)}, not text or a number; name a member "
+                "of an object with a dot, such as column.name"
             )

@@ -35,7 +35,7 @@ def scaled(
     """Give a result in units of which one is ``1 / factor`` of the old."""
     measures = {name: each for name, each in _declared(value).items() if each.meaning not in _UNSCALED}
     if not measures:
-        raise UsageError(f"a {type(value).__name__} is not scaled")
+        raise UsageError(f"a {type(value).__name__} cannot be scaled")
     parts: dict[str, Any] = {}
     for name, each in measures.items():
         part = getattr(value, name)

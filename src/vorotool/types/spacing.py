@@ -70,8 +70,8 @@ def pixel_sides(spacing: Any, axes: int = 2) -> PixelSides:
     common = gcd(*steps)
     if max(steps) // common > MOST_STEPS:
         raise UsageError(
-            f"invalid spacing {shown_number(spacing)}: in whole steps of one length a side has more than {MOST_STEPS}; "
-            "round the sides to fewer digits, or give them as fractions"
+            f"invalid spacing {shown_number(spacing)}: a side is more than {MOST_STEPS} times the largest common step "
+            "of the sides; round the sides to fewer digits, or give them as fractions"
         )
     step = Fraction(common, whole)
     if max(step.numerator, step.denominator) > LARGEST_STEP:

@@ -60,7 +60,7 @@ def _rows_of(column: Any, name: Any) -> int:
     try:
         return len(column)
     except TypeError:
-        raise InputError(f"column {name} is no list or array of values: give one value for each row") from None
+        raise InputError(f"column {name} is not a list or array of values: give one value per row") from None
 
 
 class Table(dict[str, Any], Tabular):
@@ -127,7 +127,7 @@ class Table(dict[str, Any], Tabular):
 
     def _refused(self, *_: Any, **__: Any) -> Any:
         """Refuse a change."""
-        raise TypeError("a Table does not change: make another one, as Table({**table, name: column})")
+        raise TypeError("a Table is read-only: create another one, as Table({**table, name: column})")
 
     __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refused
 

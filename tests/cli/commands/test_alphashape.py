@@ -210,7 +210,7 @@ def test_images_by_both_pipelines(run, folder):
         (["-r", "nan"], "'nan'"),
         (["--alpha", "0.1"], "0.1"),
         (["--alpha", "0"], "alpha must be negative (α = −1/r): for the convex hull use -r inf\n"),
-        (["-r", 3, "--alpha", -3], "r and alpha are given, but each sets the radius: give one of r, alpha and auto"),
+        (["-r", 3, "--alpha", -3], "r and alpha each set the radius"),
         (["-r", 3, "--regions", 2], "--regions"),
         (["--rule", "printed"], "--rule"),
         (["-r", 3, "--rule", "printed", "--verify"], "--verify cannot be combined with --rule printed"),

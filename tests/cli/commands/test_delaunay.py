@@ -127,8 +127,8 @@ def test_stats(run, folder):
     expected = {"points": 5, "duplicates": 1, "edges": 6, "triangles": 3, "hull": 3, "collinear": False}
     assert {name: stats[name] for name in expected} == expected
     assert {"read", "triangulate", "verify", "write edges"} <= set(stats["seconds"])
-    warning = "1 of 5 points lie on an earlier point: the first one of each place is triangulated"
-    assert stats["warnings"] == [warning]
+    (warning,) = stats["warnings"]
+    assert "1 of 5 points lie on an earlier point" in warning
     assert done.err == f"warning: {warning}\n"
     assert run("delaunay", "twice.csv", "-o", "a.csv", "-q").err == ""
 

@@ -7,9 +7,9 @@ import pytest
 
 from support.readers.written import rows_of
 
-ONE = "there is 1 point: an alpha shape needs at least two distinct points"
-TWO = "two points span no triangle, so no r gives a region that holds them: give r itself (-r)"
-LINE = "3 points on a line span no triangle, so no r gives a region that holds them: give r itself (-r)"
+ONE = "an alpha shape needs at least two distinct points, but got 1 point"
+TWO = "two points span no triangle, so no radius gives a region that holds all points: give r itself (-r)"
+LINE = "3 points on a line span no triangle, so no radius gives a region that holds all points: give r itself (-r)"
 COLLECTION = {"type": "FeatureCollection", "y_axis": "down", "features": []}
 
 

@@ -32,7 +32,7 @@ def labels_of(table):
 def test_the_only_label_of_a_field_stays(run, fields):
     done = run("tessellate", "one.npy", "--what", "table")
     assert (done.code, labels_of(done.out)) == (0, ["7"])
-    note = "note: 7 is the only value besides 0, and taken for a label: --seeds components takes a mask\n"
+    note = "note: 7 is the only value besides 0, and read as a label: for a mask use --seeds components\n"
     assert done.err == note
     assert labels_of(run("tessellate", "two.npy", "--what", "table").out) == ["7", "9"]
     done = run("tessellate", "one.npy", "--what", "table", "--seeds", "components")
@@ -81,7 +81,7 @@ def test_distances_to_nothing_do_not_exist(run, fields, what):
     done = run("tessellate", "empty.npy", "--what", what, "--out-dir", "out", "-f", "npy")
     assert done.code == 3
     assert "empty.npy" in done.err
-    assert "there are no distances" in done.err
+    assert "error: empty.npy: the image has no foreground" in done.err
     assert not list(fields.rglob("out/*.npy"))
 
 

@@ -81,7 +81,7 @@ def test_repairs_are_told(run, folder):
     (folder / "a.json").write_text("[[0, 0], [4, 4], [4, 0], [0, 4]]")
     done = run("skeleton-exact", "a.json", "--stats", "s.json", "-o", "b.csv")
     assert done.code == 0
-    assert done.err.startswith("warning: the polygons were repaired: 1 crossing")
+    assert done.err.startswith("warning: repaired: 1 crossing")
     stats = json.loads((folder / "s.json").read_text())
     assert stats["repairs"]["crossings"] == 1
     assert len(stats["warnings"]) == 1

@@ -185,7 +185,7 @@ def test_pictures(run, folder):
         (["--what", "offset", "-d", "0"], "a distance is 0"),
         (["--what", "offset", "-d", "1,inf"], "a distance is inf"),
         (["--what", "offset", "-d", "1,,2"], "'1,,2'"),
-        (["--what", "offset", "-d", "2,1,2"], "the distance 2 is there 2 times"),
+        (["--what", "offset", "-d", "2,1,2"], "the distance 2 is repeated"),
         (["--what", "points", "--every", "far"], "'far'"),
         (["--what", "offset", "-d", "1", "--side", "both"], "--side"),
         (["--what", "shape", "--gap", "1"], "a gap leaves the corners out"),

@@ -98,7 +98,7 @@ KNOWN = "nm, um, µm, mm, cm, dm, m, km, in, ft, ftUS, yd, mi"
         ("skeleton-exact in.json --what points --every 1ell", "invalid --every '1ell'"),
         ("skeleton-exact in.json --gap -1um", "'-1um'"),
         ("skeleton-exact in.json --what offset -d 0um,2", "a distance is 0"),
-        ("skeleton-exact in.json --what offset -d 1mm,1000um --pixel-size 1mm", "the distance 1 is there 2 times"),
+        ("skeleton-exact in.json --what offset -d 1mm,1000um --pixel-size 1mm", "the distance 1 is repeated"),
         ("skeleton-exact in.json --prune angle=2um", "'2um'"),
         ("skeleton-exact in.json --prune length=-2um", "expected a length from 0"),
         ("skeleton-exact in.json --what points --every 1e300km --pixel-size 1e-20nm", "invalid --every '1e300km'"),

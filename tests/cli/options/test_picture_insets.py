@@ -209,7 +209,7 @@ def test_results_of_images_have_their_frame(run, folder, command):
 REFUSED = [
     (["draw", "shapes.geojson", "-f", "svg", "--label-by", "river"], "'river'"),
     (["delaunay", "dots.csv", "-f", "svg", "--label-by", "x"], "--label-by 'x'"),
-    (["draw", "labels.png", "-f", "svg", "--label-by", "x"], "the input has no columns of properties; leave it out"),
+    (["draw", "labels.png", "-f", "svg", "--label-by", "x"], "--label-by 'x': the input has no columns"),
     (["delaunay", "dots.csv", "-f", "csv", "--label-by", "town"], "--label-by"),
     (["delaunay", "dots.csv", "-f", "svg", "--aspect", "nan"], "'nan'"),
     (["draw", "labels.png", "-f", "svg", "--aspect", "2"], "--aspect"),

@@ -136,7 +136,7 @@ def test_small_features_are_told_of(run, tmp_path):
         ("--cell-size 0", 2, "--cell-size"),
         ("--cell-size x", 2, "expected a decimal"),
         ("--cell-size 10 --size 5x5", 2, "--cell-size"),
-        ("--cell-size 10 --window 0,0,15,20", 2, "no whole number of cells of 10: the nearest W,H is 20,20"),
+        ("--cell-size 10 --window 0,0,15,20", 2, "cells of 10: the nearest W,H is 20,20"),
         ("--window 0.5,0,15,20", 2, "--window '0.5,0,15,20'"),
         ("--window 0,0,nan,20", 2, "'0,0,nan,20': expected four"),
         ("--cell-size 0.0001", 5, "--cell-size"),

@@ -5,7 +5,7 @@ import json
 import pytest
 
 STATIONS = [[-20.5, 64.1], [-18.2, 65.3], [-22.1, 64.9], [-16, 64.6]]
-DEGREES = "longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32627 works in metres (UTM)"
+DEGREES = "longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32627 works in meters (UTM)"
 
 
 def collection(*geometries, crs=None):

@@ -70,7 +70,7 @@ def test_nothing():
     assert (graph.coordinates().tolist(), len(graph), said) == ([[3.0, 4.0]], 0, [])
     graph, said = quietly([{"line": [[3, 4], [3, 4]]}])
     assert len(graph.points) == 1
-    assert said == ["the polygons were repaired: 1 repeated vertex left out, in feature 1"]
+    assert said == ["repaired: 1 repeated vertex dropped, in feature 1"]
 
 
 @pytest.mark.parametrize(
@@ -78,50 +78,50 @@ def test_nothing():
     [
         (
             [[0, 0], [8, 0], [8, 0], [8, 8]],
-            "1 repeated vertex left out",
-            "polygon 1, shell, vertex 2 at (8.0, 0.0) is repeated by the next one (1 such places)",
+            "1 repeated vertex dropped",
+            "polygon 1, shell, vertex 2 at (8.0, 0.0) is repeated by the next one (1 such repairs)",
         ),
         (
             [SQUARE, [[8, 2], [12, 2], [12, 4]]],
             "1 edge cut at a vertex on it",
             "polygon 1, shell, edge 2 from (8.0, 0.0) to (8.0, 8.0) passes through polygon 2, shell, vertex 1 at (8.0, "
-            "2.0) (1 such places)",
+            "2.0) (1 such repairs)",
         ),
         (
             [SQUARE, [[4, 4], [12, 4], [12, 12], [4, 12]]],
             "2 crossings of edges cut",
-            "polygon 1, shell, edge 2 from (8.0, 0.0) to (8.0, 8.0) crosses polygon 2, shell, edge 1 (2 such places)",
+            "polygon 1, shell, edge 2 from (8.0, 0.0) to (8.0, 8.0) crosses polygon 2, shell, edge 1 (2 such repairs)",
         ),
         (
             BOW,
             "1 crossing of edges cut, 2 edges bent by less than 3.7e-09",
-            "polygon 1, shell, edge 1 from (0.0, 0.0) to (5.0, 4.0) crosses polygon 1, shell, edge 3 (1 such places)",
+            "polygon 1, shell, edge 1 from (0.0, 0.0) to (5.0, 4.0) crosses polygon 1, shell, edge 3 (1 such repairs)",
         ),
         (
             [[0, 0], [8, 0], [8, 8], [0, 8], [0, 12], [0, 8]],
-            "1 segment that bounds nothing left out",
-            "polygon 1, shell, edge 4 from (0.0, 8.0) to (0.0, 12.0) bounds nothing, or a part of it does not: a spike "
-            "or an overlap (1 such places)",
+            "1 dangling segment dropped",
+            "polygon 1, shell, edge 4 from (0.0, 8.0) to (0.0, 12.0) is dangling, or a part of it is: a spike "
+            "or an overlap (1 such repairs)",
         ),
         (
             [SQUARE, [[20, 20], [30, 30]]],
-            "1 segment that bounds nothing left out, 1 polygon has no inside",
-            "polygon 2, shell, edge 1 from (20.0, 20.0) to (30.0, 30.0) bounds nothing",
+            "1 dangling segment dropped, 1 polygon without area",
+            "polygon 2, shell, edge 1 from (20.0, 20.0) to (30.0, 30.0) is dangling",
         ),
         (
             [[[7, 7]]],
-            "1 polygon has no inside",
-            "polygon 1 at (7.0, 7.0) has no inside (1 such places): repair it, or leave out strict=True",
+            "1 polygon without area",
+            "polygon 1 at (7.0, 7.0) has no area (1 such repairs): correct it, or leave out strict=True",
         ),
     ],
 )
 def test_repairs(source, message, place):
     _, said = quietly(source)
-    assert said == [f"the polygons were repaired: {message}, in feature {place.split()[1].rstrip(',')}"]
+    assert said == [f"repaired: {message}, in feature {place.split()[1].rstrip(',')}"]
     with pytest.raises(InputError) as caught:
         planar_graph(source, strict=True)
     assert str(caught.value).startswith(place)
-    assert str(caught.value).endswith("repair it, or leave out strict=True")
+    assert str(caught.value).endswith("leave out strict=True")
 
 
 def test_strict_takes_what_needs_no_repair():
@@ -176,14 +176,12 @@ def test_natural_earth(name):
     shapes = read(DATA / f"ne_{name}.geojson")
     graph, said = quietly(shapes)
     expected = {
-        "110m_lakes": ["5 repeated vertices left out"],
-        "110m_land": ["1 edge cut at a vertex on it, 2 segments that bound nothing left out"],
-        "50m_lakes": ["457 repeated vertices left out"],
+        "110m_lakes": ["5 repeated vertices dropped"],
+        "110m_land": ["1 edge cut at a vertex on it, 2 dangling segments dropped"],
+        "50m_lakes": ["457 repeated vertices dropped"],
         "50m_land": [],
     }[name]
-    assert [each.split(", in feature")[0] for each in said] == [
-        f"the polygons were repaired: {each}" for each in expected
-    ]
+    assert [each.split(", in feature")[0] for each in said] == [f"repaired: {each}" for each in expected]
     np.testing.assert_allclose(graph.coordinates(), shapes.xy[graph.point_vertex], atol=graph.largest_move, rtol=0)
     assert graph.largest_move < 2e-7
     assert (np.diff(graph.face_starts) <= 1).all()
@@ -237,13 +235,13 @@ def test_the_checker_finds_faults():
     graph, _ = quietly([hole, {"line": [[20, 20], [30, 20]]}])
     start = graph.face_starts
     for faulty, message in [
-        (changed(graph, segments=graph.segments[:, ::-1]), "what lies left of all segments is not face 0"),
+        (changed(graph, segments=graph.segments[:, ::-1]), "left of all segments is not face 0"),
         (changed(graph, segment_faces=graph.segment_faces + 7), "a face that does not exist"),
         (changed(graph, segment_faces=1 - graph.segment_faces), "one corner|left of all|does not exist"),
         (changed(graph, face_starts=start[:-1]), "a segment names a face|does not divide"),
         (changed(graph, face_starts=[0, 1, 1, 1]), "face 0, which is unbounded"),
-        (changed(graph, face_polygon=[1]), "segment 0 divides a polygon of which it is no edge"),
-        (changed(graph, face_starts=[0, 0, 0, 0], face_polygon=[]), "segment 0 bounds nothing"),
+        (changed(graph, face_polygon=[1]), "segment 0 divides a polygon"),
+        (changed(graph, face_starts=[0, 0, 0, 0], face_polygon=[]), "segment 0 is dangling"),
         (changed(graph, source_edge=graph.source_edge[[1, 0, *range(2, 8)]]), "segment 0 is not where edge 1 runs"),
         (changed(graph, point_vertex=np.roll(graph.point_vertex, 1)), "a point is not where its vertex is"),
         (replace(graph, scale=1.0), "this is not the lattice of the input"),

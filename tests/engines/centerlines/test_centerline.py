@@ -342,7 +342,7 @@ def test_what_is_refused():
     skeleton = vorotool.skeleton_exact(RECTANGLE)
     with pytest.raises(UsageError, match="'round': use middle, corner, none"):
         vorotool.centerline(skeleton, ends="round")
-    with pytest.raises(InputError, match="single place"):
+    with pytest.raises(InputError, match="single point"):
         vorotool.centerline(skeleton, start=(3, 2), end=(3, 2))
-    with pytest.warns(VorotoolWarning, match="gave no centerline"):
+    with pytest.warns(VorotoolWarning, match="have no centerline"):
         assert len(vorotool.centerline(vorotool.skeleton_exact([[0, 0], [2, 0], [2, 2], [0, 2]]), ends="none")) == 0

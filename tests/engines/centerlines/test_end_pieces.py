@@ -75,5 +75,5 @@ def test_a_sharp_corner_at_the_side_of_a_stroke_is_kept():
 def test_the_checker_notices_a_branch_that_is_missing():
     pruned = vorotool.prune(vorotool.skeleton_exact(DISC), scale=1.5)
     few = vorotool.prune(pruned, scale=TIP)
-    with pytest.raises(vorotool.VerificationError, match="a branch is missing: it goes on for 36 from"):
+    with pytest.raises(vorotool.VerificationError, match="a branch is missing: it continues for 36 from"):
         vorotool.verify_extended(vorotool.ExtendedSkeleton(few, np.full((1, 2, 2), np.nan)), pruned)

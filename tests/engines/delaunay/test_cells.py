@@ -238,7 +238,7 @@ def test_clip_against_plain_intersection():
 
 def test_clip_polygons_are_united_and_repaired():
     bow = shapely.Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
-    with pytest.warns(VorotoolWarning, match=r"^1 of 2 polygons to clip to are not valid .*Self-intersection"):
+    with pytest.warns(VorotoolWarning, match=r"^1 of 2 clip polygons are invalid .*Self-intersection"):
         cells = voronoi_cells([[1, 1]], clip=[bow, shapely.box(3, 0, 4, 2)])
     assert cells.areas.tolist() == [4.0]
     assert cells.to_shapely()[0].geom_type == "MultiPolygon"
@@ -314,7 +314,7 @@ def test_the_checker_finds_faults():
         verify_cells(vorotool.CellSet([[0, 0]], [*square, square[3]], [0, 5], Box(0, 0, 1, 1)))
     with pytest.raises(VerificationError, match="not convex"):
         verify_cells(vorotool.CellSet([[0, 0]], square[::-1], [0, 4], Box(0, 0, 1, 1)))
-    with pytest.raises(InputError, match="before they are clipped"):
+    with pytest.raises(InputError, match="before clipping"):
         verify_cells(quietly([[0, 0]], clip=shapely.box(0, 0, 1, 1)))
 
 

@@ -42,7 +42,7 @@ def test_what_is_no_delaunay_triangulation_is_found():
 @pytest.mark.parametrize(
     ("points", "triangles", "message"),
     [
-        (SQUARE, [], "no triangles"),
+        (SQUARE, [], "triangles is empty"),
         (SQUARE, [[0, 1]], r"\(1, 2\)"),
         (SQUARE, [[0.0, 1.0, 2.0]], "float64"),
         (SQUARE, [[0, 1, 2], [0, 1]], "triangles"),

@@ -89,5 +89,5 @@ def test_few_points(points):
 
 def test_cells_of_other_points():
     mesh = delaunay([[0, 0], [1, 1]])
-    with pytest.raises(InputError, match="made from it"):
+    with pytest.raises(InputError, match="computed from this triangulation"):
         site_table(mesh, voronoi_cells([[0, 0], [1, 2]]))

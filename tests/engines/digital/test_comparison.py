@@ -166,7 +166,7 @@ def test_few_seeds():
 
 
 def test_what_cannot_be_compared():
-    with pytest.raises(InputError, match="needs one pixel a label"):
+    with pytest.raises(InputError, match="label 1 has "):
         compare_digital(vorotool.read("data/blobs.png"))
     with pytest.raises(LimitError):
         compare_digital([[0, 0], [9, 9]], max_pixels=5)

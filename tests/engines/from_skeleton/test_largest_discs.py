@@ -165,7 +165,7 @@ def test_what_is_no_count_or_region():
         largest_empty_discs([[0, 0]], count=1.5)
     with pytest.raises(InputError, match="within"):
         largest_empty_discs([[0, 0]], within=(0, 0, -1, 1))
-    with pytest.raises(InputError, match="no inside"):
+    with pytest.raises(InputError, match="no area"):
         largest_empty_discs([[0, 0]], within="LINESTRING (0 0, 1 0)")
 
 
@@ -209,5 +209,5 @@ def test_the_checker_sees_that_a_larger_one_fits():
         feet=feet,
         foot_site=sites,
     )
-    with pytest.raises(VerificationError, match="there is a disc of radius"):
+    with pytest.raises(VerificationError, match="a disc of radius"):
         verify_discs(alone)

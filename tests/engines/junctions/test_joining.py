@@ -161,9 +161,9 @@ def test_faults_are_found():
     joined = join_junctions(made)
     moved = joined.vertices.copy()
     moved[joined.degree == 4] += 0.25
-    with pytest.raises(VerificationError, match="no part of an arc"):
+    with pytest.raises(VerificationError, match="not a part of an arc"):
         verify_joining(replace(joined, vertices=moved), made)
-    with pytest.raises(VerificationError, match="junctions that it joins are not one"):
+    with pytest.raises(VerificationError, match="junctions that it joins are not merged"):
         verify_joining(made, made)
     apart = replace(joined, arcs=np.where(joined.arcs == joined.arcs[-1, 1], joined.arcs[0, 0], joined.arcs))
     with pytest.raises(VerificationError, match=r"cycles|connected parts|ends"):

@@ -275,7 +275,7 @@ def test_values_that_say_nothing():
         outlines(Raster(np.zeros((4, 4, 3), dtype=np.uint8)))
     with pytest.raises(InputError, match="NaN or infinite"):
         outlines(np.array([[np.nan, 1.0]]))
-    with pytest.raises(InputError, match="contours need numbers"):
+    with pytest.raises(InputError, match="contours need finite values"):
         outlines(np.array([[np.nan, 1.0]]), threshold=0.5, outline="contour")
     assert len(outlines(np.array([[np.nan, 1.0]]), threshold=0.5)) == 1
     noise = np.random.default_rng(0).integers(0, 255, (64, 64))

@@ -240,7 +240,7 @@ def test_what_is_no_ratio_is_refused(neck):
         ("feet", np.full((1, 2, 2), 1.0), "its foot"),
         ("width", np.array([3.0]), "its feet are"),
         ("xy", np.array([[5.0, 2.0]]), "not in the middle"),
-        ("beside", np.array([[3.0, 2.0]]), "there are clearances of"),
+        ("beside", np.array([[3.0, 2.0]]), "the clearances are"),
     ],
 )
 def test_faults_are_found(name, value, message):

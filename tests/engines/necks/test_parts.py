@@ -153,9 +153,12 @@ def test_what_is_no_ratio_is_refused(ratio):
     [
         (lambda made: {"radius": made.radius * 2}, "nearer than"),
         (lambda made: {"center": made.center[::-1]}, "the boundary is|nothing touches|is not in it"),
-        (lambda made: {"between": np.array([[0, 0]])}, "said to be between"),
+        (lambda made: {"between": np.array([[0, 0]])}, "listed between"),
         (lambda made: {"polygons": replace(made.polygons, xy=made.polygons.xy[::-1])}, "has an area of"),
-        (lambda made: {"polygons": replace(made.polygons, xy=moved(made.polygons.xy))}, "on no cut and no boundary"),
+        (
+            lambda made: {"polygons": replace(made.polygons, xy=moved(made.polygons.xy))},
+            "neither on a cut nor on the boundary",
+        ),
     ],
 )
 def test_faults_are_found(change, message):

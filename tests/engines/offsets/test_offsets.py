@@ -74,10 +74,10 @@ def reversed_ring(made):
 
 FAULTS = {
     "open": (1, lambda made: moved(made, "end", 2, 0.1), "does not begin there"),
-    "edge": (1, lambda made: replace(made, site=np.roll(made.site, 1)), "no line along an edge"),
+    "edge": (1, lambda made: replace(made, site=np.roll(made.site, 1)), "neither a line along an edge"),
     "center": (1, lambda made: moved(made, "center", np.flatnonzero(made.is_arc)[0], 1e-9), "not its vertex"),
     "distance": (-0.25, lambda made: replace(made, distance=np.full(1, -0.2500001)), "too near"),
-    "turned": (-0.25, reversed_ring, "turns the wrong way"),
+    "turned": (-0.25, reversed_ring, "has the wrong orientation"),
     "lost": (-1, lambda made: without(made, 1), "is in 0 shapes, not in one"),
     "twice": ([-1, -1.5], lambda made: replace(made, distance=np.full(4, -1.0)), "too near"),
 }
@@ -126,7 +126,7 @@ def test_the_checker_finds_holes_that_are_filled():
 @pytest.mark.parametrize("distances", [[1.5], [-1.0, 1.5]])
 @pytest.mark.parametrize("features", ["separate", "together"])
 @pytest.mark.parametrize("last", ["a square", "a bow"])
-@pytest.mark.filterwarnings("ignore:the polygons were repaired")
+@pytest.mark.filterwarnings("ignore:repaired")
 def test_parts_of_one_feature_that_merge_keep_its_properties(distances, features, last):
     """Two parts of a feature 2 apart, two features 2 apart, and one alone."""
     square = np.array([[0, 0], [4, 0], [4, 4], [0, 4]])

@@ -114,6 +114,6 @@ def test_the_first_short_edge_of_all_features_is_named():
 
 
 def test_features_without_an_inside_are_said_to_have_none():
-    with pytest.warns(VorotoolWarning, match="interior skeleton is empty: open lines have no inside"):
+    with pytest.warns(VorotoolWarning, match="interior skeleton is empty: open lines"):
         made = vorotool.skeleton_exact({"line": [[0, 0], [9, 0], [9, 9]]}, gap=1)
     assert len(made) == 0

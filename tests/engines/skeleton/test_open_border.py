@@ -114,7 +114,7 @@ def test_pruning_keeps_what_leads_to_the_border():
 
 
 def test_nothing_is_left_of_the_outline():
-    with pytest.warns(VorotoolWarning, match="with an open border nothing is between"):
+    with pytest.warns(VorotoolWarning, match="inside the open border"):
         assert len(opened(np.ones((4, 5), dtype=bool))) == 0
     hole = np.ones((9, 9), dtype=bool)
     hole[4, 4] = False
@@ -133,7 +133,7 @@ def test_what_is_refused():
     with pytest.raises(InputError, match=r"\(4.0, 0.0\) is beyond the border"):
         skeleton_exact(square, border=(0, 0, 3, 4))
     for more in ({"side": "both"}, {"features": "together"}, {"gap": 0.1}):
-        with pytest.raises(UsageError, match="an open border is for what is inside features"):
+        with pytest.raises(UsageError, match="an open border applies to the interior"):
             skeleton_exact(square, border=(0, 0, 4, 4), **more)
     with pytest.raises(UsageError, match="the border is"):
         skeleton_exact(square, border=(0, 0, 0, 4))

@@ -219,7 +219,7 @@ def test_the_skeleton_goes_around_points_and_segments(name):
 
 
 def test_a_point_outside_its_polygon_is_left_out_with_a_word():
-    with pytest.warns(VorotoolWarning, match="1 segment that bounds nothing"):
+    with pytest.warns(VorotoolWarning, match="1 dangling segment"):
         made = vorotool.skeleton_exact([{"shell": OUTER, "holes": [[[20, 20]]]}], side="both")
     assert made.polygons.xy.max() == 10
 
@@ -277,7 +277,7 @@ SITES = {
 
 @pytest.mark.parametrize("site", SITES.values(), ids=SITES)
 @pytest.mark.parametrize("side", ["interior", "both"])
-@pytest.mark.filterwarnings("ignore:1 polygon has vertices at one or two places")
+@pytest.mark.filterwarnings("ignore:1 polygon has its vertices at one or two")
 def test_points_and_lines_inside_another_feature_change_nothing_there(site, side):
     made = vorotool.skeleton_exact([OUTER, site], side=side, strict=True)
     vorotool.verify_skeleton(made)
@@ -300,6 +300,6 @@ def test_shells_of_one_or_two_places_are_sites(name):
 
 
 def test_shells_without_an_inside_are_told_where_that_is_asked_for():
-    with pytest.warns(VorotoolWarning, match="2 polygons have vertices at one or two places only"):
+    with pytest.warns(VorotoolWarning, match="2 polygons have their vertices at one or two positions only"):
         made = vorotool.skeleton_exact([OUTER, {"shell": [[4, 5]]}, {"shell": [[40, 5], [45, 5]]}])
     assert set(made.polygon.tolist()) == {0}

@@ -34,7 +34,7 @@ def test_larger_moves_and_other_radii_are_found():
         assert fault(pair, {}) is not None
 
 
-@pytest.mark.filterwarnings("ignore:1 polygon has vertices at one or two places")
+@pytest.mark.filterwarnings("ignore:1 polygon has its vertices at one or two")
 def test_features_that_overlap_are_compared_one_by_one():
     """What is nearest to a place inside a feature is its own border, though another one runs between."""
     pair = Pair(as_polygons([SHAPE.xy, [[3, -2], [9, -2], [9, 20]], [[7, 1], [8, 2]]]), Rotation(10))

@@ -97,7 +97,7 @@ def test_nothing_to_warn_of():
 
 @pytest.mark.parametrize("value", [LABELS, SOLID])
 def test_auto_needs_a_size(value):
-    with pytest.raises(UsageError, match=r"spacing='auto' is for images that carry the size"):
+    with pytest.raises(UsageError, match=r"spacing='auto' needs an image that states the size"):
         vorotool.tessellate(value, spacing="auto")
     with pytest.raises(UsageError, match=r"invalid spacing 'um'"):
         vorotool.tessellate(value, spacing="um")

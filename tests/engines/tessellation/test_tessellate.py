@@ -210,7 +210,7 @@ def test_inputs_of_every_kind():
 
 def test_default_frame_holds_the_points():
     assert default_frame(vorotool.seeds_from_points(vorotool.PointSet([[2, 1], [7.5, 5.25]]))) == Frame(0, 0, 9, 6)
-    with pytest.raises(InputError, match=r"points span x -3\.\.12: use window="):
+    with pytest.raises(InputError, match=r"x from -3 to 12, .* use window="):
         vorotool.tessellate([[-3, 0], [12, 1]])
 
 
@@ -237,7 +237,7 @@ def test_duplicates_warn_or_are_refused():
         (lambda: vorotool.tessellate(np.empty((0, 2)), shape=(4, 4)), InputError, "no seeds"),
         (lambda: vorotool.tessellate([[0, np.nan]], shape=(4, 4)), InputError, r"point 1 is \(0\.0, nan\)"),
         (lambda: vorotool.tessellate([[0, 0, 0]], shape=(4, 4)), InputError, r"shape \(n, 2\)"),
-        (lambda: vorotool.tessellate("abc", shape=(4, 4)), InputError, "invalid seeds: 'abc' is no well-known text"),
+        (lambda: vorotool.tessellate("abc", shape=(4, 4)), InputError, "invalid seeds: 'abc' is not"),
         (lambda: vorotool.tessellate([[1e300, 0]], shape=(4, 4)), InputError, r"at most 2\^44"),
         (lambda: vorotool.tessellate([[2.0**43, 0]], shape=(4, 4)), InputError, "too far from the frame"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(0, 4)), InputError, "at least 1 x 1"),
@@ -334,6 +334,6 @@ def test_a_frame_that_is_too_large_is_refused_before_seeds_are_told_of():
     points = [[500000.123, 4649776.371], [500321.517, 4650012.29]]
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
-        with pytest.raises(LimitError, match="no frame is given"):
+        with pytest.raises(LimitError, match="the smallest frame that holds the points"):
             vorotool.tessellate(points)
     assert not told

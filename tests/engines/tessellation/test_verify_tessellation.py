@@ -117,7 +117,7 @@ def test_count_and_first_do_not_depend_on_threads(threads):
 
 def test_limits():
     seeds = SeedSet(np.array([2**40 + 1]), np.array([0]), np.array([1]))
-    with pytest.raises(InputError, match=r"cannot verify: a seed lies beyond 2\^40 lattice steps"):
+    with pytest.raises(InputError, match=r"cannot be verified: a seed lies beyond 2\^40 lattice steps"):
         verify_label_image(np.ones((1, 1), dtype=np.uint8), seeds, Frame(0, 0, 1, 1))
     near = SeedSet(np.array([0]), np.array([0]), np.array([1]), 256)
     with pytest.raises(InputError, match=r"a seed lies beyond 2\^40"):

@@ -108,9 +108,11 @@ def test_a_data_frame_keeps_its_columns_and_index():
 def test_points_have_a_frame_of_their_own():
     points = VolumePoints([[2, 1, 0], [7.25, 5.5, 3]])
     assert vorotool.tessellate(points).shape == (4, 7, 8)
-    with pytest.raises(InputError, match=r"points span z -1\.\.3: use window=\(x, y, z, w, h, d\)"):
+    with pytest.raises(InputError, match=r"z from -1 to 3, .* use window=\(x, y, z, w, h, d\)"):
         vorotool.tessellate(VolumePoints([[0, 0, -1], [0, 0, 3]]))
-    with pytest.raises(LimitError, match=r"one that holds the points has 1001 x 1001 x 1001 voxels.*shape=\(D, H, W\)"):
+    with pytest.raises(
+        LimitError, match=r"frame that holds the points has 1001 x 1001 x 1001 voxels.*shape=\(D, H, W\)"
+    ):
         vorotool.tessellate(VolumePoints([[1000, 1000, 1000]]))
 
 
@@ -155,8 +157,8 @@ POINTS = np.array([[1.0, 2, 0], [4, 4, 3]])
 @pytest.mark.parametrize(
     ("asked", "error", "match"),
     [
-        ({}, InputError, r"invalid seeds: expected shape \(n, 2\), but .* \(2, 3\): for points of space give shape="),
-        ({"shape": (5, 6)}, InputError, r"give shape=\(D, H, W\) as well; seeds\[:, :2\] gives the plan"),
+        ({}, InputError, r"invalid seeds: expected shape \(n, 2\), but .* \(2, 3\): .* give shape="),
+        ({"shape": (5, 6)}, InputError, r"give shape=\(D, H, W\) as well; seeds\[:, :2\]"),
         ({"shape": (5, 6, 7), "window": (0, 0, 0, 7, 6, 5)}, UsageError, "give shape or window, not both"),
         ({"shape": (5, 6, 7.5)}, UsageError, r"shape must be three integers \(D, H, W\), but is"),
         ({"window": (0, 0, 0, 1, 2, 3.5)}, UsageError, r"window must be six integers \(x, y, z, w, h, d\), but is"),
@@ -180,9 +182,9 @@ def test_what_does_not_go_is_refused(asked, error, match):
 @pytest.mark.parametrize(
     ("seeds", "match"),
     [
-        (np.zeros((4, 4)), r"invalid seeds: expected points of space: an \(n, 3\) array"),
+        (np.zeros((4, 4)), r"invalid seeds: expected points in space: an \(n, 3\) array"),
         (np.zeros((4, 5, 6)), r"invalid seeds: expected truth values or integers.*vorotool.seeds_from_volume\(seeds"),
-        (np.zeros((0, 3)), "there are no seeds, so nothing could be labelled"),
+        (np.zeros((0, 3)), "no seeds"),
         ({"x": [1], "y": [2]}, "expected columns x, y, z"),
     ],
 )
@@ -193,10 +195,10 @@ def test_what_is_no_seed_of_a_volume_is_refused(seeds, match):
 
 @pytest.mark.parametrize("points", [[[1, 2]], np.zeros((4, 2)), np.zeros((4, 2), int)])
 def test_points_of_the_plane_have_a_shape_of_two_numbers(points):
-    said = r"shape must be two integers \(H, W\), but is \(4, 5, 6\): points of space have three columns, x, y and z"
+    said = r"shape must be two integers \(H, W\), but is \(4, 5, 6\): .* three columns, x, y and z"
     with pytest.raises(UsageError, match=said):
         vorotool.tessellate(points, shape=(4, 5, 6))
-    with pytest.raises(UsageError, match=r"window must be four integers .* but is .*: points of space have three"):
+    with pytest.raises(UsageError, match=r"window must be four integers .* but is .*: .* have three"):
         vorotool.tessellate(points, window=(0, 0, 0, 6, 5, 4))
 
 
@@ -209,7 +211,7 @@ def test_integer_triples_are_points_or_say_that_they_are_an_image():
 
 
 def test_seeds_at_one_place_are_told_of():
-    with pytest.warns(VorotoolWarning, match="1 of 2 seeds lie on another seed: the smallest label has the region"):
+    with pytest.warns(VorotoolWarning, match="1 of 2 seeds lie on another seed"):
         made = vorotool.tessellate([[1, 1, 1], [1, 1, 1]], shape=(3, 3, 3))
     assert (made.labels == 1).all()
     with pytest.raises(InputError, match="remove the duplicates"):

@@ -209,7 +209,7 @@ def test_the_public_function():
 def test_limits():
     frame, one = VoxelFrame(0, 0, 0, 1, 1, 1), np.ones((1, 1, 1), np.uint8)
     far = VolumeSeeds(np.array([[0, 0, 2**40 + 1]]), np.array([1]))
-    with pytest.raises(InputError, match=r"cannot verify: a seed lies beyond 2\^40 lattice steps"):
+    with pytest.raises(InputError, match=r"cannot be verified: a seed lies beyond 2\^40 lattice steps"):
         verify_label_volume(one, far, frame)
     near = VolumeSeeds(np.array([[0, 0, 0]]), np.array([1]), 256)
     with pytest.raises(InputError, match=r"the frame reaches beyond 2\^40"):

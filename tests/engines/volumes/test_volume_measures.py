@@ -392,7 +392,7 @@ def test_what_does_not_fit():
         vorotool.region_table(np.zeros((4, 5, 6)))
     with pytest.raises(InputError, match="expected labels, a 3-D array of integers"):
         vorotool.region_table(Volume(np.zeros((4, 5, 6))))
-    with pytest.raises(InputError, match="there is no slab"):
+    with pytest.raises(InputError, match="slabs is empty"):
         measure_slabs([])
     with pytest.raises(InputError, match="slabs must have one height and width"):
         measure_slabs([np.zeros((1, 2, 3), np.uint8), np.zeros((1, 3, 2), np.uint8)])

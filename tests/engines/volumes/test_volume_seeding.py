@@ -161,7 +161,7 @@ def test_labels_and_columns_of_points():
     [
         ([[2.0**45, 0, 0]], r"point 1 is \(35184372088832, 0, 0\): coordinates of seeds must be at most 2\^44 voxels"),
         ([[0, 0, np.nan]], "point 1 is .*: coordinates must be finite"),
-        ([[0, 0]], r"invalid points: expected points of space: an \(n, 3\) array of numbers"),
+        ([[0, 0]], r"invalid points: expected points in space: an \(n, 3\) array of numbers"),
         (np.zeros((4, 2)), r"but got an array of float64 and shape \(4, 2\)"),
         ({"x": [1], "y": [2]}, "expected columns x, y, z, but got a dict with x, y"),
         ({"x": [1], "y": [2, 3], "z": [1]}, "the columns x, y and z differ in length"),
@@ -199,7 +199,7 @@ def test_masks_have_components_and_others_labels(values, labels):
 def test_what_may_surprise_is_noted():
     told = []
     seeds_from_volume(np.full((1, 1, 2), 7, np.uint16), note=told.append)
-    assert told == ['7 is the only value besides 0, and taken for a label: mode="components" takes a mask']
+    assert told == ['7 is the only value besides 0, and read as a label: for a mask use mode="components"']
 
 
 def test_each_voxel_may_be_a_seed():
@@ -250,12 +250,12 @@ def test_two_values_are_parted(dtype):
 @pytest.mark.parametrize(
     ("asked", "error", "match"),
     [
-        ({"connectivity": 8}, UsageError, "connectivity is 8: it must be 26 or 6 in a volume; 8 and 4 are of images"),
+        ({"connectivity": 8}, UsageError, "connectivity is 8: it must be 26 or 6 in a volume; 8 and 4 apply to images"),
         ({"connectivity": 5}, UsageError, "connectivity is 5: it must be 26 or 6 in a volume$"),
         ({"mode": "voxels"}, UsageError, "mode is 'voxels': it must be one of pixels, components, labels, centroids"),
         ({"threshold": float("nan")}, UsageError, "threshold"),
-        ({"max_sites": 3}, LimitError, "the volume has 8 outer voxels of objects or more, more than max_sites=3"),
-        ({"max_sites": 3, "mode": "pixels"}, LimitError, "the volume has 8 foreground voxels or more"),
+        ({"max_sites": 3}, LimitError, "8 outer voxels of objects, more than max_sites=3"),
+        ({"max_sites": 3, "mode": "pixels"}, LimitError, "8 foreground voxels, more than max_sites=3"),
         ({"max_sites": 0, "mode": "centroids"}, LimitError, "the volume has 1 objects, more than max_sites=0"),
         ({"invert": True, "strict": True}, InputError, "the volume has no foreground: use invert=True or threshold"),
     ],
@@ -266,21 +266,24 @@ def test_what_does_not_go_is_refused(asked, error, match):
 
 
 def test_images_name_the_neighbors_of_voxels():
-    with pytest.raises(UsageError, match="connectivity is 26: it must be 4 or 8; 26 and 6 are of volumes"):
+    with pytest.raises(UsageError, match="connectivity is 26: it must be 4 or 8; 26 and 6 apply to volumes"):
         vorotool.seeds_from_raster(np.eye(3, dtype=bool), connectivity=26)
 
 
 @pytest.mark.parametrize(
     ("values", "match"),
     [
-        (np.random.default_rng(0).integers(0, 200, (2, 40, 40)), "slice 0 of the volume holds 200 values in .* grey"),
-        (np.random.default_rng(0).random((2, 40, 40)), "grey values"),
+        (
+            np.random.default_rng(0).integers(0, 200, (2, 40, 40)),
+            "slice 0 of the volume holds 200 values in .* fragments",
+        ),
+        (np.random.default_rng(0).random((2, 40, 40)), "values in .* fragments"),
         (np.array([[[0, 1]], [[0, -3]]]), "the volume holds the value -3 in slice 1, row 0, column 1: labels must be"),
         (np.array([[[0, 1, np.inf]]]), "the volume holds NaN or infinite values"),
         (np.zeros((3, 4)), r"expected a volume: .*, but got an array of float64 and shape \(3, 4\)"),
         (np.zeros((3, 0, 4)), "the volume is empty"),
         (np.array([[["a"]]]), "expected a volume"),
-        ("cells.tif", r"files are read with vorotool.read\('cells.tif'\)"),
+        ("cells.tif", r"vorotool.read\('cells.tif'\)"),
         (np.ma.array(np.zeros((1, 1, 2)), mask=[[[0, 1]]]), "some are masked"),
     ],
 )
@@ -297,9 +300,9 @@ def test_a_volume_without_foreground_has_no_seeds():
         assert (seeds.object_volume is None) == (mode == "pixels")
         sweep = VolumeSweep(seeds)
         assert not sweep.labels().any()
-        with pytest.raises(InputError, match="the volume has no foreground, so that there are no distances"):
+        with pytest.raises(InputError, match="the volume has no foreground"):
             sweep.squared_distances()
-        with pytest.raises(InputError, match="no distances"):
+        with pytest.raises(InputError, match="no foreground"):
             sweep.distances()
 
 

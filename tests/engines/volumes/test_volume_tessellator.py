@@ -287,7 +287,7 @@ def test_what_is_no_volume_is_refused(function):
 def test_volumes_that_say_nothing():
     assert peers.distance_transform(np.zeros((0, 2, 3))).shape == (0, 2, 3)
     assert not peers.expand_labels(np.zeros((3, 4, 5), np.uint8)).any()
-    with pytest.raises(InputError, match="expected a zero pixel"):
+    with pytest.raises(InputError, match="expected at least one zero pixel"):
         peers.distance_transform(np.ones((3, 4, 5)))
     with pytest.raises(InputError, match="expected 0 to 4294967295, but they are -2 to 0"):
         peers.expand_labels(np.full((1, 1, 2), [0, -2]))

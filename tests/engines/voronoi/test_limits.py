@@ -307,7 +307,7 @@ def test_limits_that_are_no_number(limit):
 
 
 def test_limits_that_rounding_would_lose():
-    with pytest.raises(UsageError, match=r"max_distance is .*, too small beside the coordinates: use at least 1e-10"):
+    with pytest.raises(UsageError, match=r"max_distance is .*, too small .*: use at least 1e-10"):
         voronoi([[0, 0], [100, 1]], max_distance=9e-11)
     small = voronoi([[0, 0], [100, 1]], max_distance=1e-10, frame=(-1, -1, 102, 3))
     assert small.areas.tolist() == pytest.approx([ROUND * 1e-20] * 2, rel=1e-3)

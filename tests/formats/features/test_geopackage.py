@@ -52,7 +52,7 @@ def test_curves_are_flattened_and_counted(tmp_path):
     changed(path, ("UPDATE a SET geom = ? WHERE fid < 3", (blob,)))
     notes = []
     shapes = vorotool.read(path, note=notes.append)
-    assert [note for note in notes if "curve" in note] == [f"{path}: 2 curves flattened to lines of short pieces"]
+    assert [note for note in notes if "curve" in note] == [f"{path}: 2 curves flattened to short line segments"]
     assert len(shapes.ring(0)) == 64
     assert len(vorotool.read(path, flatten=0.5).ring(0)) < 20
     changed(path, ("UPDATE a SET geom = ? WHERE fid = 2", (blob[:-5],)))

@@ -167,7 +167,7 @@ def test_a_lossy_picture_holds_no_labels(tmp_path):
     (tmp_path / "a.jpg").write_bytes(saved(SMOOTH, "jpeg"))
     raster = vorotool.read(tmp_path / "a.jpg")
     for options in ({}, {"mode": "labels"}, {"mode": "components"}):
-        with pytest.raises(InputError, match="its values are no labels; use threshold=T"):
+        with pytest.raises(InputError, match="its values are not labels; use threshold=T"):
             vorotool.outlines(raster, **options)
     assert len(vorotool.outlines(raster, threshold=99)) == 1
     (tmp_path / "b.jpg").write_bytes(saved(np.kron(GREY > 99, np.ones((8, 8))).astype(np.uint8) * 255, "jpeg"))

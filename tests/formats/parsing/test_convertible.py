@@ -60,7 +60,7 @@ def test_other_json_is_told_where_it_is_wrong(tmp_path, text):
 def test_arrays_that_are_lists(tmp_path, shape):
     np.save(tmp_path / "a.npy", np.random.default_rng(1).random(shape))
     image = vorotool.read(tmp_path / "a.npy")
-    with pytest.raises(InputError, match=r"a list of points\? save x and y as one of shape \(n, 2\)"):
+    with pytest.raises(InputError, match=r"a list of points\? save x and y with shape \(n, 2\)"):
         vorotool.outlines(image)
 
 

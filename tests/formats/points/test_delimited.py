@@ -49,7 +49,7 @@ def test_recognised_headers(header, used, point):
     assert notes[0] == f"seeds.csv: columns {used} are read as x, y"
     degrees = (
         'seeds.csv: longitude and latitude are treated as planar, lengths are in degrees; to_crs="EPSG:32631" works in '
-        "metres (UTM)"
+        "meters (UTM)"
     )
     is_map = used.lower().startswith("lon")
     assert [note for note in notes[1:] if "the column z is no coordinate" not in note] == ([degrees] if is_map else [])

@@ -19,7 +19,7 @@ def test_wkt():
     assert read("POINT (1 2)\nSRID=0;POINT (2 3)", "a.wkt").crs is None
     degrees = (
         'a.wkt: longitude and latitude are treated as planar, lengths are in degrees; to_crs="EPSG:32631" works in '
-        "metres (UTM)"
+        "meters (UTM)"
     )
     assert notes_of("SRID=4258;POINT (1 2)", "a.wkt") == [degrees]
     assert notes_of("SRID=2056;POINT (1 2)", "a.wkt") == []

@@ -74,7 +74,7 @@ UNNAMED = (
 
 
 def test_degrees_are_told_by_the_reference_system_alone_and_heights_are_left_out():
-    utm, other = '="EPSG:32631" works in metres (UTM)', " brings them into a projected system"
+    utm, other = '="EPSG:32631" works in meters (UTM)', " reprojects them to a projected system"
     degrees = "a.geojson: longitude and latitude are treated as planar, lengths are in degrees; to_crs"
     heights = "a.geojson: only x and y are used, heights are left out"
     lake = [[7.5, 46.9, 400], [8, 46], [8, 47]]

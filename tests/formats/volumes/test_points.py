@@ -160,5 +160,5 @@ def test_a_z_stays_a_property_of_points_in_the_plane(tmp_path):
     points = vorotool.read(tmp_path / "a.csv")
     assert points.xy.tolist() == [row[:2] for row in XYZ]
     assert list(points.properties) == ["z"]
-    with pytest.raises(UsageError, match="crs is not for points of space"):
+    with pytest.raises(UsageError, match="crs is not for points in space"):
         vorotool.read(tmp_path / "a.csv", geometry="space", crs="EPSG:2056")

@@ -52,9 +52,9 @@ def test_no_polygons():
         ({"ring_kind": [LINE, HOLE, SHELL]}, "or one line"),
         ({"ring_kind": [SHELL, HOLE, 3]}, "ring_kind must be"),
         ({"ids": [1]}, "ids"),
-        ({"properties": {"name": "abc"}}, "name must hold one value a polygon"),
-        ({"feature": [0]}, "feature must hold one value a polygon"),
-        ({"feature": [1, 0]}, "feature must not fall"),
+        ({"properties": {"name": "abc"}}, "name must hold one value per polygon"),
+        ({"feature": [0]}, "feature must hold one value per polygon"),
+        ({"feature": [1, 0]}, "feature must not decrease"),
         ({"xy": [*XY[:4], [np.nan, 1], *XY[5:]]}, r"^polygon 1, hole 1, vertex 2"),
     ],
 )

@@ -112,8 +112,8 @@ def _scale(shape: AlphaShape) -> int:
     largest = max(r, float(np.abs(shape.points).max()))
     if not (np.isfinite(largest) and largest <= shortest * _FLATTEST):
         raise InputError(
-            f"the radius {shown_number(shape.r)} is beyond all proportion to an edge of length {shortest:g}: the arcs "
-            "of the hull cannot be told from the edges; give a smaller r, or leave the hull out"
+            f"the radius {shown_number(shape.r)} is too large for an edge of length {shortest:g}: the arcs of the "
+            "hull would coincide with the edges in double precision; use a smaller r, or leave the hull out"
         )
     exponent = int(np.frexp(largest)[1])
     return exponent if exponent > _MOST_BITS or exponent < -_MOST_BITS // 2 else 0

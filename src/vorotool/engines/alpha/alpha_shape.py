@@ -105,7 +105,7 @@ def alpha_complex(
     printed 2.0 2.9
     """
     if not is_choice(rule, RULES):
-        raise UsageError(f"rule is {rule!r}: use corrected, or printed for the text of the paper")
+        raise UsageError(f"rule is {rule!r}: use corrected, or printed for the rule as the paper prints it")
     threads = checked_threads(threads)
     if isinstance(points, DigitalTriangulation):
         mesh, edges, sides = linked_digital(points)
@@ -181,7 +181,7 @@ def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
     given = {"r": r is not None, "alpha": alpha is not None, "auto": automatic}
     named = [name for name, is_given in given.items() if is_given]
     if len(named) > 1:
-        raise UsageError(f"{' and '.join(named)} are given, but each sets the radius: give one of r, alpha and auto")
+        raise UsageError(f"{' and '.join(named)} each set the radius: give only one of r, alpha and auto")
     if alpha is not None:
         value = real_number(alpha, "alpha")
         if not value < 0:
@@ -269,7 +269,7 @@ def alpha_shape(
         radius = family.radius_from(reached - 1)
         entered = reached
     elif regions != 1:
-        raise UsageError("regions is for the automatic choice of the radius: leave out r and alpha")
+        raise UsageError("regions applies to the automatic radius: leave out r and alpha")
     else:
         reached, entered = family.reached(radius), family.entered(radius)
     thresholds = _threshold(hole_threshold, "hole_threshold"), _threshold(region_threshold, "region_threshold")
@@ -344,7 +344,7 @@ def _polygons(family: AlphaComplex, region: NDArray[np.int32], progress: Progres
 def automatic_rank(family: AlphaComplex, *, regions: int = 1, progress: Progress = None) -> int:
     """Give the first rank whose shape has at most so many regions, which contain every point."""
     if whole_number(regions, "regions") < 1:
-        raise UsageError(f"regions is {shown_number(regions)}: at least 1")
+        raise UsageError(f"regions is {shown_number(regions)}: use 1 or more")
     if (reason := unjoined(family)) is not None:
         raise InputError(f"{reason}{GIVE_R}")
     covered = int(least_ranks(family).max(initial=0))
@@ -384,7 +384,7 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
     """
     check_value(family, "family", "AlphaComplex")
     if family.rule != "corrected":
-        raise UsageError("curves and the automatic radius are those of the corrected rule: leave out rule=printed")
+        raise UsageError("curves and the automatic radius need the corrected rule: leave out rule=printed")
     curves = _core.alpha.alpha_curves(
         len(family.spectrum),
         family.triangle_rank,

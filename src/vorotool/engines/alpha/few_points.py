@@ -25,9 +25,9 @@ def report_too_few(count: int, *, allow_empty: bool, strict: bool) -> None:
     """Refuse points that no edge can join, or warn of them; of an image without any it has been told."""
     if not count and allow_empty:
         return
-    held = "is 1 point" if count == 1 else f"are {count} points"
-    where = ", all at one place" if count > 1 else ""
-    reason = f"there {held}{where}: an alpha shape needs at least two distinct points"
+    held = "1 point" if count == 1 else f"{count} points"
+    where = ", all at one position" if count > 1 else ""
+    reason = f"an alpha shape needs at least two distinct points, but got {held}{where}"
     refuse_or_warn(reason, "", allow_empty=allow_empty, strict=strict)
 
 
@@ -57,7 +57,7 @@ def unjoined(family: AlphaComplex) -> str | None:
         reason = "one point spans" if count else "no points span"
     else:
         reason = "two points span" if count == 2 else f"{count} points on a line span"
-    return f"{reason} no triangle, so no r gives a region that holds them"
+    return f"{reason} no triangle, so no radius gives a region that holds all points"
 
 
 def least_ranks(family: AlphaComplex) -> NDArray[np.int32]:

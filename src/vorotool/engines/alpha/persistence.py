@@ -65,7 +65,7 @@ def persistence(
     else:
         family = alpha_complex(points, strict=strict, allow_empty=allow_empty, threads=threads, progress=progress)
     if family.rule != "corrected":
-        raise UsageError("persistence is that of the corrected rule: leave out rule=printed")
+        raise UsageError("persistence needs the corrected rule: leave out rule=printed")
     mesh = family.mesh
     ranks = family.triangle_rank, family.rank_max
     found = _core.alpha.region_persistence(

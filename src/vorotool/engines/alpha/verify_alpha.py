@@ -83,9 +83,9 @@ def _check_sides(family: AlphaComplex) -> None:
         raise VerificationError("the edges are not those of the triangulation")
     around = np.append(mesh.triangles, [[-1, -1, -1]], axis=0)[family.sides]  # (e, 2, 3)
     ends = (around[:, :, :, None] == family.edges[:, None, None, :]).any(axis=2).all(axis=2)
-    _fail((~ends & (family.sides >= 0)).any(axis=1), "edge {} is no side of a triangle that it names")
+    _fail((~ends & (family.sides >= 0)).any(axis=1), "edge {} is not a side of a triangle that it names")
     count = np.bincount(family.sides[family.sides >= 0], minlength=len(mesh.triangles))
-    _fail(count != 3, "triangle {} has not three edges")
+    _fail(count != 3, "triangle {} does not have three edges")
 
 
 def _triangles_reached(mesh: Triangulation, r: Radius) -> NDArray[np.bool_]:
@@ -230,7 +230,7 @@ def _check_rings(shape: AlphaShape) -> None:
     if len(np.unique(places, axis=0)) != len(places):
         raise VerificationError("a ring visits a point twice")
     shells = np.bincount(polygons.ring_polygon[polygons.ring_kind == 0], minlength=len(polygons))
-    _fail(shells != 1, "polygon {} has not one shell")
+    _fail(shells != 1, "polygon {} does not have exactly one shell")
 
 
 def _sorted_rows(rows: NDArray[np.float64]) -> NDArray[np.float64]:

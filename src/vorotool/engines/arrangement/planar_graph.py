@@ -227,7 +227,7 @@ def _face_fault(graph: PlanarGraph) -> str | None:
     if graph.faces and start[1] != 0:
         return "face 0, which is unbounded, lies in a polygon"
     if len(graph.segments) and _face_left_of_all(graph) != 0:
-        return "what lies left of all segments is not face 0"
+        return "the face left of all segments is not face 0"
     return None
 
 
@@ -295,10 +295,10 @@ def _side_fault(
     divided = owners(length)
     strange = ~np.isin(divided * count + differing[ranges(first[pair.ravel()], length)] % count, own)
     if strange.any():
-        return f"segment {divided[strange][0]} divides a polygon of which it is no edge"
+        return f"segment {divided[strange][0]} divides a polygon, but is not one of its edges"
     is_border = length > 0
     is_thin = (given.ring_kind == LINE) | is_flat_hole
     is_border[segment[is_thin[ring_of_edge]]] = True
     if not is_border.all():
-        return f"segment {is_border.argmin()} bounds nothing"
+        return f"segment {is_border.argmin()} is dangling: it bounds no face"
     return None

@@ -53,10 +53,10 @@ def report_small(given: PolygonSet, placement: Placement, *, strict: bool) -> No
     what = "1 polygon or line is" if count == 1 else f"{count} polygons or lines are"
     message = (
         f"{what} smaller than {SMALL} steps of the lattice ({step:.3g}) to which all coordinates are rounded: "
-        f"{_features(given, is_small)}; leave out what is far away, or expect rough sizes and radii"
+        f"{_features(given, is_small)}; remove features that are far away, or expect rough sizes and radii"
     )
     if strict:
-        raise InputError(f"{message}: they are refused with {STRICT}")
+        raise InputError(f"{message}; {STRICT} refuses this")
     warn(message, RepairWarning)
 
 
@@ -99,18 +99,18 @@ def _features(given: PolygonSet, chosen: NDArray[np.bool_]) -> str:
 
 
 _WORDS = {
-    "repeated_vertices": ("repeated vertex left out", "repeated vertices left out"),
+    "repeated_vertices": ("repeated vertex dropped", "repeated vertices dropped"),
     "touching_vertices": ("edge cut at a vertex on it", "edges cut at a vertex on them"),
     "crossings": ("crossing of edges cut", "crossings of edges cut"),
     "moved_edges": ("edge bent by less than {step:.2g}", "edges bent by less than {step:.2g}"),
-    "idle_segments": ("segment that bounds nothing left out", "segments that bound nothing left out"),
-    "empty_polygons": ("polygon has no inside", "polygons have no inside"),
+    "idle_segments": ("dangling segment dropped", "dangling segments dropped"),
+    "empty_polygons": ("polygon without area", "polygons without area"),
 }
 
 
 def _summary(repairs: dict[str, int], step: float) -> str:
     parts = [f"{count} {_WORDS[name][count != 1].format(step=step)}" for name, count in repairs.items() if count]
-    return f"the polygons were repaired: {', '.join(parts)}"
+    return f"repaired: {', '.join(parts)}"
 
 
 def _first_repair(polygons: PolygonSet, found: Found) -> str:
@@ -124,10 +124,10 @@ def _first_repair(polygons: PolygonSet, found: Found) -> str:
         "repeated_vertices": f"{polygons.place(edge)} at {_position(polygons, edge)} is repeated by the next one",
         "touching_vertices": f"{where} passes through {polygons.place(other)} at {_position(polygons, other)}",
         "crossings": f"{where} crosses {_edge(polygons, other)}",
-        "idle_segments": f"{where} bounds nothing, or a part of it does not: a spike or an overlap",
-        "empty_polygons": f"{polygons.place(edge).split(',')[0]} at {_position(polygons, edge)} has no inside",
+        "idle_segments": f"{where} is dangling, or a part of it is: a spike or an overlap",
+        "empty_polygons": f"{polygons.place(edge).split(',')[0]} at {_position(polygons, edge)} has no area",
     }[name]
-    return f"{what} ({count} such places): repair it, or leave out {STRICT}"
+    return f"{what} ({count} such repairs): correct it, or leave out {STRICT}"
 
 
 def _edge(polygons: PolygonSet, edge: int) -> str:

@@ -130,10 +130,10 @@ def _path_between(
     start, end = (None if place is None else as_place(place, name) for name, place in (("start", start), ("end", end)))
     for place in (start, end):
         if place is not None and not np.isfinite(place).all():
-            raise UsageError(f"({place[0]}, {place[1]}) is no place: its coordinates must be finite")
+            raise UsageError(f"the point ({place[0]}, {place[1]}) is not finite: give finite coordinates")
         check_lengths(place or (), "coordinate")
     if not len(network.arc):
-        raise InputError("there is no skeleton inside polygons for a path to follow")
+        raise InputError("the skeleton has no arcs inside polygons for a path to follow")
     first, last = (-1 if place is None else network.node_near(place) for place in (start, end))
     is_reversed = start is None
     path = network.path(last if is_reversed else first, -1 if is_reversed else last, progress)
@@ -285,7 +285,7 @@ def _warn_missing(lines: Centerlines) -> None:
     named = [str(ids[k] if ids is not None and has_ids else k + 1) for k in missing[:MOST_NAMED].tolist()]
     more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
     what = "ids" if has_ids else "numbers"
-    warn(f"{len(missing)} of {total} polygons gave no centerline: {what} {', '.join(named)}{more}")
+    warn(f"{len(missing)} of {total} polygons have no centerline: {what} {', '.join(named)}{more}")
 
 
 def _no_path(skeleton: Skeleton, start: Place | None, end: Place | None, *, is_apart: bool) -> str:
@@ -293,5 +293,8 @@ def _no_path(skeleton: Skeleton, start: Place | None, end: Place | None, *, is_a
         return "a leaf" if place is None else f"({place[0]:g}, {place[1]:g})"
 
     if is_apart:
-        return f"no path along the skeleton leads from {told(start)} to {told(end)}: they are in different parts of it"
-    return f"the path from {told(start)} to {told(end)} is a single place of the skeleton: give others"
+        return (
+            f"no path along the skeleton leads from {told(start)} to {told(end)}: these parts of the skeleton are not "
+            "connected"
+        )
+    return f"the path from {told(start)} to {told(end)} is a single point of the skeleton: give points farther apart"

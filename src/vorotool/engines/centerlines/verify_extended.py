@@ -57,7 +57,7 @@ def verify_extended(extended: ExtendedSkeleton, skeleton: Skeleton | None = None
     places, nodes = extended.ends[branch, end], extended.end_nodes[branch, end]
     at = first_wrong((path.degree[nodes] != 1) | ~(path.radius[nodes] > 0))
     if at is not None:
-        fail(f"end {end[at]} of branch {branch[at]} is led on, but is no leaf inside")
+        fail(f"end {end[at]} of branch {branch[at]} is extended, but is not a leaf inside a polygon")
     if not len(branch):
         return
     shapes = np.array(to_shapely(path.polygons), dtype=object)[extended.polygon[branch]]
@@ -65,11 +65,11 @@ def verify_extended(extended: ExtendedSkeleton, skeleton: Skeleton | None = None
     at = first_wrong(shapely.distance(shapely.boundary(shapes), shapely.points(places)) > off)
     if at is not None:
         x, y = places[at].tolist()
-        fail(f"end {end[at]} of branch {branch[at]} is led on to ({x:g}, {y:g}), which is not on the boundary")
+        fail(f"end {end[at]} of branch {branch[at]} is extended to ({x:g}, {y:g}), which is not on the boundary")
     lines = shapely.linestrings(np.stack([path.vertices[nodes], places], axis=1))
     at = first_wrong(shapely.length(shapely.difference(lines, shapely.buffer(shapes, off))) > 0)
     if at is not None:
-        fail(f"what end {end[at]} of branch {branch[at]} is led on by leaves polygon {extended.polygon[branch[at]]}")
+        fail(f"the extension of end {end[at]} of branch {branch[at]} leaves polygon {extended.polygon[branch[at]]}")
 
 
 def _check_branches(path: Skeleton, skeleton: Skeleton) -> None:
@@ -91,7 +91,7 @@ def _check_branches(path: Skeleton, skeleton: Skeleton) -> None:
         most = TIP * radius[node] + max(radius[node], HAIR * radius[stem])
         if beyond[node] > most or (is_side and beyond[node] + length > 2 * radius[stem]):
             x, y = skeleton.vertices[node].tolist()
-            fail(f"a branch is missing: it goes on for {beyond[node]:g} from ({x:g}, {y:g})")
+            fail(f"a branch is missing: it continues for {beyond[node]:g} from ({x:g}, {y:g})")
         beyond[before] = max(beyond[before], beyond[node] + length)
 
 

@@ -88,7 +88,7 @@ def voronoi_cells(
     try:
         coordinates, starts = _core.cells.voronoi_cells(core_mesh(mesh), box.sides, checked_threads(threads), progress)
     except ValueError as error:
-        raise InputError(f"{error}: give a Delaunay triangulation, such as delaunay() makes") from None
+        raise InputError(f"{error}: give a Delaunay triangulation, such as delaunay() returns") from None
     cells = CellSet(mesh.points, coordinates, starts, box, **known_of_points(mesh))
     return cells if area is None else _clipped(cells, area)
 
@@ -138,7 +138,7 @@ def _clip_area(clip: Any, crs: Any) -> Any:
     polygons, own_crs = as_geometry(clip, "clip")
     if crs is not None and own_crs is not None and not same_crs(crs, own_crs):
         raise InputError(
-            f"invalid clip: it is in {crs_name(own_crs)}, but the points in {crs_name(crs)}; bring both into one system"
+            f"invalid clip: it is in {crs_name(own_crs)}, but the points in {crs_name(crs)}; reproject one of them"
         )
     polygons = polygons[~shapely.is_missing(polygons)]
     for number, polygon in enumerate(polygons, 1):
@@ -147,14 +147,11 @@ def _clip_area(clip: Any, crs: Any) -> Any:
     bad = ~shapely.is_valid(polygons)
     if bad.any():
         reason = shapely.is_valid_reason(polygons[np.argmax(bad)])
-        warn(
-            f"{int(bad.sum())} of {len(polygons)} polygons to clip to are not valid and were repaired "
-            f"(the first: {reason})"
-        )
+        warn(f"{int(bad.sum())} of {len(polygons)} clip polygons are invalid and were repaired (the first: {reason})")
         polygons[bad] = shapely.make_valid(polygons[bad])
     area = shapely.union_all(polygons)
     if area.area == 0:
-        raise InputError("the polygons to clip to have no area: give some that do")
+        raise InputError("the clip polygons have no area: give polygons that have one")
     return area
 
 
@@ -247,7 +244,7 @@ def verify_cells(cells: CellSet, *, threads: int = 0, progress: Progress = None)
     """
     check_value(cells, "cells", "CellSet")
     if cells.polygon_starts is not None:
-        raise InputError("cells clipped to polygons cannot be checked: check them before they are clipped")
+        raise InputError("cells clipped to polygons cannot be verified: verify them before clipping")
     if not (np.isfinite(cells.sites).all() and np.isfinite(cells.coordinates).all()):
         raise VerificationError("a coordinate is not finite")
     fault = _core.cells.find_cell_fault(

@@ -85,7 +85,7 @@ def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
     what = f"{count} of {len(mesh.points)} points lie on an earlier point"
     if checked_flag(strict, "strict"):
         raise InputError(f"{what}: remove the duplicates, or leave out {STRICT}")
-    warn(f"{what}: the first one of each place is triangulated")
+    warn(f"{what}: only the first point at each position is triangulated")
 
 
 def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Progress = None) -> None:

@@ -22,7 +22,7 @@ def triangulation_of(points: Any, triangles: ArrayLike) -> Triangulation:
     given = as_points(points)
     corners = _counter_clockwise(given.xy, _checked_triangles(triangles, len(given.xy)))
     if not len(corners):
-        raise InputError("there are no triangles: vorotool.delaunay makes them")
+        raise InputError("triangles is empty: vorotool.delaunay computes a triangulation of points")
     tails, heads = corners.reshape(-1), np.roll(corners, -1, axis=1).reshape(-1)
     twins = _twins(tails, heads, len(given.xy))
     hull = _hull(given.xy, tails[twins < 0], heads[twins < 0])
@@ -67,7 +67,7 @@ def _twins(tails: Indices, heads: Indices, count: int) -> NDArray[np.int64]:
     repeated = np.flatnonzero(np.diff(keys[order]) == 0)
     if repeated.size:
         side = order[repeated[0]]
-        raise InputError(f"two triangles have the edge {tails[side]}, {heads[side]} on the same side: they overlap")
+        raise InputError(f"two triangles lie on the same side of the edge {tails[side]}, {heads[side]}: they overlap")
     wanted = heads.astype(np.int64) * count + tails
     place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
     found: NDArray[np.int64] = np.where(keys[order[place]] == wanted, order[place], -1)

@@ -117,7 +117,7 @@ def _inserted(
     try:
         return _core.delaunay.insert_points(core_mesh(mesh), xy, hints, threads, progress)
     except ValueError as error:
-        raise InputError(f"{error}: give a triangulation that delaunay() or insert_points() has made") from None
+        raise InputError(f"{error}: give a triangulation that delaunay() or insert_points() returned") from None
 
 
 def _hints(hint: Any, count: int, further: int) -> NDArray[np.int32]:
@@ -126,7 +126,7 @@ def _hints(hint: Any, count: int, further: int) -> NDArray[np.int32]:
     hints = np.broadcast_to(whole_numbers(hint, "hint", np.int64), (further,) if np.ndim(hint) == 0 else np.shape(hint))
     if hints.shape != (further,):
         raise InputError(
-            f"hint must be one index, or one for each of the {further} points, but has shape {hints.shape}"
+            f"hint must be one index, or one index for each of the {further} points, but has shape {hints.shape}"
         )
     bad = np.flatnonzero((hints < 0) | (hints >= count))
     if bad.size:

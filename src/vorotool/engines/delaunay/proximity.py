@@ -82,5 +82,5 @@ def proximity_graph(
     try:
         index = _core.proximity.proximity_edges(core_mesh(mesh), rule, threads, progress)
     except ValueError as error:
-        raise InputError(f"{error}: give a Delaunay triangulation, such as delaunay() makes") from None
+        raise InputError(f"{error}: give a Delaunay triangulation, such as delaunay() returns") from None
     return ProximityGraph(mesh, kind, index)

@@ -74,7 +74,7 @@ def site_table(
         cells = voronoi_cells(mesh, frame=frame, threads=threads, progress=progress)
     check_value(cells, "cells", "CellSet")
     if not np.array_equal(cells.sites, mesh.points):
-        raise InputError("the cells are not those of the triangulation's points: give cells made from it")
+        raise InputError("the cells belong to other points: give cells computed from this triangulation")
     threads = checked_threads(threads)
     labels = np.ascontiguousarray(mesh.label_array, dtype=np.int64)
     nearest, neighbors = _core.delaunay.nearest_neighbors(mesh.points, mesh.edges, labels, progress)

@@ -57,9 +57,9 @@ def verify_proximity_graph(graph: ProximityGraph) -> None:
     names = dict(zip(KINDS, ("Gabriel graph", "graph of relative neighbors", "minimum spanning tree"), strict=True))
     count, index = len(graph.mesh.edges), graph.edge_index
     if graph.kind not in names:
-        raise VerificationError(f"the kind {graph.kind!r} is none of {', '.join(KINDS)}")
+        raise VerificationError(f"the kind {graph.kind!r} is not one of {', '.join(KINDS)}")
     if len(index) and not (index[0] >= 0 and index[-1] < count and (np.diff(index) > 0).all()):
-        raise VerificationError("the places of edges are not increasing, or not those of edges")
+        raise VerificationError("the indices of edges are not increasing, or out of range")
     kept = np.zeros(count, dtype=bool)
     kept[index] = True
     wrong = np.flatnonzero(kept != (_tree(graph) if graph.kind == "mst" else _by_rule(graph)))

@@ -107,7 +107,7 @@ def digital_triangulation(
     sides = asked_sides(source, spacing)
     if isinstance(source, LabelImage):
         if spacing is not None and sides != source.sides:
-            raise UsageError(f"spacing is that of the label image, {source.sides.text()}: leave it out")
+            raise UsageError(f"spacing is set by the label image, {source.sides.text()}: leave it out")
         sites = _sites_of_image(source, threads)
         return _in_unit(_read(source, sites, [label_array(source.labels)], threads, progress), source.sides)
     frame = asked_frame(shape, window)
@@ -186,7 +186,8 @@ def _indices(known: NDArray[np.uint32], *columns: NDArray[np.uint32]) -> NDArray
     wrong = labels[np.append(known, 0)[np.minimum(index, len(known))] != labels]
     if wrong.size:
         raise InputError(
-            f"a pixel has label {wrong[0]}, none of the {len(known)} sites: pass the seeds that the image was made from"
+            f"a pixel has label {wrong[0]}, which is not one of the {len(known)} sites: pass the seeds that the image "
+            "was computed from"
         )
     return index.astype(np.int32)
 
@@ -354,8 +355,8 @@ def one_seed_a_label(seeds: SeedSet) -> NDArray[np.intp]:
     if same.size:
         label = ordered[same[0]]
         raise InputError(
-            f"label {label} has {np.count_nonzero(ordered == label)} seeds: a triangulation of points needs one "
-            f"pixel a label; use {_ONE_A_LABEL}, which links regions"
+            f"label {label} has {np.count_nonzero(ordered == label)} seeds: a triangulation of points needs one seed "
+            f"per label; use {_ONE_A_LABEL}, which triangulates regions"
         )
     return order
 
@@ -364,4 +365,7 @@ def _report_rebuilt(repair: DigitalRepair) -> None:
     if repair.route != "rebuilt":
         return
     why = f"the certificate failed ({repair.fault})" if repair.fault else "the regions have no planar dual"
-    warn(f"the digital triangulation could not be repaired, {why}: all {repair.inserted} sites were inserted exactly")
+    warn(
+        f"the digital triangulation could not be repaired because {why}: all {repair.inserted} sites were inserted "
+        "exactly instead"
+    )

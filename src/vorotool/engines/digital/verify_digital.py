@@ -109,7 +109,7 @@ def _compare(name: str, given: NDArray[np.int64], right: NDArray[np.int64]) -> N
     rows = [tuple(row) for row in np.sort(given, axis=1).tolist()]
     wanted = {tuple(row) for row in right.tolist()}
     if len(set(rows)) < len(rows):
-        raise VerificationError(f"an {name} is there twice" if name == "edge" else f"a {name} is there twice")
+        raise VerificationError(f"an {name} occurs twice" if name == "edge" else f"a {name} occurs twice")
     for what, members in (("is missing", wanted - set(rows)), ("should not be there", set(rows) - wanted)):
         if members:
             labels = "-".join(str(label) for label in min(members))

@@ -43,7 +43,9 @@ def measured_shapes(
     given = [as_sites(source, name=name).polygons for source, name in ((a, "a"), (b, "b"))]
     for name, polygons in zip("ab", given, strict=True):
         if not len(polygons):
-            raise InputError(f"invalid {name}: it has no places, and nothing is far from it: give a shape with some")
+            raise InputError(
+                f"invalid {name}: the shape is empty, so no distance to it exists; give a shape with geometry"
+            )
     _check_crs(*given)
     check_magnitude(np.concatenate([polygons.xy for polygons in given]))
     first, second = (_measured(with_used_rings(polygons), boundary, progress) for polygons in given)

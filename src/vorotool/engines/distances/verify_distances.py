@@ -130,16 +130,16 @@ def _check_places(name: str, pair: PlacePair, a: _Checked, b: _Checked, toleranc
     for which, place, shape in (("a", pair.on_a, a), ("b", pair.on_b, b)):
         off = float(shape.distance(np.array([place]))[0])
         if not off <= tolerance:
-            fail(f"{name}: the place {place} is not on {which}, but {off:g} away from it")
+            fail(f"{name}: the point {place} is not on {which}, but {off:g} away from it")
     apart = float(hypotenuse(*np.subtract(pair.on_a, pair.on_b)))
     if not abs(apart - pair.distance) <= tolerance:
-        fail(f"{name}: the places are {apart!r} apart, but the distance is {pair.distance!r}")
+        fail(f"{name}: the points are {apart!r} apart, but the distance is {pair.distance!r}")
 
 
 def _check_is_from(name: str, place: tuple[float, float], distance: float, other: _Checked, tolerance: float) -> None:
     own = float(other.distance(np.array([place]))[0])
     if not abs(own - distance) <= tolerance:
-        fail(f"{name}: the place {place} is {own!r} away from the other shape, not {distance!r}")
+        fail(f"{name}: the point {place} is {own!r} away from the other shape, not {distance!r}")
 
 
 def _check_nothing_farther(
@@ -171,7 +171,7 @@ def _check_none_of(name: str, places: Floats, distance: float, other: _Checked, 
     own = other.distance(places)
     at = int(own.argmax())
     if own[at] > distance + tolerance:
-        fail(f"{name}: the place {tuple(places[at].tolist())} is {own[at]!r} away, farther than {distance!r}")
+        fail(f"{name}: the point {tuple(places[at].tolist())} is {own[at]!r} away, farther than {distance!r}")
 
 
 def _check_inside(name: str, distance: float, of: _Checked, other: _Checked, tolerance: float, extent: float) -> None:

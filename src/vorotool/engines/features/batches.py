@@ -205,8 +205,8 @@ def _has_lines_inside(graph: PlanarGraph, given: PolygonSet) -> bool:
 
 def _report_flat(count: int) -> None:
     """Warn of polygons that are taken for lines where what is inside is asked for."""
-    polygons = "1 polygon has" if count == 1 else f"{count} polygons have"
-    message = f"{polygons} vertices at one or two places only, and so no inside: points and segments"
+    polygons = "1 polygon has its" if count == 1 else f"{count} polygons have their"
+    message = f"{polygons} vertices at one or two positions only and no area: treated as points and segments"
     warn(message)
 
 

@@ -93,11 +93,11 @@ def _region(given: PolygonSet, within: Any) -> PolygonSet:
     if isinstance(within, Box) or (isinstance(within, tuple) and len(within) == 4 and np.isscalar(within[0])):
         frame = as_extent(within, "within")
         if not is_extent(frame):
-            raise InputError(f"invalid within {frame}: expected X, Y, W, H, the last two above 0, or polygons")
+            raise InputError(f"invalid within {frame}: expected X, Y, W, H with W and H above 0, or polygons")
     if frame is None:
         region = as_polygons(within, name="within")
         if len(region) and region.is_line.all():
-            raise InputError("invalid within: it has no inside; expected X, Y, W, H, or polygons")
+            raise InputError("invalid within: it has no area; expected X, Y, W, H, or polygons")
         return region
     return as_polygons(corners_of(frame))
 

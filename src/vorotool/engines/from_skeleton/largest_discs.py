@@ -95,7 +95,7 @@ def largest_discs(
 def check_count(count: int | None) -> None:
     """Raise UsageError for what is no number of discs."""
     if count is not None and whole_number(count, "the count") < 1:
-        raise UsageError(f"the count is {count}: use a whole number above 0")
+        raise UsageError(f"the count is {count}: use an integer above 0")
 
 
 def discs_of_skeleton(skeleton: Skeleton, *, count: int | None = None, local: bool = False, threads: int = 0) -> Discs:

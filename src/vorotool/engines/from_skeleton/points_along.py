@@ -82,6 +82,7 @@ def _counts(length: NDArray[np.float64], every: float) -> NDArray[np.int64]:
         counts = np.floor(length / every) + 1
     if not counts.sum() <= MOST_POINTS:
         raise LimitError(
-            f"steps of {every:g} along {length.sum():.6g} are more than {MOST_POINTS} points: use longer ones"
+            f"steps of {every:g} along a length of {length.sum():.6g} give more than {MOST_POINTS} points: use longer "
+            "steps"
         )
     return counts.astype(np.int64)

@@ -32,7 +32,7 @@ def thickness_of_pixels(
     """Give for each pixel the diameter of the largest disc inside the polygons that covers its center."""
     check_value(skeleton, "skeleton", "Skeleton")
     if skeleton.gap:
-        raise InputError("the skeleton has a gap, so that discs do not touch the outline: compute it without")
+        raise InputError("the skeleton has a gap, so its discs do not touch the outline: compute it without a gap")
     inside = with_arcs(skeleton, skeleton.side == INTERIOR)
     (height, width), (down, across) = shape, map(float, sides)
     lowest = -(height - 1) * down if is_up(skeleton) else 0.0

@@ -106,7 +106,7 @@ def _check_feet(discs: Discs, tolerance: float) -> None:
 
 def _check_order(discs: Discs, chosen: NDArray[np.intp], tolerance: float) -> None:
     if (discs.rank[chosen] != np.arange(len(chosen)) + 1).any():
-        fail(f"ranks {discs.rank[chosen].tolist()} do not follow each other")
+        fail(f"ranks {discs.rank[chosen].tolist()} are not consecutive")
     radius = discs.radius[chosen]
     at = first_wrong(np.diff(radius) > tolerance)
     if at is not None:
@@ -209,7 +209,7 @@ def _check_none_larger(discs: Discs, disc: int, tree: STRtree, inside: Any, tole
         larger = first_wrong((away > enough) & shapely.contains_xy(inside, *places.T))
         if larger is not None:
             place = tuple(places[larger].tolist())
-            fail(f"at {place} there is a disc of radius {away[larger]}, larger than disc {disc}")
+            fail(f"a disc of radius {away[larger]} fits at {place}, larger than disc {disc}")
         reach = side * np.sqrt(0.5)
         places = places[away + reach > enough]
         places = places[shapely.distance(inside, shapely.points(places)) <= reach]

@@ -42,7 +42,7 @@ def verify_sections(points: SkeletonPoints, lines: LedOn, every: float) -> None:
     shapely.prepare(paths)
     _refuse(~shapely.dwithin(paths[line], shapely.points(points.xy), tolerance), "is off its line")
     way = points.xy - _interpolated(xy, start, line, points.along)
-    _refuse(hypotenuse(*way.T) > tolerance + _LENGTHENED * points.along, "is elsewhere along its line")
+    _refuse(hypotenuse(*way.T) > tolerance + _LENGTHENED * points.along, "is at another distance along its line")
     _check_across(points, lines, line, tolerance)
     _check_ends(points, line, to_shapely(polygons), tolerance)
 

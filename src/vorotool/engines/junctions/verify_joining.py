@@ -77,7 +77,7 @@ def _check_arcs(joined: Skeleton, skeleton: Skeleton) -> None:
     right = leads & covered & ~joined.is_parabola & (np.abs(joined.length - length) <= tolerance)
     at = first_wrong(~(is_part | right))
     if at is not None:
-        fail(f"arc {at} of the joined skeleton is no part of an arc, and does not lead to a junction that there was")
+        fail(f"arc {at} of the joined skeleton is not a part of an arc, and does not lead to a former junction")
 
 
 def _rows(skeleton: Skeleton) -> list[tuple[float, float, float]]:
@@ -102,7 +102,7 @@ def _check_junctions(joined: Skeleton, skeleton: Skeleton, left: set[tuple[float
         at = first_wrong(~held)
         if at is not None:
             place = tuple(skeleton.vertices[gone[at]].tolist())
-            fail(f"the junction at {place} is gone, but in no disc of a larger one that is left")
+            fail(f"the junction at {place} is missing, but lies in no disc of a larger remaining junction")
     table = branch_table(skeleton, threads=1)
     first = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
     last = np.append(first[1:], len(skeleton))[: len(first)] - 1
@@ -112,4 +112,4 @@ def _check_junctions(joined: Skeleton, skeleton: Skeleton, left: set[tuple[float
     stays = is_left[a] & is_left[b] & may_move[a] & may_move[b] & (a != b) & (table["length"] < larger)
     at = first_wrong(stays)
     if at is not None:
-        fail(f"branch {at} is {table['length'][at]} long, but the junctions that it joins are not one")
+        fail(f"branch {at} is {table['length'][at]} long, but the junctions that it joins are not merged")

@@ -33,7 +33,7 @@ class GreyLevel:
 def grey_level(grey: NDArray[Any], threshold: float) -> GreyLevel:
     """Give the level of a threshold: where pixels have just this value, half-way to the next larger one."""
     if grey.dtype.kind == "f" and not np.isfinite(grey).all():
-        raise InputError("the image holds NaN or infinite values: contours need numbers; use " + _CRACKS)
+        raise InputError("the image holds NaN or infinite values: contours need finite values; use " + _CRACKS)
     above = grey > threshold
     if above.any() and (grey == threshold).any():
         return GreyLevel(grey, threshold + (float(grey[above].min()) - threshold) / 2)

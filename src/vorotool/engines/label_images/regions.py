@@ -388,8 +388,8 @@ def _rows_of(found: NDArray[np.uint32], labels: NDArray[np.uint32], image: Label
     if label is not None:
         row, column = (int(k[0]) for k in np.nonzero(image.labels == label))
         raise InputError(
-            f"pixel (row {row}, column {column}) has label {label}, none of the {len(labels)} sites: "
-            "pass the seeds that the image was made from"
+            f"pixel (row {row}, column {column}) has label {label}, which is not one of the {len(labels)} sites: pass "
+            "the seeds that the image was computed from"
         )
     return rows
 

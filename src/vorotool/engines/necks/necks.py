@@ -110,8 +110,8 @@ def whole_skeleton(
     is_cut = (polygons.radius[ends] > 0) & (polygons.degree[ends] == 1)
     if polygons.gap or polygons.error_bound.any() or is_cut.any() or not is_inside.all():
         raise UsageError(
-            "necks are of the whole skeleton inside polygons: give one of skeleton_exact that is not pruned, has no "
-            "gap and no arcs outside, or give the polygons"
+            "necks need the whole skeleton inside polygons: give the polygons, or their skeleton_exact without "
+            "pruning, gap or arcs outside"
         )
     return polygons
 

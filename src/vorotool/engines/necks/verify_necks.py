@@ -81,7 +81,7 @@ def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -
     least, most = necks.beside.T
     at = first_wrong(~(necks.width / 2 <= least + places.tolerance) | ~(least <= most))
     if at is not None:
-        fail(f"neck {at}: beside its width of {necks.width[at]} there are clearances of {necks.beside[at].tolist()}")
+        fail(f"neck {at}: beside its width of {necks.width[at]} the clearances are {necks.beside[at].tolist()}")
     _check_clearances(necks.skeleton, necks.polygon, necks.xy, necks.width / 2, "neck", threads, progress)
 
 
@@ -250,7 +250,7 @@ def _check_cuts(parts: Parts) -> None:
     for neck, (cut, between) in enumerate(zip(cuts, parts.between.tolist(), strict=True)):
         sides = [found.get(tuple(cut), []), found.get((*cut[2:], *cut[:2]), [])]
         if sorted(map(len, sides)) != [1, 1] or sorted(side[0] for side in sides) != between or sides[0] == sides[1]:
-            fail(f"cut {neck} is said to be between the pieces {between}, but is an edge of {sides[0]} and {sides[1]}")
+            fail(f"cut {neck} is listed between the pieces {between}, but is an edge of {sides[0]} and {sides[1]}")
 
 
 def _check_borders(parts: Parts, threads: int, progress: Progress) -> None:
@@ -266,7 +266,10 @@ def _check_borders(parts: Parts, threads: int, progress: Progress) -> None:
         off = _clearances(skeleton, source, place, np.full(len(rest), 2 * tolerance), threads)
         at = first_wrong(~(off <= tolerance))
         if at is not None:
-            fail(f"piece {piece[rest[at]]}: {place[at].tolist()} is on its border, but on no cut and no boundary")
+            fail(
+                f"piece {piece[rest[at]]}: {place[at].tolist()} is on its border, but neither on a cut nor on the "
+                "boundary"
+            )
     if progress is not None:
         progress(1.0)
 

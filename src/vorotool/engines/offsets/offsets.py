@@ -121,14 +121,16 @@ def checked_distances(distances: float | Sequence[float]) -> list[float]:
     """Distances as a list, after a check."""
     wanted = np.array([finite_double(distance, "a distance") for distance in listed_distances(distances)])
     if not len(wanted):
-        raise UsageError("there is no distance: give one or more, above 0 outwards, below 0 inwards")
+        raise UsageError("the list of distances is empty: give one or more, positive outwards, negative inwards")
     if not wanted.all():
-        raise UsageError("a distance is 0: use finite ones, above 0 outwards, below 0 inwards")
+        raise UsageError("a distance is 0: use positive ones outwards, negative ones inwards")
     found: list[float] = wanted.tolist()
     check_lengths(found, "distance")
     repeated = next((one for one in found if found.count(one) > 1), None)
     if repeated is not None:
-        raise UsageError(f"the distance {repeated:g} is there {found.count(repeated)} times: give each one once")
+        raise UsageError(
+            f"the distance {repeated:g} is repeated {found.count(repeated)} times: give each distance once"
+        )
     return found
 
 
@@ -228,7 +230,7 @@ def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progre
     graph, diagram, placed = shapes.graph, shapes.diagram, shapes.placed
     for distance in distances:
         if len(diagram.edges) and not np.isfinite(distance / graph.scale):
-            raise UsageError(f"the distance {distance:g} is beyond all proportion to the shapes: use a smaller one")
+            raise UsageError(f"the distance {distance:g} is too large for shapes of this size: use a smaller one")
     face = np.full(len(diagram.edges), -1, dtype=np.int32)
     edges, faces = kept_edges(shapes, threads=threads, progress=progress)
     face[edges] = faces

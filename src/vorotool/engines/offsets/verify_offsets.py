@@ -159,7 +159,7 @@ def _check_sites(offsets: Offsets, tolerance: float) -> None:
     ends = ends_of_sites(offsets.polygons, offsets.site_table)[offsets.site]
     at = first_wrong((offsets.site_table.kind[offsets.site] == EDGE) == offsets.is_arc)
     if at is not None:
-        fail(f"piece {at} is no line along an edge, and no arc about a vertex")
+        fail(f"piece {at} is neither a line along an edge nor an arc about a vertex")
     at = first_wrong(offsets.is_arc & (offsets.center != ends[:, 0]).any(axis=1))
     if at is not None:
         fail(f"arc {at} is about {_place(offsets.center[at])}, which is not its vertex")
@@ -235,7 +235,7 @@ def _check_orientation(offsets: Offsets, tolerance: float) -> None:
     area = np.where(offsets.ring_kind == SHELL, single.area, -single.area)
     at = first_wrong(area < -tolerance * length)
     if at is not None:
-        fail(f"ring {at} turns the wrong way: it has the area {single.area[at]}")
+        fail(f"ring {at} has the wrong orientation: it has the area {single.area[at]}")
 
 
 def _check_regions(

@@ -114,7 +114,7 @@ def distance_transform(
     return_distances = checked_flag(return_distances, "return_distances")
     return_indices = checked_flag(return_indices, "return_indices")
     if not (return_distances or return_indices):
-        raise UsageError("return_distances and return_indices are both False: nothing is wanted, set one of them")
+        raise UsageError("return_distances and return_indices are both False: set at least one of them")
     sweep: Tessellator | _Background | None
     if is_volume(mask):
         values = volume(mask, "mask", max_pixels)
@@ -141,7 +141,7 @@ def _sweep(values: NDArray[Any], sides: PixelSides, threads: int, max_pixels: in
 
 def _require(background: NDArray[np.bool_]) -> None:
     if not background.any():
-        raise InputError("invalid mask: expected a zero pixel, but there is none, so that there are no distances to it")
+        raise InputError("invalid mask: expected at least one zero pixel to measure distances to, but all are nonzero")
 
 
 class _Background(VolumeSweep):

@@ -115,7 +115,7 @@ def prune(
     given = {"angle": angle, "chord": chord, "scale": scale, "length": length, "ratio": ratio}
     thresholds = {name: value for name, value in given.items() if value is not None}
     if len(thresholds) != 1:
-        raise UsageError(f"{len(thresholds)} thresholds are given: give one of {', '.join(CRITERIA)}")
+        raise UsageError(f"expected one threshold, but got {len(thresholds)}: give one of {', '.join(CRITERIA)}")
     ((criterion, threshold),) = thresholds.items()
     threshold = finite_double(threshold, criterion)
     check_threshold(criterion, threshold)

@@ -59,7 +59,7 @@ def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
     at = first_wrong(~are_parts(pruned, skeleton))
     if at is not None:
         left, right = sorted(pruned.sites[at].tolist())
-        fail(f"arc {at} of the pruned skeleton is no part of an arc between sites {left} and {right}")
+        fail(f"arc {at} of the pruned skeleton is not a part of an arc between sites {left} and {right}")
 
 
 def are_parts(made: Skeleton, skeleton: Skeleton) -> NDArray[np.bool_]:

@@ -48,7 +48,7 @@ class SamplingOptions:
 
     def __post_init__(self) -> None:
         if (self.step is None) == (self.tolerance is None):
-            raise UsageError("give a step or a tolerance, and not both")
+            raise UsageError("give either a step or a tolerance")
         for name in ("step", "tolerance"):
             value = getattr(self, name)
             if value is None:
@@ -59,7 +59,7 @@ class SamplingOptions:
         if not is_choice(self.sampling, (None, *SAMPLINGS)):
             raise UsageError(f"the sampling is {shown_number(self.sampling)}: use {' or '.join(SAMPLINGS)}")
         if self.tolerance is not None and self.sampling == "paper":
-            raise UsageError("a tolerance is met by symmetric sampling: leave the sampling out")
+            raise UsageError("a tolerance implies symmetric sampling: leave out the sampling")
 
     @property
     def is_symmetric(self) -> bool:
@@ -121,7 +121,7 @@ def sampled_graph(
     try:
         return diagram_by_step(graph, placed, options, SampleGroups(), most=most, threads=threads, progress=progress)
     except _core.sampled_skeleton.TooManySeedsError as error:
-        raise LimitError(f"a step of {options.step:g} gives {error}, more than {most}: use a larger one") from None
+        raise LimitError(f"a step of {options.step:g} gives {error}, more than {most}: use a larger step") from None
 
 
 def diagram_by_step(
@@ -139,8 +139,8 @@ def diagram_by_step(
     step = options.step / graph.scale
     if step < _core.sampled_skeleton.LEAST_SAMPLE_GAP:
         raise LimitError(
-            f"a step of {options.step:g} is too fine to tell samples apart on the lattice that polygons are placed on: "
-            f"use at least {_core.sampled_skeleton.LEAST_SAMPLE_GAP * graph.scale!r}"
+            f"a step of {options.step:g} is finer than the lattice that coordinates are rounded to: use at least "
+            f"{_core.sampled_skeleton.LEAST_SAMPLE_GAP * graph.scale!r}"
         )
     if options.is_symmetric:
         steps = _core.sampled_skeleton.corner_steps(core_graph(graph), step, True, most)

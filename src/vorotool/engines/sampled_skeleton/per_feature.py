@@ -91,10 +91,10 @@ class _SeedBudget:
     def error(self) -> LimitError:
         if self._options.step is not None:
             return LimitError(
-                f"a step of {self._options.step:g} gives too many seeds, more than {self.most}: use a larger one"
+                f"a step of {self._options.step:g} gives too many seeds, more than {self.most}: use a larger step"
             )
         return LimitError(
-            f"errors of at most {self._options.tolerance:g} take more than {self.most} seeds (too many seeds): use a "
+            f"errors of at most {self._options.tolerance:g} need more than {self.most} seeds (too many seeds): use a "
             "larger tolerance, or allow more seeds"
         )
 

@@ -65,7 +65,7 @@ def skeleton_within(
         )
     except _core.sampled_skeleton.TooManySeedsError as error:
         raise LimitError(
-            f"errors of at most {tolerance:g} take more than {most} seeds ({error}): use a larger tolerance, or allow "
+            f"errors of at most {tolerance:g} need more than {most} seeds ({error}): use a larger tolerance, or allow "
             "more seeds"
         ) from None
     refuse_unproved(found.skeleton, tolerance)
@@ -88,7 +88,7 @@ def refined_skeleton(
     """Sample until there is nothing more to be divided, or it does not help; TooManySeedsError is the core's."""
     if tolerance < LEAST_STEPS * graph.scale:
         raise LimitError(
-            f"a tolerance of {tolerance:g} is finer than the lattice that polygons are placed on: use at least "
+            f"a tolerance of {tolerance:g} is finer than the lattice that coordinates are rounded to: use at least "
             f"{LEAST_STEPS * graph.scale!r}"
         )
     core = core_graph(graph)
@@ -119,8 +119,8 @@ def refuse_unproved(skeleton: Skeleton, tolerance: float) -> None:
     if unproved.any():
         raise LimitError(
             f"errors of {np.count_nonzero(unproved)} arcs could not be bounded, the first near ({x:g}, {y:g}), where "
-            "edges are too near to each other for samples on the lattice: use a step instead of the tolerance, or the "
-            "exact skeleton"
+            "edges are too close together for the lattice that coordinates are rounded to: use a step instead of the "
+            "tolerance, or the exact skeleton"
         )
     raise LimitError(
         f"errors of at most {tolerance:g} could not be proved for {np.count_nonzero(wrong)} arcs, the first near "

@@ -120,7 +120,7 @@ def _explained(symptom: str, points: NDArray[np.int32], segments: NDArray[np.int
     fault = _fault_of(points, segments)
     if fault is not None:
         return InputError(f"{fault}: place the input on the lattice first")
-    return VerificationError(f"{symptom}: a defect of vorotool, please report it with the input")
+    return VerificationError(f"internal error in vorotool: {symptom}; please report it with the input")
 
 
 def _fault_of(points: NDArray[np.int32], segments: NDArray[np.int32]) -> str | None:

@@ -37,7 +37,7 @@ def check_skeleton_options(side: str, gap: float, frame: Extent | None) -> None:
     if finite_double(gap, "the gap") < 0:
         raise UsageError(f"the gap is {shown_number(gap)}: use a length of 0 or more")
     if frame is not None and not is_extent(frame):
-        raise UsageError(f"the frame is {frame}: use X, Y, W, H, the last two above 0")
+        raise UsageError(f"the frame is {frame}: use X, Y, W, H with W and H above 0")
 
 
 def check_features(features: str) -> None:
@@ -240,18 +240,18 @@ def on_lattice(frame: Extent, graph: PlanarGraph) -> tuple[float, float, float, 
 def warn_empty(polygons: PolygonSet, side: str) -> None:
     """Say why there is no interior; with both sides, that of open lines is not missed."""
     if not len(polygons):
-        reason = "there are no polygons"
+        reason = "the input holds no polygons"
     elif polygons.is_line.all():
         if side == "both":
             return
-        reason = "open lines have no inside: use " + option("--side exterior", 'side="exterior"')
+        reason = "open lines have no interior: use " + option("--side exterior", 'side="exterior"')
     else:
-        reason = "no polygon has an inside"
+        reason = "no polygon has an area"
     message = Message(f"the interior skeleton is empty: {reason}", Kind.EMPTY_RESULT)
     warn(VorotoolWarning(message))
 
 
 def warn_all_cut() -> None:
     """Say that there is no axis in the rectangle whose border is open."""
-    reason = "with an open border nothing is between two parts of the outlines"
+    reason = "no place inside the open border lies between two parts of an outline"
     warn(VorotoolWarning(Message(f"the interior skeleton is empty: {reason}", Kind.EMPTY_RESULT)))

@@ -73,17 +73,17 @@ def check_border(polygons: PolygonSet, frame: Extent | None, *, side: str, featu
     if frame is None:
         return
     if not is_extent(frame):
-        raise UsageError(f"the border is {frame}: use X, Y, W, H, the last two above 0")
+        raise UsageError(f"the border is {frame}: use X, Y, W, H with W and H above 0")
     if side != "interior" or features != "separate" or gap:
         raise UsageError(
-            "an open border is for what is inside features, each by itself: leave the side, features and the gap out"
+            "an open border applies to the interior of separate features: leave out side, features and gap"
         )
     check_lengths(frame, "border's coordinate")
     x, y, w, h = frame
     beyond = np.flatnonzero(((polygons.xy < [x, y]) | (polygons.xy > [x + w, y + h])).any(axis=1))
     if beyond.size:
         place = tuple(polygons.xy[beyond[0]].tolist())
-        raise InputError(f"{place} is beyond the border {frame}: cut polygons there first")
+        raise InputError(f"{place} is beyond the border {frame}: clip the polygons to the border first")
 
 
 def opened(graph: PlanarGraph, frame: Extent) -> Opening:

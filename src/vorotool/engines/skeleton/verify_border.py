@@ -49,7 +49,8 @@ def check_cut_regions(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph,
     at = first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame)
     if at is not None:
         fail(
-            f"the skeleton ends at node {at}, {tuple(skeleton.vertices[at].tolist())}: no corner, and not on the border"
+            f"the skeleton ends at node {at}, {tuple(skeleton.vertices[at].tolist())}, which is neither a corner nor "
+            "on the border"
         )
     count = len(skeleton.polygons)
     summed = np.bincount(skeleton.polygon, areas_beside(skeleton, sites), count)

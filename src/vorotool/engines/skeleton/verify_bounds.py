@@ -104,7 +104,7 @@ def _check_sides(skeleton: Skeleton) -> None:
     inside[arc] = True
     at = first_wrong(inside != (skeleton.side == INTERIOR))
     if at is not None:
-        fail(f"arc {at} is {'inside' if inside[at] else 'outside'}, but said to be on the other side")
+        fail(f"arc {at} is {('inside' if inside[at] else 'outside')}, but is listed on the other side")
     own = np.zeros(len(skeleton), dtype=bool)
     own[arc[area[shape] == skeleton.polygon[arc]]] = True
     at = first_wrong(~own & (skeleton.side != EXTERIOR))
@@ -152,7 +152,7 @@ def _check_cycles(skeleton: Skeleton, graph: PlanarGraph) -> None:
     at = first_wrong(cycles > most)
     if at is not None:
         where = "outside" if at == outside else f"in polygon {at}"
-        fail(f"the skeleton {where} has {cycles[at]} independent cycles, but there is room for {most[at]}")
+        fail(f"the skeleton {where} has {cycles[at]} independent cycles, but at most {most[at]} are possible")
 
 
 def _most_cycles(graph: PlanarGraph, outside: int) -> NDArray[np.int64]:

@@ -50,7 +50,7 @@ class SkeletonRegions:
         if at is None:
             at = first_wrong(self.sites.is_edge & (number < count))
         if at is not None:
-            fail(f"site {at} is no vertex or edge of the polygons")
+            fail(f"site {at} is not a vertex or edge of the polygons")
         if len(distinct(number)) != len(number) or len(number) != count + len(graph):
             fail(f"there are {count + len(graph)} vertices and edges, but {len(distinct(number))} different sites")
         deleted = self.sites.is_edge[skeleton.sites]
@@ -81,7 +81,7 @@ class SkeletonRegions:
         at = first_wrong(found < 0)
         if at is not None:
             place = tuple(skeleton.vertices[node[at]].tolist())
-            fail(f"arc {arc[at]} ends at {place}, which is no corner between its sites")
+            fail(f"arc {arc[at]} ends at {place}, which is not a corner between its sites")
         self.corner_sector = found
         face = np.full(len(skeleton.vertices), -1, dtype=np.int64)
         face[self.root[node]] = sectors.face[found]
@@ -127,7 +127,7 @@ def with_corners_apart(skeleton: Skeleton) -> Skeleton:
     np.minimum.at(first, corner, node)
     at = first_wrong(node != first[corner])
     if at is not None:
-        fail(f"nodes {first[corner[at]]} and {node[at]} are at one corner, where pixels hang together, but not joined")
+        fail(f"nodes {first[corner[at]]} and {node[at]} are at one corner, where pixels are connected, but not joined")
     _, owner = np.unique(np.stack([node, corner]), axis=1, return_index=True)
     at = first_wrong(np.bincount(node[owner], minlength=1) > 1)
     if at is not None:
@@ -185,7 +185,7 @@ def _check_ends(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
     corner = _corners_of_nodes(regions)
     at = first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame & (corner < 0))
     if at is not None:
-        fail(f"the skeleton ends at node {at}, {tuple(skeleton.vertices[at].tolist())}, which is no corner")
+        fail(f"the skeleton ends at node {at}, {tuple(skeleton.vertices[at].tolist())}, which is not a corner")
     times = np.bincount(regions.corner_sector, minlength=len(sectors.face))
     expected = wanted[sectors.face]
     if skeleton.frame is not None:
@@ -219,7 +219,7 @@ def _check_sides(regions: SkeletonRegions, inside: NDArray[np.bool_]) -> None:
     )
     at = first_wrong(first != skeleton.polygon)
     if at is not None:
-        fail(f"arc {at} is said to be in polygon {skeleton.polygon[at]}, but is in {first[at]}")
+        fail(f"arc {at} is listed in polygon {skeleton.polygon[at]}, but is in {first[at]}")
 
 
 def _check_cycles(regions: SkeletonRegions, roots: Indices, face: Indices) -> None:

@@ -133,7 +133,7 @@ def _check_own(skeleton: Skeleton) -> None:
     of_sites = polygons.feature[skeleton.site_table.polygon][skeleton.sites[inside]]
     at = first_wrong((of_sites != polygons.feature[polygon][:, None]).any(axis=1))
     if at is not None:
-        fail(f"arc {inside[at]} is said to be in polygon {polygon[at]}, but is between sites of another feature")
+        fail(f"arc {inside[at]} is listed in polygon {polygon[at]}, but is between sites of another feature")
     owner = np.full(len(skeleton.vertices), -1)
     for end in (0, 1):
         owner[skeleton.arcs[inside, end]] = polygon
@@ -226,10 +226,10 @@ def check_branches(skeleton: Skeleton) -> None:
     before, after = skeleton.arcs[joined - 1, 1], skeleton.arcs[joined, 0]
     at = first_wrong((before != after) | (skeleton.degree[after] != 2))
     if at is not None:
-        fail(f"arc {joined[at]} does not go on where the arc before, of the same branch, ends")
+        fail(f"arc {joined[at]} does not start where the previous arc of its branch ends")
     first = np.flatnonzero(step)
     last = np.append(first[1:], len(skeleton)) - 1
     ends = np.stack([skeleton.arcs[first, 0], skeleton.arcs[last, 1]])
     at = first_wrong((skeleton.degree[ends] == 2).any(axis=0) & (ends[0] != ends[1]))
     if at is not None:
-        fail(f"branch {at} ends at a node where it could go on")
+        fail(f"branch {at} ends at a node where it could continue")

@@ -92,7 +92,7 @@ def _check_tangents(smoothed: SmoothLines, size: float) -> None:
     joint = np.delete(np.arange(len(control)), smoothed.start[:-1])
     before, behind = control[joint - 1], control[joint]
     if (before[:, 3] != behind[:, 0]).any():
-        raise VerificationError("curves of a smooth line do not follow each other")
+        raise VerificationError("the curves of a smooth line are not connected")
     u, v = before[:, 3] - before[:, 2], behind[:, 1] - behind[:, 0]
     lengths = np.sqrt((u * u).sum(axis=1) * (v * v).sum(axis=1))
     shortest = np.sqrt(np.minimum((u * u).sum(axis=1), (v * v).sum(axis=1)))
@@ -127,4 +127,4 @@ def _check_places(
     wrong = np.flatnonzero(~is_near)
     if len(wrong):
         x, y = places[wrong[0]].tolist()
-        raise VerificationError(f"({x:g}, {y:g}) of line {line[wrong[0]]} is farther from {what} than its error says")
+        raise VerificationError(f"({x:g}, {y:g}) of line {line[wrong[0]]} is farther from {what} than its error states")

@@ -43,7 +43,7 @@ _WINDOW = option("--window X,Y,W,H", "window=(x, y, w, h)")
 _FORMS = ((2, "shape must be two integers (H, W)"), (4, "window must be four integers (x, y, w, h)"))
 _CELLS = option("delaunay --what cells", "voronoi_cells")
 _RASTERIZED = option(
-    "type --cell-size C", "a Raster of vorotool.engines.tessellation.rasterized.rasterized(polygons, frame)"
+    "--cell-size C", "a Raster of vorotool.engines.tessellation.rasterized.rasterized(polygons, frame)"
 )
 _WIDEST_TYPE = option("--dtype uint32", 'dtype="uint32"')
 
@@ -86,7 +86,7 @@ def _points(source: Any, name: str) -> PointSet:
         if not _holds_polygons(source):
             raise
         raise InputError(
-            f"invalid {name}: these are polygons or lines, and seeds are points or an image; give their centroids or "
+            f"invalid {name}: expected points or an image, but got polygons or lines; give their centroids or "
             f"vertices, or {_RASTERIZED}"
         ) from None
 
@@ -103,7 +103,7 @@ def _holds_polygons(source: Any) -> bool:
 def require_seeds(seeds: SeedSet | VolumeSeeds) -> None:
     """Refuse an empty list: nothing could be labelled. An image without foreground, which has a frame, is told of."""
     if not len(seeds) and seeds.frame is None:
-        raise InputError("there are no seeds, so nothing could be labelled: give at least one point")
+        raise InputError("no seeds, so no pixel can be labeled: give at least one point")
 
 
 def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
@@ -114,7 +114,7 @@ def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
         raise InputError(
             f"{duplicates} of {seeds} seeds lie on another seed: remove the duplicates, or leave out {STRICT}"
         )
-    warn(f"{duplicates} of {seeds} seeds lie on another seed: the smallest label has the region")
+    warn(f"{duplicates} of {seeds} seeds lie on another seed: the smallest label gets the region")
 
 
 def default_frame(
@@ -126,7 +126,7 @@ def default_frame(
     nearest = least_sides({"x": seeds.x, "y": seeds.y}, seeds.scale, f"{_WINDOW}, or {_CELLS}")
     if nearest[0] * nearest[1] > MOST_UNASKED:
         raise LimitError(
-            f"no frame is given, and one that holds the points has {nearest[0]} x {nearest[1]} pixels, more than "
+            f"the smallest frame that holds the points has {nearest[0]} x {nearest[1]} pixels, more than "
             f"{MOST_UNASKED}: {how}; for points in map units use {instead}"
         )
     return Frame(0, 0, nearest[0], nearest[1])
@@ -137,7 +137,9 @@ def least_sides(places: dict[str, NDArray[np.int64]], scale: int, window: str) -
     for name, values in places.items():
         if values.min() < 0:
             low, high = values.min() / scale, values.max() / scale
-            raise InputError(f"points span {name} {low:g}..{high:g}: use {window}")
+            raise InputError(
+                f"points have {name} from {low:g} to {high:g}, but the default frame begins at 0: use {window}"
+            )
     return [int((2 * values.max() + scale) // (2 * scale)) + 1 for values in places.values()]
 
 
@@ -161,7 +163,7 @@ def asked_numbers(shape: Any, window: Any, forms: tuple[tuple[int, str], tuple[i
     except (TypeError, ValueError):  # as of a file that is closed
         numbers = []
     if len(numbers) != size:
-        points = ": points of space have three columns, x, y and z" * ((size, len(numbers)) in ((2, 3), (4, 6)))
+        points = ": points in space have three columns, x, y and z" * ((size, len(numbers)) in ((2, 3), (4, 6)))
         raise UsageError(f"{form}, but is {shown_number(given)}{points}")
     return numbers
 

@@ -49,14 +49,14 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
         values = grey > whole_threshold(grey, number)
     elif raster.is_color:
         made = mask_options(grey_values(raster))
-        raise InputError(f"a color image holds no objects by itself: use {_THRESHOLD} or {made}")
+        raise InputError(f"a color image is neither a mask nor a label image: use {_THRESHOLD} or {made}")
     elif raster.is_lossy and not is_flat(values[values != values.min()]):
         raise InputError(
-            f"the file is lossy, as JPEG is: its values are no labels; use {_THRESHOLD} or "
+            f"the file has lossy compression, such as JPEG, so its values are not labels; use {_THRESHOLD} or "
             f"{mask_options(values)}, or a PNG"
         )
     if values.dtype.kind == "f" and not np.isfinite(values).all():
-        raise InputError(f"the image holds NaN or infinite values: use {_THRESHOLD}, a number, or repair them")
+        raise InputError(f"the image holds NaN or infinite values: use {_THRESHOLD} with a number, or replace them")
     values = values == 0 if invert else values
     return values if raster.mask is None else np.where(raster.mask, values.dtype.type(0), values)
 
@@ -82,7 +82,7 @@ def settled_threshold(raster: Raster, threshold: float | Literal["otsu"], *, inv
 
     grey = counted_values(raster)
     if grey.dtype.kind == "f" and not np.isfinite(grey).all():
-        raise InputError(f"the image holds NaN or infinite values: use {_THRESHOLD}, a number, or repair them")
+        raise InputError(f"the image holds NaN or infinite values: use {_THRESHOLD} with a number, or replace them")
     if is_flat(grey):
         return (grey.flat[0].item() if grey.size else 0), False
     return otsu_threshold(grey), invert
@@ -128,9 +128,9 @@ def objects_of_value(value: Any, *, note: Note = None) -> Objects:
         return "components"
     is_mask = value in MASK_VALUES
     if note is not None and not is_mask:
-        note(Message(f"{value} is the only value besides 0, and taken for a label: {_AS_COMPONENTS} takes a mask"))
+        note(Message(f"{value} is the only value besides 0, and read as a label: for a mask use {_AS_COMPONENTS}"))
     if note is not None and is_mask and kind.itemsize > 1:
-        note(Message(f"{value} is the only value besides 0, and taken for a mask: {_AS_LABELS} takes a label"))
+        note(Message(f"{value} is the only value besides 0, and read as a mask: for a label use {_AS_LABELS}"))
     return "components" if is_mask else "labels"
 
 
@@ -170,9 +170,7 @@ def report_no_foreground(*, strict: bool, what: str = "image") -> None:
 
 def refuse_distances(what: str = "image") -> None:
     """Refuse distances to nothing."""
-    raise InputError(
-        f"the {what} has no foreground, so that there are no distances to it: use {_INVERT} or {_SOME_THRESHOLD}"
-    )
+    raise InputError(f"the {what} has no foreground to measure distances to: use {_INVERT} or {_SOME_THRESHOLD}")
 
 
 def refuse_photograph(values: NDArray[Any]) -> None:
@@ -181,8 +179,8 @@ def refuse_photograph(values: NDArray[Any]) -> None:
     if looks:
         if min(values.shape) <= 3 < max(values.shape):  # the sides of a list, which no photograph has
             raise InputError(
-                f"the array has the shape {values.shape}: a list of points? save x and y as one of shape (n, 2); "
-                f"for an image use {_AS_LABELS} or {_SOME_THRESHOLD}"
+                f"the array has the shape {values.shape}, is it a list of points? save x and y with shape (n, 2); for "
+                f"an image use {_AS_LABELS} or {_SOME_THRESHOLD}"
             )
         raise InputError(
             f"the image holds {distinct} values in {fragments} fragments: a photograph? use "

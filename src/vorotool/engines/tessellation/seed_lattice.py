@@ -147,8 +147,8 @@ def _columns_of_regions(
         dropped = ", ".join(name for name in columns if name not in kept)
         what = f"points of one label differ in {dropped}"
         if strict:
-            raise InputError(f"{what}: leave these columns out, or leave out {STRICT}")
-        warn(f"{what}: left out of the results")
+            raise InputError(f"{what}: remove these columns, or leave out {STRICT}")
+        warn(f"{what}: these columns are dropped from the results")
     return kept
 
 

@@ -189,7 +189,7 @@ def seeds_from_raster(
     [1, 2, 2]
     """
     if not is_choice(connectivity, (4, 8)):
-        of_volumes = "; 26 and 6 are of volumes" if is_choice(connectivity, (26, 6)) else ""
+        of_volumes = "; 26 and 6 apply to volumes" if is_choice(connectivity, (26, 6)) else ""
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8{of_volumes}")
     max_sites = whole_number(max_sites, "max_sites")
     raster = as_raster(raster, "raster", is_grey=True)

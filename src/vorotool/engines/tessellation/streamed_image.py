@@ -294,7 +294,7 @@ class StreamedImage:
             limit = option(f"--max-sites {min(self._max_sites, LARGEST_LABEL)}")
             labels = option("--seeds labels", 'mode="labels"')
             raise LimitError(
-                f"the image has {count} {what} or more, more than {limit}: use a larger limit, or {labels}"
+                f"the image has at least {count} {what}, more than {limit}: use a larger limit, or {labels}"
             )
 
     def _count(self, objects: NDArray[np.uint32], first: int) -> None:

@@ -251,7 +251,7 @@ def labelled_rows(
         if max_distance is not None:
             raise UsageError("max_distance needs method='exact': the paper's propagation has no distance limit")
         if sides != SQUARE:
-            raise UsageError("spacing needs method='exact': the paper's propagation is for square pixels of side 1")
+            raise UsageError("spacing needs method='exact': the paper's propagation needs square pixels of side 1")
         return PropagatedRows(seeds, frame, passes=passes, strict=strict, max_pixels=max_pixels, progress=progress)
     if whole_number(passes, "passes") != 2:
         raise UsageError(f"passes is {shown_number(passes)}, which needs method='propagation'")
@@ -299,7 +299,7 @@ def verify_tessellation(
         return
     check_value(image, "image", "LabelImage")
     if not isinstance(image, LabelImage) or image.seeds is None or image.frame is None:
-        raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")
+        raise UsageError("the label image carries no seeds: compute it with vorotool.tessellate")
     sides = image.sides
     limit = squared_limit(distance_as_written(max_distance, sides), image.seeds.scale / sides.step)
     verify_label_image(image.labels, image.seeds, image.frame, max_distance2=limit, sides=sides, threads=threads)

@@ -49,7 +49,9 @@ def verify_label_image(
             None,
         )
     except IndexError as error:
-        raise InputError(f"cannot verify: {error}; move the frame and the seeds nearer to each other") from error
+        raise InputError(
+            f"the result cannot be verified: {error}; move the frame and the seeds nearer to each other"
+        ) from error
     if wrong.count:
         raise VerificationError(
             f"{wrong.count} of {frame.pixels} pixels {'is' if wrong.count == 1 else 'are'} wrong: the first, (x, y) = "
@@ -61,7 +63,9 @@ def verify_label_image(
 def _from_origin(coordinates: NDArray[np.int64], origin: int, side: int) -> NDArray[np.int64]:
     """Return coordinates relative to an origin, from where they are within the limit of the core."""
     if abs(origin) > _FARTHEST:
-        raise InputError("cannot verify: the frame is too far from the origin for its lattice; move it nearer")
+        raise InputError(
+            "the result cannot be verified: the frame is too far from the origin for its lattice; move the frame nearer"
+        )
     return on_lattice(coordinates.clip(-2 * _FARTHEST, 2 * _FARTHEST) - origin, side)
 
 

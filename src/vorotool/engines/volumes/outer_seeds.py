@@ -89,7 +89,7 @@ class OuterSeeds:
         if self._most is not None and self._count > self._most:
             what = "foreground voxels" if labels is None else "outer voxels of objects"
             raise LimitError(
-                f"the volume has {self._count} {what} or more, more than {option(f'--max-sites {self._most}')}: use "
+                f"the volume has at least {self._count} {what}, more than {option(f'--max-sites {self._most}')}: use "
                 f"{_CENTROIDS}, or a larger limit"
             )
         places += first * self._plane

@@ -64,7 +64,7 @@ def tessellate_volume(
 
 def _check_method(method: str, passes: int) -> None:
     if method == "propagation":
-        raise UsageError("method='propagation' is the paper's for images: a volume needs method='exact'")
+        raise UsageError("method='propagation' applies to images only: a volume needs method='exact'")
     if method != "exact":
         raise UsageError(f"method is {method!r}: it must be 'exact' in a volume")
     if whole_number(passes, "passes") != EXACT_PASSES:

@@ -24,7 +24,7 @@ def verify_volume(volume: LabelVolume, *, max_distance: float | Fraction | None 
     """Check that every voxel of a tessellation has the smallest label of its nearest seeds."""
     seeds, frame, sides = volume.seeds, volume.frame, volume.sides
     if seeds is None or frame is None:
-        raise UsageError("the label volume carries no seeds: make it with vorotool.tessellate")
+        raise UsageError("the label volume carries no seeds: compute it with vorotool.tessellate")
     limit = squared_limit(distance_as_written(max_distance, sides), seeds.scale / sides.step)
     verify_label_volume(volume.labels, seeds, frame, sides=sides, max_distance2=limit, threads=threads)
 
@@ -59,7 +59,9 @@ def verify_label_volume(
             progress,
         )
     except IndexError as error:
-        raise InputError(f"cannot verify: {error}; move the frame and the seeds nearer to the origin") from error
+        raise InputError(
+            f"the result cannot be verified: {error}; move the frame and the seeds nearer to the origin"
+        ) from error
     if wrong.count:
         column, row, slice_ = wrong.first
         raise VerificationError(

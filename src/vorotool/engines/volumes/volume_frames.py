@@ -77,7 +77,7 @@ def default_voxel_frame(
     sides = least_sides({"x": seeds.x, "y": seeds.y, "z": seeds.z}, seeds.scale, _WINDOW)
     if sides[0] * sides[1] * sides[2] > MOST_UNASKED:
         raise LimitError(
-            f"no frame is given, and one that holds the points has {' x '.join(map(str, sides))} voxels, more than "
+            f"the smallest frame that holds the points has {' x '.join(map(str, sides))} voxels, more than "
             f"{MOST_UNASKED}: {how}"
         )
     return VoxelFrame(0, 0, 0, *sides)

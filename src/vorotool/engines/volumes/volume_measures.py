@@ -69,7 +69,7 @@ def measure_slabs(slabs: Iterable[NDArray[Any]], *, threads: int = 0, progress: 
         negative.append(slab.dtype)
         measurer.add(label_array(slab, "voxel"), threads, progress)
     if measurer is None:
-        raise InputError("there is no slab to measure")
+        raise InputError("the sequence of slabs is empty: give at least one")
     found = measurer.finish(progress)
     for dtype in set(negative):
         refuse_negative(dtype, int(found["labels"].max(initial=0)), "voxel")

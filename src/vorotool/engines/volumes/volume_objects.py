@@ -149,13 +149,13 @@ def _refuse_grey(values: NDArray[Any], first: int) -> None:
     looks, distinct, fragments = photograph_signs(plane)
     if looks:
         raise InputError(
-            f"slice {number} of the volume holds {distinct} values in {fragments} fragments: grey values? use "
+            f"slice {number} of the volume holds {distinct} values in {fragments} fragments: gray values? use "
             f"{mask_options(plane)}, {_THRESHOLD}, or {_AS_LABELS} if these are labels"
         )
 
 
 def _not_finite() -> InputError:
-    return InputError(f"the volume holds NaN or infinite values: use {_THRESHOLD}, a number, or repair them")
+    return InputError(f"the volume holds NaN or infinite values: use {_THRESHOLD} with a number, or replace them")
 
 
 def _otsu(source: SlicesSource, objects: VolumeObjects) -> tuple[float, bool]:

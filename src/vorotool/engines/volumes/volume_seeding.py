@@ -193,7 +193,7 @@ def seeds_of_slabs(
 ) -> VolumeSeeds:
     """Take seeds from a volume that is read slab by slab, and never held; the rest is as of `seeds_from_volume`."""
     if not is_choice(connectivity, _CONNECTIVITY):
-        of_images = "; 8 and 4 are of images" if is_choice(connectivity, (8, 4)) else ""
+        of_images = "; 8 and 4 apply to images" if is_choice(connectivity, (8, 4)) else ""
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 26 or 6 in a volume{of_images}")
     if not is_choice(mode, (None, *get_args(SeedMode))):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")

@@ -155,8 +155,8 @@ def _regions_of(
         place = np.unravel_index(int(np.argmax(volume.labels == label)), volume.shape)
         slice_, row, column = map(int, place)
         raise InputError(
-            f"voxel (slice {slice_}, row {row}, column {column}) has label {label}, none of the "
-            f"{len(regions.labels)} sites: pass the seeds that the volume was made from"
+            f"voxel (slice {slice_}, row {row}, column {column}) has label {label}, which is not one of the "
+            f"{len(regions.labels)} sites: pass the seeds that the volume was computed from"
         )
     return regions
 

@@ -83,5 +83,5 @@ def _tried(own: Indices, angle: Floats, left: Indices, right: Indices) -> Indice
                 rank[order] = np.arange(count)
                 return rank
     raise VerificationError(
-        "a cut runs along a border as far as doubles tell: move the clip, the enclosures or the frame a little"
+        "the clip, an enclosure or the frame coincides with a cell border to within rounding: shift it slightly"
     )

@@ -135,7 +135,9 @@ def rings_of(arcs: Arcs) -> Rings:
     site, part = arcs.sites.ravel()[half_edge], arcs.parts.ravel()[half_edge]
     begin = start[:-1]
     if (site != np.repeat(site[begin], np.diff(start))).any():
-        raise VerificationError("borders do not close around a cell: a defect of vorotool, please report it")
+        raise VerificationError(
+            "internal error in vorotool: borders do not close around a cell; please report it with the input"
+        )
     area = _core.voronoi.ring_areas(start, half_edge, arcs.ends.astype(np.int32), arcs.vertices, _bulges(arcs))
     rings = Rings(start, half_edge, site[begin], part[begin], area)
     return rings[site[begin] != OUTSIDE]

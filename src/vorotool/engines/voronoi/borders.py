@@ -65,7 +65,7 @@ def borders_of(
         )
         return borders if limit is None else _limited(borders, owned, limit, made | {"alias": alias}, whole)
     except RuntimeError as error:
-        raise VerificationError(f"{error}: a defect of vorotool, please report it") from None
+        raise VerificationError(f"internal error in vorotool: {error}; please report it with the input") from None
 
 
 # ---- the limit of distance --------------------------------------------------------------------------

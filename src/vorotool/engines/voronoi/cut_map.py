@@ -131,8 +131,8 @@ def _with_all_sites(overlay: Overlay, joint: PlanarGraph, sites: Indices, order:
         least = np.minimum.reduceat(np.where(around == UNKNOWN, np.iinfo(np.int64).max, around), begin)
         if ((most != least) & (most != UNKNOWN)).any():
             raise VerificationError(
-                "borders and cuts do not close around a cell, as far as doubles tell: move the clip, the enclosures or "
-                "the frame a little"
+                "the clip, an enclosure or the frame nearly coincides with a cell border, to within rounding: shift "
+                "it slightly"
             )
         row = owners(np.diff(start))
         unknown = np.flatnonzero(most == UNKNOWN)

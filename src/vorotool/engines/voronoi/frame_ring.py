@@ -189,7 +189,7 @@ def _sides(ring: list[_Node]) -> list[Pair]:
     for node in ring:
         if node.after is not None:
             if node.before != current:
-                raise VerificationError("the frame runs along a border as far as doubles tell: choose another frame")
+                raise VerificationError("the frame coincides with a cell border to within rounding: shift it slightly")
             current = node.after
         sides.append(current)
     return sides

@@ -106,7 +106,10 @@ def _check_rings(cells: VoronoiMap) -> None:
     cell = cells.cell_of_polygon[owners(np.diff(cells.polygon_starts))][ring]
     at = first_wrong(cells.sites[arc, is_back.astype(int)] != cell)
     if at is not None:
-        fail(f"ring {ring[at]} of cell {cell[at]} passes arc {arc[at]}, whose side is of {cells.sites[arc[at]]}")
+        fail(
+            f"ring {ring[at]} of cell {cell[at]} passes arc {arc[at]}, whose sides belong to sites "
+            f"{cells.sites[arc[at]]}"
+        )
     passed = np.bincount(2 * arc + is_back, minlength=2 * arcs)
     at = first_wrong(passed != (cells.sites.ravel() != OUTSIDE))
     if at is not None:
@@ -117,7 +120,7 @@ def _check_rings(cells: VoronoiMap) -> None:
     after[cells.ring_starts[1:] - 1] = cells.ring_starts[:-1]
     at = first_wrong(end != begin[after])
     if at is not None:
-        fail(f"ring {ring[at]} goes on at vertex {begin[after[at]]}, but arc {arc[at]} ends at {end[at]}")
+        fail(f"ring {ring[at]} continues at vertex {begin[after[at]]}, but arc {arc[at]} ends at {end[at]}")
 
 
 def _check_areas(cells: VoronoiMap) -> None:
@@ -226,7 +229,7 @@ def _check_borders(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Gene
         if at is not None:
             k = int(vertex[at])
             place = tuple(cells.vertices[k].tolist())
-            fail(f"vertex {k} at {place} is {least[at]} from its sites, but is said to be {cells.radius[k]}")
+            fail(f"vertex {k} at {place} is {least[at]} from its sites, but its radius is {cells.radius[k]}")
     source, target = cells.vertices[cells.arcs[border, 0]], cells.vertices[cells.arcs[border, 1]]
     control = np.where(cells.is_parabola[border, None], cells.control[border], (source + target) / 2)
     far = control - source
@@ -265,8 +268,8 @@ def _check_limit(cells: VoronoiMap, sites: _SitePlaces, limit: float) -> None:
         at = first_wrong(~((np.abs(distance - limit) <= slack) & (least >= distance - slack)))
         if at is not None:
             fail(
-                f"arc {arc[at]} at {tuple(place[at].tolist())} is {distance[at]} from site {site[at]}, and {least[at]} "
-                f"from the nearest one, but is along the limit of {limit}"
+                f"arc {arc[at]} at {tuple(place[at].tolist())} is {distance[at]} from site {site[at]}, and "
+                f"{least[at]} from the nearest one, but is on the limit of {limit}"
             )
 
 
@@ -338,7 +341,10 @@ def _check_shares(
         is_wrong[close] = False
     at = first_wrong(is_wrong)
     if at is not None:
-        fail(f"{tuple(places[at].tolist())} is in {'a' if is_held[at] else 'no'} cell, against the clip or enclosures")
+        fail(
+            f"{tuple(places[at].tolist())} is in {('a' if is_held[at] else 'no')} cell, contrary to the clip or the "
+            "enclosures"
+        )
 
 
 def _check_ties(

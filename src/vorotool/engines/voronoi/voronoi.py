@@ -169,7 +169,7 @@ def voronoi(
 def _checked_frame(frame: FrameLike) -> Extent:
     extent = as_extent(frame, "frame")
     if not is_extent(extent):
-        raise UsageError(f"invalid frame {extent}: expected X, Y, W, H, the last two above 0")
+        raise UsageError(f"invalid frame {extent}: expected X, Y, W, H with W and H above 0")
     check_lengths(extent, "frame's coordinate")
     return extent
 
@@ -182,7 +182,8 @@ def _checked_limit(max_distance: float, xy: NDArray[np.float64]) -> float:
     least = LEAST * float(np.abs(xy).max(initial=0))
     if limit < least:
         raise UsageError(
-            f"max_distance is {shown_number(limit)}, too small beside the coordinates: use at least {1.1 * least:.2g}"
+            f"max_distance is {shown_number(limit)}, too small for coordinates of this size: use at least "
+            f"{1.1 * least:.2g}"
         )
     return limit
 

@@ -79,7 +79,7 @@ def _read_header(name: str, first: tuple[int, str, list[str]], wanted: int) -> _
         raise InputError(f"{name}, line {line}: {text[:40]!r} is no header of a .node file; write {form}")
     vertices, dimension, attributes, markers = (int(v) for v in fields + ["0", str(wanted), "0", "0"][len(fields) :])
     if dimension != wanted:
-        what = "points of space have 3" if wanted == 3 else f"only 2 are read{f', 3 by {_SPACE}' * (dimension == 3)}"
+        what = "points in space have 3" if wanted == 3 else f"only 2 are read{f', 3 by {_SPACE}' * (dimension == 3)}"
         raise InputError(f"{name}, line {line}: the vertices have {dimension} dimensions; {what}")
     if markers > 1 or attributes > 1000:
         raise InputError(

@@ -96,7 +96,7 @@ def without_curves(geometry: NDArray[np.object_], flatten: float | None = None) 
 
 def flattened_note(curves: int) -> str:
     """Say how many curves were flattened."""
-    return f"{curves} curve{'s' * (curves > 1)} flattened to {'a line' if curves == 1 else 'lines'} of short pieces"
+    return f"{curves} curve{'s' * (curves > 1)} flattened to short line segments"
 
 
 def _read_later(reader: Callable[[Any], Any], item: Any) -> Callable[[], tuple[Node, int]]:

@@ -93,7 +93,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
                 object.__setattr__(self, name, _checked_starts(getattr(self, name), count, name))
                 count = len(getattr(self, name)) - 1
         if count != len(self.sites):
-            raise InputError(f"there are {count} cells, but {len(self.sites)} sites: give one cell a site")
+            raise InputError(f"there are {count} cells, but {len(self.sites)} sites: give one cell per site")
         check_index(self.index, count, "point")
 
     def __len__(self) -> int:
@@ -185,7 +185,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
 def _checked_starts(values: Any, count: int, name: str) -> NDArray[np.int64]:
     array = np.ascontiguousarray(values, dtype=np.int64)
     if array.ndim != 1 or not divides(array, count):
-        raise InputError(f"{name} must increase from 0 to {count}, the number of what it divides")
+        raise InputError(f"{name} must increase from 0 to {count}")
     return array
 
 

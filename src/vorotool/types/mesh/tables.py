@@ -120,7 +120,7 @@ def _point_columns(mesh: Triangulation) -> dict[str, Any]:
 def mesh_rows(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows:
     """Give the rows of a part, by default of the edges."""
     if what == "table" and isinstance(mesh, DigitalTriangulation):
-        raise UsageError("the table of points is of triangulations: write the edges or triangles of this")
+        raise UsageError("a table of points needs a triangulation: write the edges or triangles of this result")
     makers: dict[str | None, Callable[[Any], Table]] = {"triangles": triangle_table, "table": point_table}
     return Rows(makers.get(what, edge_table)(mesh))
 

@@ -116,7 +116,7 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     def __post_init__(self) -> None:
         super().__post_init__()
         if len(self.source_starts) - 1 != len(self.segments):
-            raise InputError("source_starts must have an entry more than there are segments")
+            raise InputError("source_starts must have one more entry than the segments")
 
     def __len__(self) -> int:
         return len(self.segments)

@@ -112,7 +112,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
         super().__post_init__()
         for name, values in [*self.properties.items(), ("ids", self.ids)]:
             if values is not None and len(values) != count:
-                raise InputError(f"{name} must hold one value a polygon, {count}, but holds {len(values)}")
+                raise InputError(f"{name} must hold one value per polygon, {count}, but holds {len(values)}")
         check_index(self.index, count, "polygon")
         if self.connectivity not in (None, 4, 8):
             raise InputError(f"connectivity is {self.connectivity}: it must be 4 or 8, or left out")
@@ -247,13 +247,13 @@ def _check_rings(
 ) -> None:
     if len(starts) != len(kinds) + 1 or len(kinds) != len(polygons):
         raise InputError(
-            f"ring_starts, ring_kind and ring_polygon are of {len(starts)}, {len(kinds)} and {len(polygons)} values; "
+            f"ring_starts, ring_kind and ring_polygon have {len(starts)}, {len(kinds)} and {len(polygons)} values; "
             "for r rings give r + 1, r and r"
         )
     if not divides(starts, vertices, least=1):
-        raise InputError(f"ring_starts must rise from 0 to the number of vertices, {vertices}, without empty rings")
+        raise InputError(f"ring_starts must increase from 0 to the number of vertices, {vertices}, without empty rings")
     if len(polygons) and (polygons[0] != 0 or not np.isin(np.diff(polygons), (0, 1)).all()):
-        raise InputError("ring_polygon must rise from 0 without gaps: number the polygons in order")
+        raise InputError("ring_polygon must increase from 0 without gaps: number the polygons in order")
     first = np.diff(polygons, prepend=-1) > 0
     lone = np.diff(np.append(np.flatnonzero(first), len(kinds))) == 1
     if (kinds[first] == HOLE).any() or (kinds[~first] != HOLE).any() or (kinds[first][~lone] == LINE).any():
@@ -265,7 +265,7 @@ def _check_rings(
 def _checked_features(values: Any, count: int) -> NDArray[np.int32]:
     feature = _integers(values, np.int32, "feature")
     if len(feature) != count:
-        raise InputError(f"feature must hold one value a polygon, {count}, but holds {len(feature)}")
+        raise InputError(f"feature must hold one value per polygon, {count}, but holds {len(feature)}")
     if count and (feature[0] < 0 or (np.diff(feature) < 0).any()):
-        raise InputError("feature must not fall: the parts of a feature follow one another")
+        raise InputError("feature must not decrease: the parts of a feature are consecutive")
     return feature

@@ -17,7 +17,7 @@ from vorotool.types.values import Value, counted
 
 @record
 class VolumePoints(Value):
-    """A list of points of space in the order of the input.
+    """A list of points in space in the order of the input.
 
     Parameters
     ----------
@@ -68,4 +68,4 @@ class VolumePoints(Value):
         return np.array(self.xyz, dtype=dtype, copy=copy)
 
     def _summary(self) -> str:
-        return f"{counted(len(self), 'point')} of space"
+        return f"{counted(len(self), 'point')} in space"
