@@ -10,6 +10,16 @@ from vorotool.plain import plain
 from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, Format, Writer
 
 
+class Made(NamedTuple):
+    """What makes, checks and counts a result that follows from a skeleton or its diagram."""
+
+    make: str = ""  # `module:function` of `function(source, **options)`: it gets the options that its parameters name
+    of: str = "skeleton"  # the source: `skeleton`, `whole` (before it is pruned) or `centerlines`
+    check: str = ""  # `module:function` of `function(value, **options)`
+    counted_as: str = ""  # what statistics call how many there are
+    job: str = "jobs.skeletons.derived:Derived"  # `module:class`, where one function does not make it
+
+
 @plain
 class Product:
     """A result that can be written, as ``what`` has it."""
@@ -25,9 +35,7 @@ class Product:
     usual_layers: tuple[str, ...] = ()  # those that a picture has where none are chosen
     # `module:name`: `name_page(value, width=…)` and `name_layers(value, page, layers)` draw values of its types
     drawn_by: str = ""
-    made_by: str = (
-        ""  # `module:class` of what makes it in skeleton commands, if it follows from a skeleton or its diagram
-    )
+    made_by: Made | None = None  # of results that follow from a skeleton or its diagram
     has_page: bool = False  # the command line writes it as a page of HTML, too
     moves: bool = False  # the command line writes it as an animation, too
     is_curved: bool = False
@@ -166,7 +174,7 @@ _DISC_PRODUCT = _product(
     f"{_TABLES} geojson wkt",
     _DISC_LAYERS,
     "polygons discs",
-    made_by="jobs.skeletons.derived:InscribedDiscs",
+    made_by=Made(job="jobs.skeletons.derived:InscribedDiscs"),
     is_curved=True,
 )
 
@@ -183,7 +191,7 @@ _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels", "render.layers.skeleton:skeleton")
 _DIAGRAM = _ARCS._replace(drawn_by="render.layers.skeleton:diagram")
 _ALONG = _pictures("polygons skeleton transects points labels", "render.layers.points_along:point")
-_STEPS = "jobs.skeletons.derived:Steps"
+_STEPS = Made(job="jobs.skeletons.derived:Steps")
 _SKELETONS = (
     _product("skeleton", "Skeleton", _CURVES, _ARCS, "polygons skeleton", own=_SKELETON, has_page=True, is_curved=True),
     _product("diagram", "", _CURVES, _DIAGRAM, "polygons elements points skeleton", own=_SKELETON, is_curved=True),
@@ -191,26 +199,27 @@ _SKELETONS = (
     _product("centerline", "Centerlines ExtendedSkeleton SmoothLines", f"geojson {_TABLES} wkt",
         _ARCS._replace(drawn_by="render.layers.lines_along:line"), "polygons skeleton", is_curved=True),
     _product("offset", "Offsets", _CURVES, _pictures("polygons offset labels", "render.layers.offsets:offset"),
-        "polygons offset", own=_OFFSETS, made_by="jobs.skeletons.derived:OffsetCurves", is_curved=True, moves=True),
+        "polygons offset", own=_OFFSETS, is_curved=True, moves=True,
+        made_by=Made(job="jobs.skeletons.derived:OffsetCurves")),
     _product("shape", "PolygonSet", "json geojson wkt poly", _pictures("shape labels", "render.layers.polygons:shape"),
-        "shape", own=_POLYGON_FILES, made_by="jobs.skeletons.derived:RebuiltShape"),
+        "shape", own=_POLYGON_FILES, made_by=Made("engines.from_skeleton.reconstruction:rebuild")),
     _DISC_PRODUCT,
     _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _ALONG, "polygons skeleton points",
         made_by=_STEPS),
     _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _ALONG, "polygons skeleton transects",
         made_by=_STEPS),
     _product("thickness", "", "tiff npy", Pictures({"png": ("thickness",)}), "thickness",
-        own=dict.fromkeys(("tiff", "npy"), _THICKNESS), made_by="jobs.skeletons.derived:Thickness"),
+        own=dict.fromkeys(("tiff", "npy"), _THICKNESS), made_by=Made(job="jobs.skeletons.derived:Thickness")),
     _product("branches", "Skeleton", _TABLES),
     _product("table", "Skeleton", _TABLES),
 )
 _OF_WHOLE_AXIS = (
     _product("necks", "Necks", f"{_TABLES} geojson wkt",
         _pictures("polygons skeleton necks labels", "render.layers.necks:neck"), "polygons necks",
-        made_by="jobs.skeletons.derived:NeckCuts"),
+        made_by=Made("engines.necks.necks:necks", "whole", "engines.necks.verify_necks:verify_necks", "necks")),
     _product("parts", "Parts", "geojson csv tsv npz json wkt poly",
         _pictures("parts skeleton cuts labels", "render.layers.necks:part"), "parts",
-        made_by="jobs.skeletons.derived:CutParts", own=_POLYGON_FILES),
+        made_by=Made(job="jobs.skeletons.derived:CutParts"), own=_POLYGON_FILES),
 )
 """Only of exact skeletons."""
 _WITHOUT_SAMPLES = {"offset", "discs", "thickness"}

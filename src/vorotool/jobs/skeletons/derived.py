@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from collections.abc import Callable
 from functools import cached_property
+from inspect import signature
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import Kind, Message
 from vorotool.jobs.units import length_in_units, sides_of
 from vorotool.numeric.progress import Progress
+from vorotool.products.formats import resolved
 
 if TYPE_CHECKING:
     from vorotool.jobs.skeletons.products import SkeletonProducts
-    from vorotool.types.polygons.polygon_set import PolygonSet
+    from vorotool.products.registry import Made
     from vorotool.types.skeleton.discs import Discs
-    from vorotool.types.skeleton.necks import Necks
     from vorotool.types.skeleton.offsets import Offsets
     from vorotool.types.skeleton.parts import Parts
     from vorotool.types.skeleton.points_along import SkeletonPoints
@@ -22,26 +23,37 @@ if TYPE_CHECKING:
     from vorotool.types.skeleton.thickness import ThicknessImage
 
 
-class Derived(ABC):
-    """A result, made when it is asked for."""
+class Derived:
+    """A result, made when it is asked for: by a function of the engines, or as a class below does."""
 
-    def __init__(self, origin: SkeletonProducts) -> None:
-        self.origin, self.run, self.options = origin, origin.run, origin.options
+    def __init__(self, origin: SkeletonProducts, made: Made) -> None:
+        self.origin, self.run, self.options, self.made = origin, origin.run, origin.options, made
 
     @cached_property
     def value(self) -> Any:
         """What is written, of a public type."""
         return self._make()
 
-    @abstractmethod
-    def _make(self) -> Any: ...
+    def _make(self) -> Any:
+        function, source = resolved(self.made.make), getattr(self.origin, self.made.of)
+        with self.run.phase(self.made.counted_as or function.__name__) as progress:
+            return function(source, **self._taken(function, progress))
 
-    def verify(self, progress: Progress) -> None:  # noqa: B027 - some are not checked
-        """Check the value by another way than it was made."""
+    def _taken(self, function: Callable[..., Any], progress: Progress) -> dict[str, Any]:
+        """Give a function the options that it takes and the user gives."""
+        known = {**vars(self.options), "progress": progress}
+        names = [name for name in list(signature(function).parameters)[1:] if name in known]
+        return {name: known[name] for name in names if known[name] is not None}
+
+    def verify(self, progress: Progress) -> None:
+        """Check the value by another way than it was made, where there is one."""
+        if self.made.check:
+            function = resolved(self.made.check)
+            function(self.value, **self._taken(function, progress))
 
     def stats(self) -> dict[str, Any]:
         """Counts of it."""
-        return {}
+        return {self.made.counted_as: len(self.value)} if self.made.counted_as else {}
 
 
 class OffsetCurves(Derived):
@@ -78,19 +90,6 @@ class OffsetCurves(Derived):
         made = self.value
         counts = {"shapes": len(made), "rings": len(made.ring_kind), "pieces": len(made.site)}
         return {"distances": list(self.options.distance or ()), **counts}
-
-
-class RebuiltShape(Derived):
-    """What the discs of a skeleton cover."""
-
-    value: PolygonSet
-
-    def _make(self) -> PolygonSet:
-        from vorotool.engines.from_skeleton.reconstruction import rebuild
-
-        skeleton = self.origin.skeleton
-        with self.run.phase("rebuild"):
-            return rebuild(skeleton, flatten=self.options.flatten)
 
 
 class InscribedDiscs(Derived):
@@ -153,29 +152,6 @@ class Steps(Derived):
     def stats(self) -> dict[str, Any]:
         """Count points."""
         return {"every": self.options.every, "along": self.options.along or "branches", "points": len(self.value)}
-
-
-class NeckCuts(Derived):
-    """Necks of polygons up to a ratio."""
-
-    value: Necks
-
-    def _make(self) -> Necks:
-        from vorotool.engines.necks.necks import NARROW, necks
-
-        skeleton, o = self.origin.whole, self.options
-        with self.run.phase("necks") as progress:
-            return necks(skeleton, neck=NARROW if o.neck is None else o.neck, threads=o.threads, progress=progress)
-
-    def verify(self, progress: Progress) -> None:
-        """Check them."""
-        from vorotool.engines.necks.verify_necks import verify_necks
-
-        verify_necks(self.value, threads=self.options.threads, progress=progress)
-
-    def stats(self) -> dict[str, Any]:
-        """Count them."""
-        return {"necks": len(self.value)}
 
 
 class CutParts(Derived):

@@ -29,7 +29,7 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_text
 from vorotool.numeric.progress import Progress
 from vorotool.products.formats import resolved
-from vorotool.products.registry import DERIVED
+from vorotool.products.registry import DERIVED, Made
 from vorotool.render.drawing import Drawing, Plot, drawing_of
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import EXTERIOR, Skeleton
@@ -60,7 +60,7 @@ class SkeletonProducts(Results, ABC):
         check_columns(options, self._polygons.properties)
         is_cut = options.side != "interior" or "diagram" in options.what
         self.world = world_of_polygons(run, options, self._polygons, size=options.pixel_size, is_cut=is_cut)
-        self._derived: dict[str, Derived] = {}
+        self._derived: dict[Made, Derived] = {}
         self._lines: dict[str, Skeleton | LedOn | SmoothLines] = {}
 
     @contextmanager
@@ -173,10 +173,10 @@ class SkeletonProducts(Results, ABC):
     # ---- what follows from it
     def derived(self, what: str) -> Derived:
         """Give what makes and checks one of `DERIVED`."""
-        home = DERIVED[what]
-        if home not in self._derived:
-            self._derived[home] = resolved(home)(self)
-        return self._derived[home]
+        made = DERIVED[what]
+        if made not in self._derived:
+            self._derived[made] = resolved(made.job)(self, made)
+        return self._derived[made]
 
     def _all_derived(self) -> list[Derived]:
         """What makes the results that are asked for, each once."""
