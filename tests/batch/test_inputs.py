@@ -1,5 +1,6 @@
 """Which inputs names, folders, patterns and lists stand for."""
 
+import gzip
 import io
 import os
 import socket
@@ -115,6 +116,17 @@ def test_text_in_folders_is_read_where_it_holds_numbers_or_geometry(folder, text
     found = expand_inputs(["b"], extensions=["csv", "txt"], note=notes.append)
     assert ("readme.txt" in [each.name for each in found]) is is_read
     assert any("b/readme.txt" in note for note in notes) is not is_read
+
+
+def test_packed_text_in_folders_is_told_apart_as_other_text_is(folder):
+    for name, text in (
+        ("readme.txt.gz", b"Dots of 12 fields.\n\nTaken on a Monday.\n"),
+        ("dots.txt.gz", b"1 2\n3 4\n"),
+    ):
+        (folder / "b" / name).write_bytes(gzip.compress(text))
+    (folder / "b/torn.txt.gz").write_bytes(gzip.compress(b"Dots of 12 fields.\n")[:8])  # whoever reads it says so
+    found = expand_inputs(["b"], extensions=["csv", "txt"])
+    assert [each.name for each in found] == ["2.csv", "c/1.CSV", "dots.txt.gz", "torn.txt.gz"]
 
 
 def test_files_that_are_not_read_are_said_with_a_count_but_not_companions(folder):

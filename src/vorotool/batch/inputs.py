@@ -41,7 +41,7 @@ def pages_of(inputs: Iterable[Input]) -> list[Input]:
 
     pages: list[Input] = []
     for each in inputs:
-        count = page_count(each.source)
+        count = page_count(file_of(each.source))
         if count is None:
             pages.append(each)
             continue

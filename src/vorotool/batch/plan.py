@@ -19,7 +19,7 @@ from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.jobs.inputs import is_several
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import ALL_PAGES, Options, changed
-from vorotool.jobs.targets import Target, plan_targets
+from vorotool.jobs.targets import Target, check_cluster, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels
 from vorotool.plain import plain
 from vorotool.products.formats import EXTENSIONS
@@ -61,6 +61,8 @@ def plan_batch(recipe: Recipe, o: Options, *, is_alone: bool) -> Plan:
         targets = plan_targets(
             recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source
         )  # fmt: skip
+    if is_alone:
+        check_cluster(o, targets)
     tasks = _tasks(recipe, o, targets, notes, is_alone=is_alone)
     manifest = None
     if o.out_dir is not None and not is_alone:

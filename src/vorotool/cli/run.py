@@ -15,7 +15,7 @@ from vorotool.jobs.inputs import check_streams, is_several
 from vorotool.jobs.job import Recipe, process_input
 from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.targets import check_stats, plan_targets
+from vorotool.jobs.targets import check_cluster, check_stats, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels, with_spacing
 from vorotool.numeric.progress import Report
 
@@ -39,8 +39,7 @@ def run_command(recipe: Recipe, o: Options) -> None:
     (path,) = o.inputs
     targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=path)
     check_stats(o, targets, path)
-    if o.cluster is not None and any(target.fmt != "zarr" for target in targets):
-        raise UsageError("--cluster with -o writes a Zarr store: name it .zarr, or a folder with --out-dir")
+    check_cluster(o, targets)
     check_units(o, targets)
     o = lengths_in_pixels(o, o.unit)
     recipe.check(o, targets)

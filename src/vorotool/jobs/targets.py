@@ -93,6 +93,12 @@ def check_stats(options: Options, targets: Sequence[Target], source: str) -> Non
         raise UsageError(f"--stats {stats} is also the output of {target.what}: choose another name")
 
 
+def check_cluster(options: Options, targets: Sequence[Target]) -> None:
+    """Refuse a cluster for one input unless it computes all outputs."""
+    if options.cluster is not None and {target.fmt for target in targets} != {"zarr"}:
+        raise UsageError("--cluster with -o writes a Zarr store: name it .zarr, or a folder with --out-dir")
+
+
 def check_targets(options: Options, targets: Sequence[Target], source: str) -> None:
     """Find out before any work whether the outputs and the statistics can be written."""
     from vorotool.formats.io.atomic_output import Rules, check_output

@@ -55,6 +55,21 @@ def test_a_table_beside_another_output(run, tmp_path, alone, table):
     assert [each.name for each in tmp_path.iterdir() if each.name.startswith(".")] == []
 
 
+def test_a_format_is_that_of_the_output_beside_a_table(run, tmp_path, alone):
+    done = run("tessellate", "p.csv", "-o", "labels", "-f", "tiff", "--table", "t.tsv")
+    assert (done.code, done.err) == (0, "")
+    assert (tmp_path / "labels").read_bytes() == alone
+    assert (tmp_path / "t.tsv").read_text().startswith("input\tlabel")
+
+
+@pytest.mark.parametrize("source", ["p.csv", "-"])
+def test_a_cluster_beside_a_table_needs_a_store_to_write(run, tmp_path, alone, source):
+    done = run("tessellate", source, "-o", "l.tif", "--table", "t.csv", "--cluster", "local", data=POINTS.encode())
+    assert done.code == 2
+    assert "--cluster" in done.err
+    assert not (tmp_path / "l.tif").exists()
+
+
 def test_a_table_of_standard_input(run, tmp_path, alone, monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(POINTS.encode())))
     done = run("tessellate", "-", "-o", "l.tif", "--table", "t.csv", "-j", "2", "--keep-going")

@@ -1,5 +1,6 @@
 """``--page all``: each page of a stack or an animation is an input of a batch."""
 
+import gzip
 import json
 
 import numpy as np
@@ -28,6 +29,29 @@ def test_outputs_are_those_of_each_page(run, stack):
         assert (stack / "one.npy").read_bytes() == (stack / f"out/stack-p00{k}.npy").read_bytes()
     rows = (stack / "all.csv").read_text().splitlines()[1:]
     assert {row.partition('",')[0] for row in rows} == {f'"stack.tif, page {k}' for k in range(3)}
+
+
+def test_packed_stacks_have_pages(run, stack):
+    packed = gzip.compress((stack / "stack.tif").read_bytes())
+    (stack / "stack.tif").unlink()
+    (stack / "stack.tif.gz").write_bytes(packed)
+    images = [Image.fromarray(page) for page in PAGES[:2]]
+    images[0].save(stack / "moving.gif", save_all=True, append_images=images[1:])
+    (stack / "moving.gif.gz").write_bytes(gzip.compress((stack / "moving.gif").read_bytes()))
+    done = run("tessellate", "stack.tif.gz", "moving.gif.gz", "--page", "all", "--out-dir", "out", "-f", "npy")
+    assert done.code == 0, done.err
+    names = sorted(path.name for path in (stack / "out").glob("*.npy"))
+    assert names == ["moving-p000.npy", "moving-p001.npy", *(f"stack-p00{k}.npy" for k in range(3))]
+    assert (np.load(stack / "out/moving-p001.npy") == np.load(stack / "out/stack-p001.npy")).all()
+
+
+def test_a_layer_beside_a_stack_has_no_pages(run, stack):
+    run("sample", "streets.geojson", "-o", "streets.geojson")
+    assert run("voronoi", "streets.geojson", "-o", "map.gpkg", "-q").code == 0
+    options = ("--page", "all", "--out-dir", "out", "-f", "geojson", "-q")
+    done = run("skeleton-exact", "stack.tif", "map.gpkg:cells", *options)
+    assert done.code == 0, done.err
+    assert (stack / "out/map.cells.geojson").exists()
 
 
 COMMANDS = ["delaunay --seeds pixels", "skeleton-exact", "draw", "alphashape --seeds pixels -r 9"]

@@ -276,6 +276,29 @@ def test_what_does_not_go(run, inputs, arguments, code, words):
     assert files(inputs) == before
 
 
+def test_an_empty_name_is_refused(run, inputs):
+    done = run("delaunay", "", "points/p0.csv", "--out-dir", "out")
+    assert (done.code, "empty" in done.err) == (2, True), done.err
+
+
+def test_limits_change_nothing_that_was_done(run, inputs):
+    options = ("tessellate", "points", "--out-dir", "out", "--resume", "--keep-going")
+    with (inputs / "points/p2.csv").open("a") as file:
+        file.write("8,8,e\n")
+    assert run(*options, "--max-sites", "4").code == 6
+    done = run(*options, "--max-sites", "5", "--max-pixels", "1000")
+    assert done.code == 0, done.err
+    assert [line.split(": ")[1] for line in done.err.splitlines()] == ["kept", "done", "kept"]
+
+
+def test_what_another_version_did_is_done_again(run, inputs, monkeypatch):
+    options = ("delaunay", "points", "--out-dir", "out", "--resume")
+    for version in ("0.1.0", "0.2.0"):
+        monkeypatch.setattr("vorotool.batch.plan.__version__", version)
+        done = run(*options)
+        assert {line.split(": ")[1] for line in done.err.splitlines()} == {"done"}
+
+
 def test_an_existing_output_is_a_failure_of_its_input(run, inputs):
     (inputs / "out").mkdir()
     (inputs / "out/p0.csv").write_text("old")
