@@ -172,7 +172,7 @@ def test_collinear_points_are_a_chain(n):
     shape = alpha_shape(family, r=1e9)
     assert set(shape.classes.tolist()) == {"singular"}
     assert (shape.region_count, shape.area, shape.cavity_count, shape.hole_count) == (0, 0.0, 0, 0)
-    with pytest.raises(InputError, match="span no triangle, .*: give r itself"):
+    with pytest.raises(InputError, match=r"span no triangle, .*: give r itself"):
         alpha_shape(family)
 
 

@@ -159,7 +159,7 @@ def test_overlapping_polygons_are_filled_where_any_is():
 @pytest.mark.parametrize("empty", [[], np.empty((0, 2)), ["POLYGON EMPTY"]])
 def test_what_has_no_places(empty):
     for function in (hausdorff, distance):
-        with pytest.raises(InputError, match="invalid b: .*empty"):
+        with pytest.raises(InputError, match=r"invalid b: .*empty"):
             function([[0, 0]], empty)
 
 
