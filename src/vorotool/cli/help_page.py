@@ -9,7 +9,8 @@ from typing import Any
 import click
 
 from vorotool.jobs.terminal import print_text
-from vorotool.products.options import GROUPS
+from vorotool.products.commands import COMMANDS
+from vorotool.products.options import GROUPS, flags_of
 from vorotool.products.registry import PRODUCTS
 
 _COMMON = (
@@ -65,6 +66,10 @@ class GroupedCommand(click.Command):
                 number = next(each for each in typed if each.startswith(name))
                 said = f"{number} is a number, not an option: separate the values of a list by commas, as in -d -1,-2"
                 raise click.UsageError(said, ctx) from None
+            others = [each for each in COMMANDS if name in flags_of(each)]
+            if others:
+                have = "has it" if len(others) == 1 else "have it"
+                raise click.UsageError(f"{self.name} has no {name}: {', '.join(others)} {have}", ctx) from None
             from difflib import get_close_matches
 
             known = [each for param in self.get_params(ctx) for each in (*param.opts, *param.secondary_opts)]

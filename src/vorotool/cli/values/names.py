@@ -30,7 +30,8 @@ def names_among(choices: tuple[str, ...]) -> Callable[[str], tuple[str, ...]]:
         found = tuple(in_our_spelling(name.strip().lower()) for name in text.split(","))
         for name in found:
             if name not in choices:
-                raise UnexpectedError(f"{name!r} is not one of {', '.join(choices)}")
+                which = f"{name!r} is not" if "," in text else "not"
+                raise UnexpectedError(f"{which} one of {', '.join(choices)}")
         return tuple(dict.fromkeys(found))
 
     return split

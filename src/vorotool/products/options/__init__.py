@@ -33,6 +33,11 @@ def options_of(command: str) -> dict[str, Option]:
     return _BY_COMMAND[command]
 
 
+def flags_of(command: str) -> set[str]:
+    """Return all spellings of the options of a command."""
+    return {each for row in options_of(command).values() for pair in row.spellings for each in pair.split("/")}
+
+
 def flag(command: str, parameter: str, value: Any = None) -> str:
     """Return an option as users type it, by its short flag if it has no other, and its opposite for False."""
     row = options_of(command)[parameter]
