@@ -22,7 +22,6 @@ from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, frame_of, note_repeated_labels, read_sites, window_of
-from vorotool.jobs.names import OF_ONE_SHAPE, PLOTS
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_sites
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
@@ -32,6 +31,7 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import length_in_units, measured
 from vorotool.numeric.numbers import nearest_double
 from vorotool.numeric.progress import Progress
+from vorotool.products.registry import OF_ONE_SHAPE, PLOTS
 from vorotool.render.drawing import Drawing, Plot, drawing_of
 from vorotool.types.alpha.complex import Radius
 from vorotool.types.alpha.persistence import RegionPersistence

@@ -10,9 +10,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from vorotool.jobs.names import OF_ONE_SHAPE
 from vorotool.products.inputs import DRAWINGS
 from vorotool.products.options import DEFAULTS, options_of
+from vorotool.products.registry import OF_ONE_SHAPE
 from vorotool.render.looks import Looks
 
 if TYPE_CHECKING:

@@ -11,13 +11,13 @@ from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeVar
 
 from vorotool.errors import UsageError, VorotoolError
-from vorotool.jobs.names import PLOTS
 from vorotool.jobs.options import changed
 from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
 from vorotool.plain import plain
 from vorotool.products.formats import FORMATS
 from vorotool.products.options import flag
+from vorotool.products.registry import PLOTS
 
 if TYPE_CHECKING:
     from vorotool.jobs.options import Options

@@ -278,6 +278,10 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
 }
 PRODUCTS = {command: {each.what: each for each in products} for command, products in _BY_COMMAND.items()}
 """Products of each command, by name."""
+OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "points", "table"})
+"""Results of `alphashape` that are of one radius; the others are of all."""
+PLOTS = ("curves", "persistence")
+"""Those whose picture is a plot over the radius."""
 DERIVED = {each.what: each.made_by for each in PRODUCTS["skeleton-exact"].values() if each.made_by}
 """What makes the results of skeleton commands that follow from a skeleton or its diagram, by their names."""
 VOLUME_PRODUCTS = {each.what: each for each in _VOLUMES}
