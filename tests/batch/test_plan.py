@@ -6,8 +6,7 @@ import pytest
 
 from vorotool import OutputError, UsageError
 from vorotool.batch.inputs import Input
-from vorotool.batch.outputs import check_outputs, output_paths
-from vorotool.batch.plan import share
+from vorotool.batch.plan import check_outputs, output_paths, share
 from vorotool.batch.tasks import Task
 
 

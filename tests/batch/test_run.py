@@ -23,15 +23,13 @@ def two_at_a_time(tasks):
 
 def test_outcomes_come_in_the_order_of_tasks():
     told = []
-    outcomes = run_tasks(
-        "draw", TASKS, two_at_a_time, keep_going=True, finish=lambda task, outcome: told.append(task.source)
-    )
+    outcomes = run_tasks(TASKS, two_at_a_time, keep_going=True, finish=lambda task, outcome: told.append(task.source))
     assert told == ["b", "a", "d", "c", "e"]
     assert [outcome.code for outcome in outcomes] == [0, 0, 3, 0, 0]
 
 
 def test_no_more_are_started_after_a_failure():
-    outcomes = run_tasks("draw", TASKS, two_at_a_time)
+    outcomes = run_tasks(TASKS, two_at_a_time)
     assert [outcome and outcome.code for outcome in outcomes] == [0, 0, 3, 0, None]
 
 
@@ -48,7 +46,7 @@ def test_results_are_closed_when_it_ends():
         raise KeyboardInterrupt
 
     try:
-        run_tasks("draw", TASKS, results, finish=interrupt)
+        run_tasks(TASKS, results, finish=interrupt)
     except KeyboardInterrupt:
         assert closed == [True]
     else:
@@ -64,8 +62,8 @@ def test_what_the_dead_have_left_is_removed_and_what_others_write_is_not(tmp_pat
     tasks = [Task("a", (str(out / "a.csv"),))]
     with (out / dead_name("0a1b2c3d-4-")).open("w") as writer:
         fcntl.flock(writer, fcntl.LOCK_EX)
-        outcomes = run_tasks("draw", tasks, two_at_a_time, manifest=Manifest(out / "m", "o", out))
-        assert {path.name for path in out.iterdir()} == {Path(writer.name).name, live, "m"}
+        outcomes = run_tasks(tasks, two_at_a_time, manifest=Manifest(out, "draw", "o"))
+        assert {path.name for path in out.iterdir()} == {Path(writer.name).name, live, "draw.manifest.jsonl"}
     assert [outcome.code for outcome in outcomes] == [0]
 
 
@@ -80,9 +78,9 @@ def test_what_lost_workers_have_left_is_removed_at_the_end(tmp_path):
             yield number, Outcome(code=3 * (task.source == "b"))
 
     tasks = [Task(name, (str(tmp_path / name),)) for name in "abc"]
-    run_tasks("draw", tasks, results, manifest=Manifest(tmp_path / "m", "o", tmp_path))
+    run_tasks(tasks, results, manifest=Manifest(tmp_path, "draw", "o"))
     assert len(left) == 2
-    assert [path.name for path in tmp_path.iterdir()] == ["m"]
+    assert [path.name for path in tmp_path.iterdir()] == ["draw.manifest.jsonl"]
 
 
 def dead_name(tag):

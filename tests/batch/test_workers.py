@@ -54,7 +54,7 @@ def test_an_end_leaves_no_process_and_no_file(tmp_path, monkeypatch):
     going.close()
     assert time.monotonic() - started < LONG / 2  # whoever waited for the sleepers would take longer
     assert len(made) == 3
-    assert all(worker._process.returncode is not None for worker in made)
+    assert all(worker.process.returncode is not None for worker in made)
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["0.txt"]
 
 
@@ -75,9 +75,9 @@ def test_a_worker_ends_quietly_where_exceptions_are_swallowed(tmp_path, capfd):
     worker = Worker(obey)
     worker.give(*written(tmp_path, "deaf"), SimpleQueue())
     wait_until((tmp_path / "0.asleep").exists)
-    worker._process.terminate()
-    assert worker._process.wait(30) == 143
-    worker.wait(0)
+    worker.process.terminate()
+    assert worker.process.wait(30) == 143
+    worker.end(0)
     assert list((tmp_path / "out").iterdir()) == []
     assert capfd.readouterr() == ("", "")
 

@@ -84,7 +84,7 @@ def _done_on_cluster(
     going: dict[Any, T] = {}
     with ExitStack() as stack:
         client = stack.enter_context(_connected(address, jobs))
-        stack.callback(_cancel, client, going)
+        stack.callback(lambda: _quietly(client.cancel, list(going)) if going else None)  # forgets what is not done
         from distributed import as_completed
 
         done = as_completed(loop=client.loop, with_results=True, raise_errors=False)
@@ -112,13 +112,6 @@ def _failure(future: Any, result: Any) -> Exception | None:
     if isinstance(error, VorotoolError | OSError):
         return error
     return VorotoolError(f"the cluster gave it up: {error}")
-
-
-def _cancel(client: Any, going: dict[Any, Any]) -> None:
-    """Forget what is not done at the end."""
-    if going:
-        with suppress(OSError):
-            client.cancel(list(going))
 
 
 # ---- in a worker -------------------------------------------------------------------------------------------------
@@ -168,7 +161,7 @@ def _connected(address: str, jobs: int | None) -> Iterator[Any]:
         cluster = stack.enter_context(_started(distributed, jobs)) if address == LOCAL else address
         try:
             client = distributed.Client(cluster, timeout=PATIENCE, set_as_default=False)
-            stack.callback(_close, client)
+            stack.callback(_quietly, client.close, timeout=CLOSING)
             client.wait_for_workers(1, timeout=FIRST_WORKER)
         except TimeoutError:
             raise UsageError(f"--cluster {address}: nobody works there; start workers") from None
@@ -216,9 +209,10 @@ def _started(distributed: Any, jobs: int | None) -> Iterator[Any]:
             nanny.auto_restart = False
             with suppress(OSError, TypeError):  # it has gone already
                 os.kill(nanny.pid, signal.SIGKILL)
-        _close(cluster)
+        _quietly(cluster.close, timeout=CLOSING)
 
 
-def _close(connected: Any) -> None:
-    with suppress(OSError):  # nobody answers any more, or not so fast
-        connected.close(timeout=CLOSING)
+def _quietly(call: Callable[..., Any], *arguments: Any, **options: Any) -> None:
+    """Call what nobody may answer any more, or not so fast."""
+    with suppress(OSError):
+        call(*arguments, **options)

@@ -8,20 +8,21 @@ import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path, PurePath
-from types import TracebackType
 from typing import Any, BinaryIO
 
 from vorotool import __version__
 from vorotool.batch.tasks import INPUT, Outcome, Task
-from vorotool.errors import InputError, OutputError
-from vorotool.formats.io.atomic_output import make_folder
-from vorotool.plain import plain
+from vorotool.errors import OutputError
+from vorotool.formats.io.atomic_output import explained, make_folder
 
-LEVELS = 8
-"""Levels of brackets in a line; ours have three."""
+RECORD_ENDING = ".manifest.jsonl"
+"""Ends the names of records, which begin with the command."""
 
 LONGEST_LINE = 2**24
 """Bytes of a line that is read; ours have hundreds, and thousands where there are many warnings."""
+
+History = dict[str, dict[str, Any]]
+"""The last line of each input, if it says that it was done: all of it is text that anybody may have written."""
 
 
 def digest_of_values(values: Any) -> str:
@@ -29,31 +30,14 @@ def digest_of_values(values: Any) -> str:
     return hashlib.sha256(json.dumps(values, sort_keys=True, default=str).encode()).hexdigest()
 
 
-@plain
-class Done:
-    """A line of an input that was done: all of it is text that anybody may have written."""
-
-    options: str  # the digest of the options
-    digest: str  # that of the input
-    outputs: dict[str, str]  # those of outputs by their paths in the folder
-
-
-History = dict[str, Done]
-"""The last line of each input, if it says that it was done."""
-
-
 def read_history(paths: Iterable[str | os.PathLike[str]]) -> History:
     """Read manifests; a line that is torn or damaged says nothing, so that its input is done again."""
     history: History = {}
-    for path in map(Path, paths):
+    for path in filter(Path.is_file, map(Path, paths)):
         try:
-            if path.exists() and not path.is_file():
-                raise OSError(errno.EINVAL, "it is not a file")
             with path.open("rb") as file:
                 for line in _lines(file):
                     _take(history, line)
-        except FileNotFoundError:
-            continue
         except OSError as error:
             raise OutputError(f"the manifest {path} cannot be read: {error.strerror}; leave out --resume") from None
     return history
@@ -70,57 +54,47 @@ def _lines(file: BinaryIO) -> Iterator[bytes]:
 
 def _take(history: History, line: bytes) -> None:
     """Take what a line says of an input; the lines of runs are for people."""
-    from vorotool.formats.io.sources import check_nesting
-
     try:
-        check_nesting(line, LEVELS)
         record = json.loads(line)
         source, status = record["input"], record["status"]
-    except (InputError, ValueError, TypeError, KeyError):
+    except (ValueError, TypeError, KeyError, RecursionError):
         return
     if isinstance(source, str) and status != "done":
         history.pop(source, None)
-    elif isinstance(source, str) and (done := _done(record)) is not None:
-        history[source] = done
+    elif isinstance(source, str) and _is_ours(record):
+        history[source] = record
 
 
-def _done(record: Mapping[str, Any]) -> Done | None:
-    options, digest, outputs = (record.get(name) for name in ("options", "sha256", "outputs"))
-    if not (isinstance(options, str) and isinstance(digest, str) and isinstance(outputs, dict)):
-        return None
-    if not all(isinstance(each, str) for each in outputs.values()) or any(map(_leaves, outputs)):
-        return None
-    return Done(options, digest, outputs)
-
-
-def _leaves(path: str) -> bool:
-    """Return whether a path may lead out of the folder that it is in."""
-    return PurePath(path).is_absolute() or ".." in PurePath(path).parts
+def _is_ours(record: Mapping[str, Any]) -> bool:
+    """Return whether a line has digests, and no output outside the folder."""
+    outputs = record.get("outputs")
+    if not isinstance(outputs, dict) or any(
+        PurePath(path).is_absolute() or ".." in PurePath(path).parts for path in outputs
+    ):
+        return False
+    return all(isinstance(each, str) for each in (record.get("options"), record.get("sha256"), *outputs.values()))
 
 
 class Manifest:
     """The record of a batch while it runs: a line is handed to the system as soon as an input is done or failed."""
 
-    def __init__(self, path: str | os.PathLike[str], options: str, folder: str | os.PathLike[str]) -> None:
-        self.path, self.options, self.folder = Path(path), options, Path(folder)
+    def __init__(self, folder: str | os.PathLike[str], command: str, options: str, shard: str = "") -> None:
+        self.folder, self.command, self.options = Path(folder), command, options
+        self.path = self.folder / f"{command}{shard}{RECORD_ENDING}"
         self._file: BinaryIO | None = None
 
     def __enter__(self) -> Manifest:
         """Open the file; end a line that a killed run began."""
         make_folder(self.folder)
-        try:
+        with explained(str(self.path), "--out-dir"):
             self._file = self.path.open("a+b", buffering=0)
             if self._file.seek(0, os.SEEK_END):
                 self._file.seek(-1, os.SEEK_END)
                 if self._file.read(1) != b"\n":
                     self._file.write(b"\n")
-        except OSError as error:
-            raise self._failure(error) from error
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """Close the file."""
         if self._file is not None:
             self._file.close()
@@ -128,20 +102,19 @@ class Manifest:
     def done_before(self, source: str, history: History) -> dict[str, str] | None:
         """Return the digests of an input (at `INPUT`) and of its outputs if it was done with the same options."""
         record = history.get(source)
-        if record is None or record.options != self.options:
+        if record is None or record["options"] != self.options:
             return None
-        outputs = {str(self.folder / path): digest for path, digest in record.outputs.items()}
-        return {INPUT: record.digest, **outputs}
+        return {INPUT: record["sha256"], **{str(self.folder / path): each for path, each in record["outputs"].items()}}
 
-    def begin(self, run: str, command: str, inputs: int) -> None:
+    def begin(self, run: str, inputs: int) -> None:
         """Add the line of a run; its name is in the names of its temporary files."""
-        self._add({"run": run, "command": command, "version": __version__, "inputs": inputs})
+        self._add({"run": run, "command": self.command, "version": __version__, "inputs": inputs})
 
     def add(self, task: Task, outcome: Outcome) -> None:
         """Add the line of an input; one that was kept has a line already."""
         if outcome.kept:
             return
-        record: dict[str, Any] = {"input": task.source, "status": "failed" if outcome.code else "done"}
+        record: dict[str, Any] = {"input": task.source, "status": outcome.status}
         if outcome.code:
             record |= {"exit": outcome.code, "error": outcome.message}
         record |= {"options": self.options, "sha256": outcome.digest}
@@ -154,11 +127,6 @@ class Manifest:
     def _add(self, record: Mapping[str, Any]) -> None:
         assert self._file is not None
         line = json.dumps(record).encode() + b"\n"
-        try:  # in one piece, so that lines of two processes do not mix
+        with explained(str(self.path), "--out-dir"):  # in one piece, so that lines of two processes do not mix
             if self._file.write(line) != len(line):
                 raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        except OSError as error:
-            raise self._failure(error) from error
-
-    def _failure(self, error: OSError) -> OutputError:
-        return OutputError(f"the manifest {self.path} cannot be written: {error.strerror}; choose another --out-dir")

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Callable
+import stat
+import sys
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path, PurePath
 from typing import Any
 
 from vorotool import __version__
-from vorotool.batch.inputs import RECORD_ENDING, Input, expand_inputs, pages_of, read_names
-from vorotool.batch.manifest import Manifest, digest_of_values, read_history
-from vorotool.batch.outputs import check_outputs, output_paths
+from vorotool.batch.inputs import Input, expand_inputs, pages_of, read_names
+from vorotool.batch.manifest import RECORD_ENDING, Manifest, digest_of_values, read_history
 from vorotool.batch.tables import TABLE_FORMATS, JointTable, NameFields
 from vorotool.batch.tasks import Task, digest_of
-from vorotool.errors import UsageError
-from vorotool.formats.io.descriptors import STANDARD, stream_kind
+from vorotool.errors import OutputError, UsageError
+from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+from vorotool.formats.io.layer_names import file_of
+from vorotool.formats.io.sources import without_gz
 from vorotool.jobs.inputs import is_several
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import ALL_PAGES, Options, changed
@@ -64,12 +68,10 @@ def plan_batch(recipe: Recipe, o: Options, *, is_alone: bool) -> Plan:
     if is_alone:
         check_cluster(o, targets)
     tasks = _tasks(recipe, o, targets, notes, is_alone=is_alone)
-    manifest = None
-    if o.out_dir is not None and not is_alone:
-        manifest = _manifest(recipe, o, targets)
-        if o.resume:
-            history = read_history(sorted(manifest.folder.glob(f"{recipe.name}*{RECORD_ENDING}")))
-            tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
+    manifest = None if o.out_dir is None or is_alone else _manifest(recipe, o, targets)
+    if manifest is not None and o.resume:
+        history = read_history(sorted(manifest.folder.glob(f"{recipe.name}*{RECORD_ENDING}")))
+        tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
     if table is not None:
         o = changed(o, what=tuple(dict.fromkeys((*o.what, table.what))))
         targets.append(Target(table.what, f"part.{table.fmt}", table.fmt))
@@ -82,8 +84,6 @@ def plan_batch(recipe: Recipe, o: Options, *, is_alone: bool) -> Plan:
 
 def _check_options(o: Options, *, is_alone: bool) -> None:
     """Refuse options that do not go together."""
-    if o.null and o.files_from is None:
-        raise UsageError("-0 is about the list of --files-from: leave it out")
     if o.resume and (o.out_dir is None or is_alone):
         raise UsageError("--resume needs --out-dir DIR, which has the record of what was done, and files as inputs")
     if is_alone:
@@ -175,8 +175,6 @@ def _joint_table(recipe: Recipe, o: Options) -> JointTable | None:
     """Return the table of all inputs; -f is its format where there is no other output."""
     fields = NameFields.of(o.fields)
     if o.table is None and o.table_inputs is None:
-        if o.fields is not None:
-            raise UsageError("--fields is for the columns of --table and --table-inputs: name such a file")
         return None
     inputs = None if o.table_inputs is None else (o.table_inputs, _table_format("--table-inputs", o.table_inputs))
     has_outputs = o.out_dir is not None or o.output is not None
@@ -227,7 +225,7 @@ def _manifest(recipe: Recipe, o: Options, targets: list[Target]) -> Manifest:
         }
     )
     shard = "" if o.shard is None else ".{}-of-{}".format(*o.shard)
-    return Manifest(Path(o.out_dir) / f"{recipe.name}{shard}{RECORD_ENDING}", digest, o.out_dir)
+    return Manifest(o.out_dir, recipe.name, digest, shard)
 
 
 def _digest(name: str, path: str) -> str:
@@ -237,3 +235,107 @@ def _digest(name: str, path: str) -> str:
     from vorotool.formats.images.image_header import image_header
 
     return repr(image_header(path))
+
+
+# ---- checks of outputs -------------------------------------------------------------------------------------------
+def output_paths(name: str, endings: Sequence[str], folder: str | os.PathLike[str]) -> tuple[str, ...]:
+    """Return the paths of the outputs of an input."""
+    stem = Path(folder) / PurePath(without_gz(os.path.normpath(name))).with_suffix("")
+    return tuple(f"{stem}{ending}" for ending in endings)
+
+
+def check_outputs(
+    tasks: Sequence[Task],
+    folder: str | None,
+    *,
+    others: Mapping[str, str | None] | None = None,
+    read: Mapping[str, str] | None = None,
+) -> None:
+    """Refuse outputs that would replace an input or one another, or lie outside their folder, if they have one.
+
+    `others` are further files that are written, `read` files that are read with all inputs, by their options.
+    """
+    owners = _owners(tasks)
+    options = {option: path for option, path in (others or {}).items() if path is not None}
+    for option, path in options.items():
+        before = list(options.items())[: list(options).index(option)]
+        roles = [f"{each} {other}" for each, other in before if is_same_output(path, other)]
+        if (owner := _owner(path, owners, folder)) is not None:
+            roles.append(f"the output of {owner}")
+        if roles:
+            raise UsageError(f"{option} {path} is also {roles[0]}: choose another name")
+    _check_inputs(tasks, options, read or {}, "name" if folder is None else "--out-dir")
+    if folder is not None:
+        _check_records(folder, options)
+        check_inside((path for task in tasks for path in task.outputs), folder)
+
+
+def _owners(tasks: Sequence[Task]) -> dict[str, str]:
+    """Return the input of each output; no two inputs may have the same one."""
+    owners: dict[str, str] = {}
+    sources: set[str] = set()
+    for task in tasks:
+        if task.source in sources:
+            raise UsageError(f"{task.source} is given twice: leave one out")
+        sources.add(task.source)
+        for path in dict.fromkeys(task.outputs):  # results may be layers of one file
+            owner = owners.setdefault(_comparable(path), task.source)
+            if owner != task.source:
+                raise UsageError(
+                    f"{owner} and {task.source} would both be written to {path}: rename one, or name the folder above "
+                    "both, whose folders are mirrored"
+                )
+    return owners
+
+
+def _owner(path: str, owners: Mapping[str, str], folder: str | None) -> str | None:
+    """Return the input whose output has a path."""
+    if folder is None:
+        return next((source for each, source in owners.items() if is_same_output(path, each)), None)
+    return owners.get(_comparable(str(Path(folder) / os.path.relpath(path, folder or "."))))
+
+
+def _comparable(path: str) -> str:
+    """Return a path as it is compared: the usual file systems of macOS take A and a for the same."""
+    return path.casefold() if sys.platform == "darwin" else path
+
+
+def _check_inputs(tasks: Sequence[Task], options: Mapping[str, str], read: Mapping[str, str], other: str) -> None:
+    """Refuse outputs that are there already and are read, by a link or by the same name."""
+    sources: dict[Hashable, str] = {_identity(path): f"file of {option}, {path}" for option, path in read.items()}
+    sources |= {_identity(task.file): f"input {task.file}" for task in tasks}
+    sources.pop(None, None)
+    outputs = [(path, path, other) for task in tasks for path in task.outputs if path != STANDARD]
+    is_open = {path: path == STANDARD or descriptor_of(path) is not None for path in options.values()}
+    outputs += [(path, f"{option} {path}", "name") for option, path in options.items() if not is_open[path]]
+    for path, label, instead in outputs:
+        if (role := sources.get(_identity(path))) is not None:
+            raise UsageError(f"{label} is also the {role}, which is never replaced: choose another {instead}")
+
+
+def _check_records(folder: str, options: Mapping[str, str]) -> None:
+    """Refuse to write over the records of batches in the folder: `--resume` reads them."""
+    for option, path in options.items():
+        place = Path(os.path.realpath(path))
+        if place.name.endswith(RECORD_ENDING) and place.parent == Path(os.path.realpath(folder)):
+            raise UsageError(f"{option} {path} is the name of a record that --resume reads: choose another name")
+
+
+def _identity(path: str) -> tuple[int, int] | None:
+    """Return the identity of a file or folder; None for what is not there, and for streams."""
+    try:
+        found = os.fstat(0) if path == STANDARD else Path(file_of(path)).stat()
+    except (OSError, ValueError):
+        return None
+    is_held = stat.S_ISREG(found.st_mode) or stat.S_ISDIR(found.st_mode)
+    return (found.st_dev, found.st_ino) if is_held else None
+
+
+def check_inside(paths: Iterable[str | os.PathLike[str]], folder: str | os.PathLike[str]) -> None:
+    """Refuse files that would be written outside a folder, through links in it."""
+    inside, known = Path(os.path.realpath(folder)), set[Path]()
+    for path in map(Path, paths):
+        place = path if path.is_symlink() else path.parent
+        if place not in known and not Path(os.path.realpath(place)).is_relative_to(inside):
+            raise OutputError(f"{path} would lie outside {inside}, through a link: remove the link")
+        known.add(place)

@@ -5,22 +5,22 @@ from __future__ import annotations
 import json
 import os
 import secrets
+import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, closing
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+from vorotool.batch import workers
 from vorotool.batch.manifest import Manifest
-from vorotool.batch.outputs import check_inside
-from vorotool.batch.plan import Plan, plan_batch
-from vorotool.batch.report import Report
-from vorotool.batch.tables import part_path
-from vorotool.batch.tasks import Outcome, Process, Results, Task, digest_of, is_done
-from vorotool.errors import InputError, OutputError
-from vorotool.formats.io.atomic_output import check_output
+from vorotool.batch.plan import Plan, check_inside, plan_batch
+from vorotool.batch.tasks import Outcome, Results, Task, digest_of, is_done
+from vorotool.errors import BatchError, Message
+from vorotool.formats.io import atomic_output
 from vorotool.formats.io.commit import committed_together
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.temporaries import new_folder, remove_dead, remove_tagged, temporary_beside
@@ -31,45 +31,51 @@ from vorotool.jobs.run_log import MakeBar, Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.terminal import print_text, tell
 from vorotool.jobs.units import unit_stats
-from vorotool.numeric.length_units import unit_name
 from vorotool.signals import end_by_exceptions
 
-Finish = Callable[[Task, Outcome], None]
-"""Takes each task with its outcome, as soon as it is done."""
+NO_COUNTS = frozenset({"threads", "passes", "steps_per_pixel", "largest_label"})
+"""Whole numbers in statistics that mean nothing when they are added."""
 
 
 def run_batch(recipe: Recipe, o: Options, *, is_alone: bool, bar: MakeBar) -> None:
-    """Process many inputs, or one that is alone, in this process and with the exit code that it has by itself."""
+    """Process many inputs, or one that is alone, in this process and with the exit code that it gives on its own."""
     plan = plan_batch(recipe, o, is_alone=is_alone)
-    o = plan.options
-    if o.dry_run or (is_alone and not plan.tasks):
+    o, tasks = plan.options, plan.tasks
+    if o.dry_run or (is_alone and not tasks):
         _print_plan(plan)
         return
-    _check_files(o)
+    no_clobber = o.no_clobber and not o.resume  # of the files of all inputs
+    _check_files(o, no_clobber=no_clobber)
     end_by_exceptions()
     with ExitStack() as stack:
-        tasks = _with_parts(recipe, plan, stack)
+        if plan.table is not None:
+            folder = _folder_of_parts(plan, stack)
+            tasks = [replace(task, outputs=(*task.outputs, plan.table.part(folder, task.source))) for task in tasks]
+        if plan.manifest is not None:
+            parts = [task.outputs[-1] for task in tasks] if plan.table is not None else []
+            check_inside([plan.manifest.path, *parts], plan.manifest.folder)
         run = stack.enter_context(
-            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=bar)
+            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=no_clobber, bar=bar)
         )
         for text in plan.notes:
             run.note(text)
+        report = None
         if is_alone:
-            (task,) = tasks
-            process_input(recipe, run, o, task.file, _targets(plan.targets, task))
-            _write_tables(run, plan, tasks, [Outcome(stats=run.stats)])
-            return
-        report = Report(run, len(tasks), quiet=o.quiet)
-        results = _results(recipe, plan, len(tasks))
-        outcomes = run_tasks(
-            recipe.name, tasks, results, manifest=plan.manifest, keep_going=o.keep_going, finish=report.finish
-        )
-        if plan.table is not None and None not in outcomes:
-            _write_tables(run, plan, tasks, [outcome for outcome in outcomes if outcome is not None])
-        report.summarize([task.source for task in tasks])
-        run.stats |= unit_stats(o.unit)
-    if (failure := report.failure(keep_going=o.keep_going)) is not None:
-        raise failure
+            process_input(recipe, run, o, tasks[0].file, _of_task(plan.targets, tasks[0]))
+            outcomes: list[Outcome | None] = [Outcome(stats=run.stats)]
+        else:
+            report = _Report(run, len(tasks), quiet=o.quiet)
+            results = _results(recipe, plan)
+            outcomes = run_tasks(tasks, results, plan.manifest, keep_going=o.keep_going, finish=report.finish)
+        done = [(task, outcome) for task, outcome in zip(tasks, outcomes, strict=True) if outcome is not None]
+        if plan.table is not None and len(done) == len(tasks):
+            with run.phase("write --table"), committed_together():
+                plan.table.write(done, no_clobber=no_clobber)
+        if report is not None:
+            report.summarize(tasks)
+            run.stats |= unit_stats(o.unit)
+    if report is not None:
+        report.check(keep_going=o.keep_going)
 
 
 def _print_plan(plan: Plan) -> None:
@@ -82,60 +88,44 @@ def _print_plan(plan: Plan) -> None:
         tell(f"note: {text}")
 
 
-def _check_files(o: Options) -> None:
+def _check_files(o: Options, *, no_clobber: bool) -> None:
     """Find out before any work whether the files of all inputs can be written."""
-    for option, path in (("stats", o.stats), ("table", o.table), ("table-inputs", o.table_inputs)):
+    for option, path in (("--stats", o.stats), ("--table", o.table), ("--table-inputs", o.table_inputs)):
         if path is not None:
             is_inside = o.out_dir is not None and Path(path).parent == Path(o.out_dir)
-            may_replace = not o.no_clobber or o.resume
-            check_output(path, no_clobber=not may_replace, makes_folder=is_inside, option=f"--{option}")
+            atomic_output.check_output(path, no_clobber=no_clobber, makes_folder=is_inside, option=option)
 
 
-def _with_parts(recipe: Recipe, plan: Plan, stack: ExitStack) -> list[Task]:
-    """Return the tasks with the tables of inputs as outputs: beside the record, else in a folder until the end.
-
-    A record, and tables of inputs, that links would lead out of their folder are refused.
-    """
-    tasks, table, manifest = plan.tasks, plan.table, plan.manifest
-    if table is not None:
-        if manifest is not None:
-            folder = str(manifest.folder / f".{recipe.name}.tables")
-        else:
-            is_beside = stream_kind(table.place) is None
-            beside = Path(os.path.realpath(table.place)).parent if is_beside else Path(tempfile.gettempdir())
-            try:
-                folder = str(stack.enter_context(temporary_beside(beside / "tables", new_folder)).path)
-            except OSError as error:
-                raise OutputError(
-                    f"tables cannot be written in {beside}: {error.strerror}; choose another name"
-                ) from error
-        tasks = [replace(task, outputs=(*task.outputs, part_path(folder, task.source, table.fmt))) for task in tasks]
-    if manifest is not None:
-        parts = [task.outputs[-1] for task in tasks] if table is not None else []
-        check_inside([manifest.path, *parts], manifest.folder)
-    return tasks
+def _folder_of_parts(plan: Plan, stack: ExitStack) -> str:
+    """Return the folder for the tables of inputs: beside the record, else beside the table until the end."""
+    assert plan.table is not None
+    if plan.manifest is not None:
+        return str(plan.manifest.folder / f".{plan.options.command}.tables")
+    path = plan.table.place
+    folder = Path(os.path.realpath(path)).parent if stream_kind(path) is None else Path(tempfile.gettempdir())
+    with atomic_output.explained(path, "--table"):
+        return str(stack.enter_context(temporary_beside(folder / "tables", new_folder)).path)
 
 
 # ---- the work ----------------------------------------------------------------------------------------------------
-def process_one(recipe: Recipe, options: Options, targets: Sequence[Target], task: Task) -> Outcome:
+def process_one(recipe: Recipe, o: Options, targets: Sequence[Target], task: Task) -> Outcome:
     """Process one input, and say nothing but in the outcome."""
-    if options.page == ALL_PAGES:
-        options = changed(options, page=task.page)
     message, code = "", 0
     with Run(recipe.name, quiet=True, verbose=False, stats=None) as run:
         try:
-            process_input(recipe, run, options, task.file, _targets(targets, task))
+            page = task.page if o.page == ALL_PAGES else o.page
+            process_input(recipe, run, changed(o, page=page), task.file, _of_task(targets, task))
         except Exception as error:
             message, code = explained(error)
     return Outcome(code, message, tuple(run.warnings), tuple(run.notes), run.stats, run.seconds)
 
 
-def _targets(targets: Sequence[Target], task: Task) -> list[Target]:
+def _of_task(targets: Sequence[Target], task: Task) -> list[Target]:
     """Return the outputs of a task."""
     return [Target(target.what, path, target.fmt) for target, path in zip(targets, task.outputs, strict=True)]
 
 
-def _results(recipe: Recipe, plan: Plan, count: int) -> Results:
+def _results(recipe: Recipe, plan: Plan) -> Results:
     """Return what does the work: processes of this machine, or a cluster."""
     o = plan.options
     jobs = (os.cpu_count() or 1) if o.jobs == 0 else o.jobs
@@ -146,26 +136,23 @@ def _results(recipe: Recipe, plan: Plan, count: int) -> Results:
         stats=None if o.stats is None else os.devnull,  # statistics are made, and sent to this process
         **files,
     )
-    process: Process = partial(process_one, recipe, options, plan.targets)
+    process = partial(process_one, recipe, options, plan.targets)
     if o.cluster is None:
-        from vorotool.batch.workers import local_results
-
-        return partial(local_results, process, jobs=min(jobs or 1, count))
+        return partial(workers.local_results, process, jobs=min(jobs or 1, len(plan.tasks)))
     from vorotool.batch.cluster import cluster_results
 
     return partial(cluster_results, process, address=o.cluster, jobs=jobs)
 
 
 def run_tasks(
-    command: str,
     tasks: Sequence[Task],
     results: Results,
-    *,
     manifest: Manifest | None = None,
+    *,
     keep_going: bool = False,
-    finish: Finish = lambda task, outcome: None,
+    finish: Callable[[Task, Outcome], None] = lambda task, outcome: None,
 ) -> list[Outcome | None]:
-    """Do tasks in order, until one fails; record the outcome of each, and return those of the tasks that were done."""
+    """Start tasks in order, until one fails; record each, and return its outcome, None if it was not started."""
     name = secrets.token_hex(4)
     tasks = [replace(task, tag=f"{name}-{number}-") for number, task in enumerate(tasks)]
     outcomes: list[Outcome | None] = [None] * len(tasks)
@@ -183,7 +170,7 @@ def run_tasks(
             folders = {Path(path).parent for task in tasks for path in task.outputs}
             for folder in folders:
                 remove_dead(folder)
-            manifest.begin(name, command, len(tasks))
+            manifest.begin(name, len(tasks))
             stack.callback(remove_tagged, folders, f"{name}-")
         for number, outcome in stack.enter_context(closing(results(feed()))):
             outcomes[number] = outcome
@@ -194,33 +181,56 @@ def run_tasks(
     return outcomes
 
 
-# ---- the tables --------------------------------------------------------------------------------------------------
-def _write_tables(run: Run, plan: Plan, tasks: Sequence[Task], outcomes: Sequence[Outcome]) -> None:
-    if plan.table is None:
-        return
-    with run.phase("write --table"), committed_together():
-        if plan.table.path is not None:
-            _check_units(tasks, outcomes)
-        plan.table.write(tasks, outcomes, no_clobber=plan.options.no_clobber)
+# ---- messages and statistics -------------------------------------------------------------------------------------
+class _Report:
+    """Tells what becomes of each input: a bar on a terminal, else a line an input, unless the run is quiet."""
+
+    def __init__(self, run: Run, total: int, *, quiet: bool) -> None:
+        self._run, self._total, self._quiet = run, total, quiet
+        self._progress = run.progress("", after=0.0)
+        self._statuses: Counter[str] = Counter()
+        self._sums: Counter[str] = Counter()
+        self._failures: dict[str, dict[str, Any]] = {}
+        if self._progress is not None:
+            self._progress(0.0)
+
+    def finish(self, task: Task, outcome: Outcome) -> None:
+        """Tell and count the outcome of a task."""
+        self._statuses[outcome.status] += 1
+        if self._progress is not None and (outcome.warnings or outcome.code):
+            print_text("\r\033[K", sys.stderr)  # in place of the bar, which is drawn again below
+        for warning in outcome.warnings:
+            self._run.warn(_named(task.source, Message.of(warning)))
+        if outcome.code:
+            self._failures[task.source] = {"input": task.source, "exit": outcome.code, "error": outcome.message}
+            tell(f"error: {_named(task.source, Message.of(outcome.message))}")
+        if self._progress is not None:
+            self._progress(self._statuses.total() / self._total)
+        elif not self._quiet:
+            tell(f"{self._statuses.total()}/{self._total} {task.source}: {outcome.status}")
+        for name, seconds in outcome.seconds.items():
+            self._run.seconds[name] = self._run.seconds.get(name, 0.0) + seconds
+        self._sums.update({name: n for name, n in outcome.stats.items() if type(n) is int and name not in NO_COUNTS})
+
+    def summarize(self, tasks: Sequence[Task]) -> None:
+        """Put the statistics together; failures come in the order of the plan."""
+        self._run.warnings.sort()
+        self._run.stats |= {
+            "inputs": self._total,
+            **{status: self._statuses[status] for status in ("done", "kept", "failed")},
+            "not_started": self._total - self._statuses.total(),
+            "totals": dict(sorted(self._sums.items())),
+            "failures": [self._failures[task.source] for task in tasks if task.source in self._failures],
+        }
+
+    def check(self, *, keep_going: bool) -> None:
+        """Raise the error that ends the program, if inputs failed."""
+        left = self._total - self._statuses.total()
+        rest = f"; {left} were not started{'' if keep_going else ': --keep-going goes on'}" if left else ""
+        if self._failures:
+            raise BatchError(f"{self._statuses['failed']} of {self._total} inputs failed{rest}")
 
 
-def _check_units(tasks: Sequence[Task], outcomes: Sequence[Outcome]) -> None:
-    """Refuse one table of lengths in several units, or of places on several maps."""
-    sources: dict[str, str] = {}
-    for task, outcome in zip(tasks, outcomes, strict=True):
-        if outcome.status == "done":
-            sources.setdefault(_unit_text(outcome.stats), task.source)
-    if len(sources) > 1:
-        (one, first), (other, second) = list(sources.items())[:2]
-        raise InputError(
-            f"--table would hold lengths in {one} ({first}) and in {other} ({second}): write a table for each, or give "
-            "one --pixel-size for all"
-        )
-
-
-def _unit_text(stats: Mapping[str, Any]) -> str:
-    """Return words for the unit of the results of an input."""
-    if not {"pixel_size", "spacing", "unit"} & set(stats):
-        return "pixels, or the units of the file"
-    unit = "units without a name" if stats["unit"] is None else unit_name(stats["unit"])
-    return f"{unit} in {stats['crs']}" if "crs" in stats else unit
+def _named(source: str, message: Message) -> Message:
+    """Return a line that names its input."""
+    return message if message.source == source else Message(f"{source}: {message}", message.kind, source=source)

@@ -15,15 +15,11 @@ from vorotool.batch.tasks import Outcome, Task
 from vorotool.errors import InputError, Message, UsageError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.text.tables import safe_text
+from vorotool.numeric.length_units import unit_name
 from vorotool.plain import plain
 
 TABLE_FORMATS = ("csv", "tsv", "json")
 """Formats that are joined row by row."""
-
-EXAMPLE = "(?P<well>[A-H]\\d+)_(?P<field>\\d+)"
-
-_OF_INPUTS = ("input", "status", "count", "error")
-"""Columns of the table of inputs."""
 
 
 @plain
@@ -37,12 +33,13 @@ class NameFields:
         """Read a regular expression with named groups; None has no columns."""
         try:
             pattern = None if text is None else re.compile(text)
+            if pattern is not None and not pattern.groupindex:
+                raise re.error("no group has a name, (?P<name>...)")
         except (re.error, OverflowError, RecursionError) as error:
+            example = "(?P<well>[A-H]\\d+)_(?P<field>\\d+)"
             raise UsageError(
-                f"invalid --fields {text!r}: {error}; expected a regular expression, such as '{EXAMPLE}'"
+                f"invalid --fields {text!r}: {error}; expected a regular expression, such as '{example}'"
             ) from None
-        if pattern is not None and not pattern.groupindex:
-            raise UsageError(f"invalid --fields {text!r}: no group has a name; write (?P<name>...), as in '{EXAMPLE}'")
         return NameFields(pattern)
 
     @property
@@ -61,10 +58,8 @@ class NameFields:
     def notes(self, sources: Sequence[str]) -> list[str]:
         """Return a line on the names that do not match, if there are any."""
         left = [source for source in sources if self.pattern and not self._match(source)]
-        if not left:
-            return []
-        number = f"{len(left)} of {len(sources)}"
-        return [f"--fields does not match {number} inputs, such as {left[0]}: their fields are empty"]
+        number = f"{len(left)} of {len(sources)} inputs"
+        return [f"--fields does not match {number}, such as {each}: their fields are empty" for each in left[:1]]
 
 
 @plain
@@ -84,35 +79,51 @@ class JointTable:
         """The path of one of them."""
         return self.path or self.inputs[0]  # type: ignore[index]  # one of the two is there
 
-    def write(self, tasks: Sequence[Task], outcomes: Sequence[Outcome], *, no_clobber: bool) -> None:
-        """Write the rows of all inputs that were done, which the last output of each task has, and a row an input."""
-        done = [
-            (task.source, task.outputs[-1]) for task, outcome in zip(tasks, outcomes, strict=True) if not outcome.code
-        ]
+    def part(self, folder: str, source: str) -> str:
+        """Return where the table of an input is kept until all are there."""
+        return str(Path(folder) / f"{hashlib.sha256(os.fsencode(source)).hexdigest()[:32]}.{self.fmt}")
+
+    def write(self, done: Sequence[tuple[Task, Outcome]], *, no_clobber: bool) -> None:
+        """Write the rows of all inputs that did not fail, which their last outputs have, and a row an input."""
+        parts = {task.source: task.outputs[-1] for task, outcome in done if not outcome.code}
         if self.path is not None:
+            _check_stats(done)
             with open_output(self.path, no_clobber=no_clobber, option="--table") as out:
-                join_tables(out, done, self.fmt, fields=self.fields, is_safe=self.is_safe, has_unit=self.has_unit)
+                options: dict[str, Any] = {"fields": self.fields, "is_safe": self.is_safe, "has_unit": self.has_unit}
+                join_tables(out, list(parts.items()), self.fmt, **options)
         if self.inputs is not None:
-            counts = {source: row_count(path, self.fmt) for source, path in done}
-            rows = [self._row(task.source, outcome, counts) for task, outcome in zip(tasks, outcomes, strict=True)]
+            counts = {source: row_count(path, self.fmt) for source, path in parts.items()}
+            rows = [self._row(task.source, outcome, counts.get(task.source)) for task, outcome in done]
             with open_output(self.inputs[0], no_clobber=no_clobber, option="--table-inputs") as out:
                 write_inputs(out, rows, self.inputs[1], is_safe=self.is_safe)
 
-    def _row(self, source: str, outcome: Outcome, counts: Mapping[str, int]) -> dict[str, Any]:
+    def _row(self, source: str, outcome: Outcome, count: int | None) -> dict[str, Any]:
         """Return the row of an input."""
-        names = [f"voro_{name}" if name in _OF_INPUTS else name for name in self.fields.names]
-        row = {"input": source, **dict(zip(names, self.fields.values(source), strict=True))}
-        return {
-            **row,
-            "status": outcome.status,
-            "count": counts.get(source),
-            "error": Message.of(outcome.message) or None,
-        }
+        row = {"input": source, "status": outcome.status, "count": count, "error": Message.of(outcome.message) or None}
+        names = [f"voro_{name}" if name in row else name for name in self.fields.names]
+        return {"input": source, **dict(zip(names, self.fields.values(source), strict=True)), **row}
 
 
-def part_path(folder: str | os.PathLike[str], source: str, fmt: str) -> str:
-    """Return where the table of an input is kept until all are there."""
-    return str(Path(folder) / f"{hashlib.sha256(os.fsencode(source)).hexdigest()[:32]}.{fmt}")
+def _check_stats(done: Sequence[tuple[Task, Outcome]]) -> None:
+    """Refuse one table of lengths in several units, or of places on several maps."""
+    sources: dict[str, str] = {}
+    for task, outcome in done:
+        if outcome.status == "done":
+            sources.setdefault(_unit_text(outcome.stats), task.source)
+    if len(sources) > 1:
+        (one, first), (other, second) = list(sources.items())[:2]
+        raise InputError(
+            f"--table would hold lengths in {one} ({first}) and in {other} ({second}): write a table for each, or give "
+            "one --pixel-size for all"
+        )
+
+
+def _unit_text(stats: Mapping[str, Any]) -> str:
+    """Return words for the unit of the results of an input."""
+    if not {"pixel_size", "spacing", "unit"} & set(stats):
+        return "pixels, or the units of the file"
+    unit = "units without a name" if stats["unit"] is None else unit_name(stats["unit"])
+    return f"{unit} in {stats['crs']}" if "crs" in stats else unit
 
 
 def join_tables(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Generator, Hashable, Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import field, replace
 from itertools import islice
 from pathlib import Path
@@ -19,8 +19,6 @@ INPUT = ""
 """Key of the input where digests are by the paths of outputs."""
 
 T = TypeVar("T")
-Key = TypeVar("Key", bound=Hashable)
-Result = TypeVar("Result")
 
 
 @plain
@@ -70,12 +68,8 @@ Results = Callable[[Iterator[tuple[int, Task]]], Generator[tuple[int, Outcome], 
 
 
 def keep_busy(
-    items: Iterator[T],
-    start: Callable[[T], Key],
-    done: Iterator[tuple[Key, Result]],
-    most: int,
-    going: MutableMapping[Key, T],
-) -> Iterator[tuple[T, Key, Result]]:
+    items: Iterator[T], start: Callable[[T], Any], done: Iterator[tuple[Any, Any]], most: int, going: dict[Any, T]
+) -> Iterator[tuple[T, Any, Any]]:
     """Start items, `most` at a time; yield each with its key and result when it is done."""
     for item in islice(items, most):
         going[start(item)] = item

@@ -41,7 +41,7 @@ class Worker:
     """A process that does one task at a time, which come through its standard input."""
 
     def __init__(self, process: Process) -> None:
-        self._process = subprocess.Popen(
+        self.process = subprocess.Popen(
             [sys.executable, "-c", START, *sys.path],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -62,42 +62,33 @@ class Worker:
     def _outcome(self, task: Task) -> Outcome | None:
         self._send(task)
         try:
-            outcome: Outcome = pickle.load(self._process.stdout)  # type: ignore[arg-type]  # it is a pipe
+            outcome: Outcome = pickle.load(self.process.stdout)  # type: ignore[arg-type]  # it is a pipe
         except (EOFError, OSError, pickle.UnpicklingError):
             return None
         self._task = None
         return outcome
 
     def _send(self, value: object) -> None:
-        stream: Any = self._process.stdin
+        stream: Any = self.process.stdin
         with suppress(OSError):  # where the process has ended this is seen when the result is asked for
             pickle.dump(value, stream)
             stream.flush()
 
-    def end(self) -> str:
-        """Wait for a process whose pipe was closed, and say how it ended."""
-        self.wait(time.monotonic() + PATIENCE)
-        code = self._process.returncode
-        how = f"with exit code {code}" if code >= 0 else f"by {signal.Signals(-code).name}"
-        return f"the process that worked on it ended {how}"
-
-    def stop(self) -> None:
-        """Ask the process to remove what it has begun, and to end."""
-        self._process.terminate()
-
-    def wait(self, deadline: float) -> None:
-        """Wait until the process has ended; if it has not by then, kill it; remove what it has left."""
+    def end(self, deadline: float) -> str:
+        """Wait until the process has ended, or kill it; remove what it has left, and say how it ended."""
         try:
-            self._process.wait(max(0.0, deadline - time.monotonic()))
+            code = self.process.wait(max(0.0, deadline - time.monotonic()))
         except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
+            self.process.kill()
+            code = self.process.wait()
         if self._thread.is_alive():  # it sees that the pipe is closed
             self._thread.join()
-        with suppress(OSError), self._process:  # closes the pipes
+        with suppress(OSError), self.process:  # closes the pipes
             pass
         if self._task is not None:
             remove_tagged({Path(path).parent for path in self._task.outputs}, self._task.tag)
+        how = f"with exit code {code}" if code >= 0 else f"by {signal.Signals(-code).name}"
+        return f"the process that worked on it ended {how}"
 
 
 def local_results(
@@ -118,16 +109,16 @@ def local_results(
         for (number, _), worker, outcome in keep_busy(tasks, start, iter(done.get, None), jobs, {}):
             if outcome is None:
                 workers.remove(worker)
-                yield number, Outcome(code=1, message=worker.end())
+                yield number, Outcome(code=1, message=worker.end(time.monotonic() + PATIENCE))
             else:
                 idle.append(worker)
                 yield number, outcome
     finally:
         for worker in workers:
-            worker.stop()
+            worker.process.terminate()  # which removes what it has begun
         deadline = time.monotonic() + PATIENCE
         for worker in workers:
-            worker.wait(deadline)
+            worker.end(deadline)
 
 
 # ---- in the process of a worker ----------------------------------------------------------------------------------

@@ -237,7 +237,7 @@ def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
         ("points/p0.csv --page all -o out.png", 2, "--page all"),
         ("--files-from old.csv -o out.png", 2, "--files-from old.csv"),
         ("points/p0.csv --resume -o out.png", 2, "--resume"),
-        ("points/p0.csv -0 -o out.png", 2, "-0"),
+        ("points/p0.csv -0 -o out.png", 2, "--null needs --files-from"),
         ("points/p0.csv --table points/p0.csv -o out.png", 2, "--table points/p0.csv"),
         ("points/p0.csv --table out.csv --what table -o out.csv", 2, "--table out.csv"),
         ("points/p0.csv --table s.csv --stats s.csv -o out.png", 2, "--table s.csv"),
@@ -274,6 +274,21 @@ def test_what_does_not_go(run, inputs, arguments, code, words):
     assert done.code == code, done.err
     assert words in done.err
     assert files(inputs) == before
+
+
+def test_no_clobber_lets_a_resumed_batch_write_its_table_and_statistics_anew(run, inputs):
+    options = ("delaunay", "points", "--out-dir", "out", "--table", "t.csv", "--table-inputs", "i.csv", "--stats", "s")
+    for more in ((), ("--resume",)):
+        done = run(*options, "--no-clobber", "-q", *more)
+        assert done.code == 0, done.err
+    assert json.loads((inputs / "s").read_text())["kept"] == 3
+    assert run(*options, "--no-clobber", "-q").code == 4
+
+
+@pytest.mark.parametrize("options", [["--out-dir", "out"], ["--table", "t.csv"]])
+def test_an_input_that_is_named_twice_is_refused(run, inputs, options):
+    done = run("delaunay", "points", "points/p0.csv", *options)
+    assert (done.code, "points/p0.csv" in done.err) == (2, True), done.err
 
 
 def test_an_empty_name_is_refused(run, inputs):

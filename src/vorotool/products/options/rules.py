@@ -101,6 +101,7 @@ NEEDING = (
     Rule("skeleton-exact", "what:offset", "distance"),
     Rule("skeleton-exact", "complete", "gap", "without a gap nothing is missing"),
     Rule(BATCHES, "null", "files_from", "NUL bytes end the names of that list"),
+    Rule(BATCHES, "fields", "table table_inputs", "they have its columns"),
 )
 # fmt: on
 """Of each rule, a condition of the first kind needs one of the second."""
