@@ -8,9 +8,9 @@ import pytest
 
 from vorotool import OutputError
 from vorotool.batch.manifest import Manifest, digest_of_values, read_history
-from vorotool.batch.tasks import INPUT, Outcome, Task, carry_out, digest_of
+from vorotool.batch.tasks import Outcome, Task, carry_out, digest_of
 
-DONE = Outcome(digest="d", outputs={"out/x/a.csv": "e"}, warnings=("moved",))
+DONE = Outcome(digest="d", outputs={"out/x/a.csv": "e"}, unit="um", warnings=("moved",))
 
 
 @pytest.fixture
@@ -32,11 +32,11 @@ def test_what_was_written_is_read(manifest):
         assert len(lines(manifest)) == 3  # nothing waits in a buffer
     assert lines(manifest)[1:] == [
         {"input": "a", "status": "done", "options": "options", "sha256": "d", "outputs": {"x/a.csv": "e"}}
-        | {"warnings": ["moved"]},
+        | {"unit": "um", "warnings": ["moved"]},
         {"input": "b", "status": "failed", "exit": 3, "error": "bad", "options": "options", "sha256": "f"},
     ]
     history = read_history([manifest.path, "missing"])
-    assert manifest.done_before("a", history) == {INPUT: "d", "out/x/a.csv": "e"}
+    assert manifest.done_before("a", history) == Outcome(digest="d", outputs={"out/x/a.csv": "e"}, unit="um")
     assert manifest.done_before("b", history) is None
     assert Manifest("out", "t", "others").done_before("a", history) is None
 
@@ -65,7 +65,7 @@ def test_any_torn_line_is_left_out(manifest):
 
 def line(**members):
     """A line that says that a was done, but for some members."""
-    whole = {"input": "a", "status": "done", "options": "o", "sha256": "d", "outputs": {"a.csv": "e"}}
+    whole = {"input": "a", "status": "done", "options": "o", "sha256": "d", "outputs": {"a.csv": "e"}, "unit": ""}
     return json.dumps(whole | members)
 
 
@@ -73,7 +73,14 @@ NONE_OF_OURS = [
     *("[]", "1", "null", "NaN", '"x"', "\xff", "\0\0\0{", "[" * 100_000, '{"input":' * 100_000, "9" * 10_000),
     *('{"input": [], "status": "done"}', '{"status": "done"}', '{"input": "a"}', "{" * 9 + "}" * 9),
     *('{"run": "*"}', '{"run": "x/../../victim/"}', '{"run": []}'),
-    *(line(input=None), line(input=["a"]), line(options=1), line(sha256=None), line(outputs=["a.csv"])),
+    *(
+        line(input=None),
+        line(input=["a"]),
+        line(options=1),
+        line(sha256=None),
+        line(unit=None),
+        line(outputs=["a.csv"]),
+    ),
     *(line(outputs=None), line(outputs={"a.csv": 1}), line(outputs={"a.csv": "e", "../b.csv": "e"})),
     *(line(outputs={"/etc/passwd": "e"}), line(outputs={"sub/../../a.csv": "e"})),
 ]
@@ -134,14 +141,15 @@ def test_kept_only_if_all_is_as_it_was(tmp_path):
         output.write_text("out")
         return Outcome()
 
-    done = {INPUT: digest_of(str(source)), str(output): digest_of(str(output))}
+    done = Outcome(digest=digest_of(str(source)), outputs={str(output): digest_of(str(output))}, unit="mm")
     task = Task(str(source), (str(output),), done=done)
-    assert carry_out(process, task).kept
+    kept = carry_out(process, task)
+    assert (kept.kept, kept.unit) == (True, "mm")
     for spoil in (lambda: source.write_text("other"), lambda: output.write_text("other"), output.unlink):
         spoil()
         outcome = carry_out(process, task)
         assert not outcome.kept
-        assert outcome.outputs == {str(output): done[str(output)]}
+        assert outcome.outputs == done.outputs
         source.write_text("in")
     assert not carry_out(process, Task(str(source), (str(output), "c"), done=done)).kept
     assert len(calls) == 4

@@ -24,7 +24,7 @@ def joined(folder, tables, fmt, names="abcdef"):
             write_table(out, table, fmt)
         parts.append((name, str(path)))
     out = io.BytesIO()
-    join_tables(out, parts, fmt)
+    join_tables(out, dict(parts), fmt)
     return out.getvalue(), [(folder / f"{name}.{fmt}").read_bytes() for name, _ in parts]
 
 
@@ -85,7 +85,7 @@ def test_names_that_are_no_text(tmp_path):
     path = tmp_path / "a.csv"
     path.write_bytes(b"label\n1\n")
     out = io.BytesIO()
-    join_tables(out, [("\udcff,b", str(path))], "csv")
+    join_tables(out, {"\udcff,b": str(path)}, "csv")
     assert out.getvalue() == b'input,label\n"\xff,b",1\n'
 
 

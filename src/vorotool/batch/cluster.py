@@ -122,9 +122,12 @@ def _carry_out(process: Process, task: Task) -> Outcome:
 
 def _absolute(task: Task) -> Task:
     """Return the task for a process in another folder."""
-    done = task.done and {name and str(Path(name).absolute()): digest for name, digest in task.done.items()}
-    outputs = tuple(str(Path(path).absolute()) for path in task.outputs)
-    return replace(task, path=str(Path(task.file).absolute()), outputs=outputs, done=done)
+
+    def path(name: str) -> str:
+        return str(Path(name).absolute())
+
+    done = task.done and replace(task.done, outputs={path(name): each for name, each in task.done.outputs.items()})
+    return replace(task, path=path(task.file), outputs=tuple(map(path, task.outputs)), done=done)
 
 
 def _write_band(folder: str, first: int, band: Band) -> str:

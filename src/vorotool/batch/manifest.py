@@ -11,7 +11,7 @@ from pathlib import Path, PurePath
 from typing import Any, BinaryIO
 
 from vorotool import __version__
-from vorotool.batch.tasks import INPUT, Outcome, Task
+from vorotool.batch.tasks import Outcome, Task
 from vorotool.errors import OutputError
 from vorotool.formats.io.atomic_output import explained, make_folder
 
@@ -72,7 +72,8 @@ def _is_ours(record: Mapping[str, Any]) -> bool:
         PurePath(path).is_absolute() or ".." in PurePath(path).parts for path in outputs
     ):
         return False
-    return all(isinstance(each, str) for each in (record.get("options"), record.get("sha256"), *outputs.values()))
+    texts = (record.get("options"), record.get("sha256"), record.get("unit"), *outputs.values())
+    return all(isinstance(text, str) for text in texts)
 
 
 class Manifest:
@@ -99,12 +100,13 @@ class Manifest:
         if self._file is not None:
             self._file.close()
 
-    def done_before(self, source: str, history: History) -> dict[str, str] | None:
-        """Return the digests of an input (at `INPUT`) and of its outputs if it was done with the same options."""
+    def done_before(self, source: str, history: History) -> Outcome | None:
+        """Return the outcome of an input if it was done with the same options."""
         record = history.get(source)
         if record is None or record["options"] != self.options:
             return None
-        return {INPUT: record["sha256"], **{str(self.folder / path): each for path, each in record["outputs"].items()}}
+        outputs = {str(self.folder / path): digest for path, digest in record["outputs"].items()}
+        return Outcome(digest=record["sha256"], outputs=outputs, unit=record["unit"])
 
     def begin(self, run: str, inputs: int) -> None:
         """Add the line of a run; its name is in the names of its temporary files."""
@@ -121,6 +123,7 @@ class Manifest:
         if not outcome.code:
             outputs = outcome.outputs.items()
             record["outputs"] = {str(PurePath(path).relative_to(self.folder)): digest for path, digest in outputs}
+            record["unit"] = outcome.unit
         texts = {"warnings": outcome.warnings, "notes": outcome.notes}
         self._add(record | {name: lines for name, lines in texts.items() if lines})
 

@@ -14,7 +14,7 @@ from typing import Any
 from vorotool import __version__
 from vorotool.batch.inputs import Input, expand_inputs, pages_of, read_names
 from vorotool.batch.manifest import RECORD_ENDING, Manifest, digest_of_values, read_history
-from vorotool.batch.tables import TABLE_FORMATS, JointTable, NameFields
+from vorotool.batch.tables import TABLE_FORMATS, JointTable, name_fields
 from vorotool.batch.tasks import Task, digest_of
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
@@ -75,7 +75,9 @@ def plan_batch(recipe: Recipe, o: Options, *, is_alone: bool) -> Plan:
     if table is not None:
         o = changed(o, what=tuple(dict.fromkeys((*o.what, table.what))))
         targets.append(Target(table.what, f"part.{table.fmt}", table.fmt))
-        notes += table.fields.notes([task.source for task in tasks])
+        left = [task.source for task in tasks if table.fields.search(task.source.replace("\\", "/")) is None]
+        number = f"{len(left)} of {len(tasks)} inputs"
+        notes += [f"--fields does not match {number}, such as {each}: their fields are empty" for each in left[:1]]
     check_units(o, targets)
     o = lengths_in_pixels(o, o.unit)
     recipe.check(o, targets)
@@ -173,14 +175,13 @@ def _name_of_part(path: str, part: int, parts: int) -> str:
 # ---- the joint table and the record ------------------------------------------------------------------------------
 def _joint_table(recipe: Recipe, o: Options) -> JointTable | None:
     """Return the table of all inputs; -f is its format where there is no other output."""
-    fields = NameFields.of(o.fields)
     if o.table is None and o.table_inputs is None:
         return None
     inputs = None if o.table_inputs is None else (o.table_inputs, _table_format("--table-inputs", o.table_inputs))
     has_outputs = o.out_dir is not None or o.output is not None
     fmt = "csv" if o.table is None else _table_format("--table", o.table, None if has_outputs else o.format)
     what = _collected(recipe, o, fmt)
-    return JointTable(o.table, fmt, what, fields, inputs, o.safe_csv, o.unit is not None)
+    return JointTable(o.table, fmt, what, name_fields(o.fields), inputs, o.safe_csv)
 
 
 def _table_format(option: str, path: str, fmt: str | None = None) -> str:

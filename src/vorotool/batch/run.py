@@ -8,7 +8,7 @@ import secrets
 import sys
 import tempfile
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing
 from dataclasses import replace
 from functools import partial
@@ -31,6 +31,7 @@ from vorotool.jobs.run_log import MakeBar, Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.terminal import print_text, tell
 from vorotool.jobs.units import unit_stats
+from vorotool.numeric.length_units import unit_name
 from vorotool.signals import end_by_exceptions
 
 NO_COUNTS = frozenset({"threads", "passes", "steps_per_pixel", "largest_label"})
@@ -117,7 +118,16 @@ def process_one(recipe: Recipe, o: Options, targets: Sequence[Target], task: Tas
             process_input(recipe, run, changed(o, page=page), task.file, _of_task(targets, task))
         except Exception as error:
             message, code = explained(error)
-    return Outcome(code, message, tuple(run.warnings), tuple(run.notes), run.stats, run.seconds)
+    notes = tuple(run.notes)
+    return Outcome(code, message, tuple(run.warnings), notes, run.stats, run.seconds, unit=_unit_text(run.stats))
+
+
+def _unit_text(stats: Mapping[str, Any]) -> str:
+    """Return words for the unit of the results of an input."""
+    if not {"pixel_size", "spacing", "unit"} & set(stats):
+        return "pixels, or the units of the file"
+    unit = "units without a name" if stats["unit"] is None else unit_name(stats["unit"])
+    return f"{unit} in {stats['crs']}" if "crs" in stats else unit
 
 
 def _of_task(targets: Sequence[Target], task: Task) -> list[Target]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import json
 import os
@@ -15,51 +14,31 @@ from vorotool.batch.tasks import Outcome, Task
 from vorotool.errors import InputError, Message, UsageError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.text.tables import safe_text
-from vorotool.numeric.length_units import unit_name
 from vorotool.plain import plain
 
+NO_FIELDS = re.compile("")
 TABLE_FORMATS = ("csv", "tsv", "json")
 """Formats that are joined row by row."""
 
 
-@plain
-class NameFields:
-    """Columns of what the named groups of a regular expression match in the names of inputs."""
+def name_fields(text: str | None) -> re.Pattern[str]:
+    """Read a regular expression, whose named groups are columns; None has no columns."""
+    try:
+        pattern = NO_FIELDS if text is None else re.compile(text)
+        if text is not None and not pattern.groupindex:
+            raise re.error("no group has a name, (?P<name>...)")
+    except (re.error, OverflowError, RecursionError) as error:
+        example = "(?P<well>[A-H]\\d+)_(?P<field>\\d+)"
+        raise UsageError(
+            f"invalid --fields {text!r}: {error}; expected a regular expression, such as '{example}'"
+        ) from None
+    return pattern
 
-    pattern: re.Pattern[str] | None = None
 
-    @staticmethod
-    def of(text: str | None) -> NameFields:
-        """Read a regular expression with named groups; None has no columns."""
-        try:
-            pattern = None if text is None else re.compile(text)
-            if pattern is not None and not pattern.groupindex:
-                raise re.error("no group has a name, (?P<name>...)")
-        except (re.error, OverflowError, RecursionError) as error:
-            example = "(?P<well>[A-H]\\d+)_(?P<field>\\d+)"
-            raise UsageError(
-                f"invalid --fields {text!r}: {error}; expected a regular expression, such as '{example}'"
-            ) from None
-        return NameFields(pattern)
-
-    @property
-    def names(self) -> list[str]:
-        """The names of the groups, in order."""
-        return [] if self.pattern is None else list(self.pattern.groupindex)
-
-    def values(self, source: str) -> list[str | None]:
-        """Return what the groups match in the path of an input; None where they match nothing."""
-        match = self._match(source)
-        return [match and match[name] for name in self.names]
-
-    def _match(self, source: str) -> re.Match[str] | None:
-        return self.pattern and self.pattern.search(source.replace("\\", "/"))
-
-    def notes(self, sources: Sequence[str]) -> list[str]:
-        """Return a line on the names that do not match, if there are any."""
-        left = [source for source in sources if self.pattern and not self._match(source)]
-        number = f"{len(left)} of {len(sources)} inputs"
-        return [f"--fields does not match {number}, such as {each}: their fields are empty" for each in left[:1]]
+def _values(fields: re.Pattern[str], source: str) -> list[str | None]:
+    """Return the path of an input, and what the named groups match in it; None where they match nothing."""
+    match = fields.search(source.replace("\\", "/"))
+    return [source, *(match and match[name] for name in fields.groupindex)]
 
 
 @plain
@@ -69,10 +48,9 @@ class JointTable:
     path: str | None  # where the rows of all go; None where they are only counted
     fmt: str
     what: str  # the result whose rows it has
-    fields: NameFields
+    fields: re.Pattern[str]  # whose named groups are columns of the paths of inputs
     inputs: tuple[str, str] | None  # where there is a row an input, and in which format
     is_safe: bool  # texts are not formulas
-    has_unit: bool  # tables have a column of their unit
 
     @property
     def place(self) -> str:
@@ -87,10 +65,9 @@ class JointTable:
         """Write the rows of all inputs that did not fail, which their last outputs have, and a row an input."""
         parts = {task.source: task.outputs[-1] for task, outcome in done if not outcome.code}
         if self.path is not None:
-            _check_stats(done)
+            _check_units(done)
             with open_output(self.path, no_clobber=no_clobber, option="--table") as out:
-                options: dict[str, Any] = {"fields": self.fields, "is_safe": self.is_safe, "has_unit": self.has_unit}
-                join_tables(out, list(parts.items()), self.fmt, **options)
+                join_tables(out, parts, self.fmt, self.fields, is_safe=self.is_safe)
         if self.inputs is not None:
             counts = {source: row_count(path, self.fmt) for source, path in parts.items()}
             rows = [self._row(task.source, outcome, counts.get(task.source)) for task, outcome in done]
@@ -100,16 +77,16 @@ class JointTable:
     def _row(self, source: str, outcome: Outcome, count: int | None) -> dict[str, Any]:
         """Return the row of an input."""
         row = {"input": source, "status": outcome.status, "count": count, "error": Message.of(outcome.message) or None}
-        names = [f"voro_{name}" if name in row else name for name in self.fields.names]
-        return {"input": source, **dict(zip(names, self.fields.values(source), strict=True)), **row}
+        names = ["input", *(f"voro_{name}" if name in row else name for name in self.fields.groupindex)]
+        return {**dict(zip(names, _values(self.fields, source), strict=True)), **row}
 
 
-def _check_stats(done: Sequence[tuple[Task, Outcome]]) -> None:
+def _check_units(done: Sequence[tuple[Task, Outcome]]) -> None:
     """Refuse one table of lengths in several units, or of places on several maps."""
     sources: dict[str, str] = {}
     for task, outcome in done:
-        if outcome.status == "done":
-            sources.setdefault(_unit_text(outcome.stats), task.source)
+        if not outcome.code:
+            sources.setdefault(outcome.unit, task.source)
     if len(sources) > 1:
         (one, first), (other, second) = list(sources.items())[:2]
         raise InputError(
@@ -118,27 +95,10 @@ def _check_stats(done: Sequence[tuple[Task, Outcome]]) -> None:
         )
 
 
-def _unit_text(stats: Mapping[str, Any]) -> str:
-    """Return words for the unit of the results of an input."""
-    if not {"pixel_size", "spacing", "unit"} & set(stats):
-        return "pixels, or the units of the file"
-    unit = "units without a name" if stats["unit"] is None else unit_name(stats["unit"])
-    return f"{unit} in {stats['crs']}" if "crs" in stats else unit
-
-
 def join_tables(
-    out: BinaryIO,
-    parts: Sequence[tuple[str, str]],
-    fmt: str,
-    *,
-    fields: NameFields | None = None,
-    is_safe: bool = False,
-    has_unit: bool = False,
+    out: BinaryIO, parts: Mapping[str, str], fmt: str, fields: re.Pattern[str] = NO_FIELDS, *, is_safe: bool = False
 ) -> None:
-    """Write the rows of several tables as one, after columns of the input and of the fields of its name."""
-    fields = fields or NameFields()
-    if has_unit:
-        _check_units(parts, fmt)
+    """Write the rows of the tables of inputs as one, after columns of the input and of the fields of its path."""
     if fmt == "json":
         _join_json(out, parts, fields)
     else:
@@ -162,34 +122,10 @@ def row_count(path: str, fmt: str) -> int:
     return max(len(_RECORD.findall(Path(path).read_bytes())) - 1, 0)
 
 
-def _check_units(parts: Sequence[tuple[str, str]], fmt: str) -> None:
-    """Refuse tables in different units; those without rows have none."""
-    first: tuple[str, str] | None = None
-    for source, path in parts:
-        row = _first_row(path, fmt)
-        if row is None:
-            continue
-        unit = row.get("voro_unit", row.get("unit"))
-        text = f"in {unit}" if unit else "in no unit"
-        if first is not None and first[1] != text:
-            raise InputError(
-                f"{source} is {text}, but {first[0]} {first[1]}: give --pixel-size for all, or a --table to each unit"
-            )
-        first = first or (source, text)
-
-
-def _first_row(path: str, fmt: str) -> dict[str, Any] | None:
-    if fmt == "json":
-        row: dict[str, Any] | None = json.loads(next(_json_rows(path), b"null"))
-        return row
-    with Path(path).open(encoding="utf-8", errors="surrogateescape", newline="") as file:
-        return next(csv.DictReader(file, dialect="excel-tab" if fmt == "tsv" else "excel"), None)
-
-
-def _columns(headers: Iterable[Iterable[bytes]], fields: NameFields) -> tuple[list[bytes], list[bytes]]:
+def _columns(headers: Iterable[Iterable[bytes]], fields: re.Pattern[str]) -> tuple[list[bytes], list[bytes]]:
     """Return our columns and all others; ours take the prefix ``voro_`` where an input has one of their name."""
     names = list(dict.fromkeys(name for header in headers for name in header))
-    ours = [name.encode() for name in ("input", *fields.names)]
+    ours = [name.encode() for name in ("input", *fields.groupindex)]
     return [b"voro_" + name if name in names else name for name in ours], names
 
 
@@ -203,15 +139,15 @@ _FIELDS = {
 
 
 def _join_delimited(
-    out: BinaryIO, parts: Sequence[tuple[str, str]], delimiter: bytes, own: NameFields, *, is_safe: bool
+    out: BinaryIO, parts: Mapping[str, str], delimiter: bytes, own: re.Pattern[str], *, is_safe: bool
 ) -> None:
     fields_of = _FIELDS[delimiter].findall
-    headers = (_RECORD.match(Path(path).read_bytes()) for _, path in parts)
+    headers = (_RECORD.match(Path(path).read_bytes()) for path in parts.values())
     ours, names = _columns((fields_of(header[0][:-1]) for header in headers if header), own)
     out.write(delimiter.join([*ours, *names]) + b"\n")
-    for source, path in parts:
+    for source, path in parts.items():
         head, *records = _RECORD.findall(Path(path).read_bytes())
-        texts = [_field(value, is_safe=is_safe) for value in (source, *own.values(source))]
+        texts = [_field(value, is_safe=is_safe) for value in _values(own, source)]
         before = b"".join(text + delimiter for text in texts)
         header = fields_of(head[:-1])
         places = [header.index(name) if name in header else -1 for name in names]  # the last is empty
@@ -230,12 +166,12 @@ def _field(value: Any, *, is_safe: bool) -> bytes:
 
 
 # ---- JSON ----------------------------------------------------------------------------------------
-def _join_json(out: BinaryIO, parts: Sequence[tuple[str, str]], own: NameFields) -> None:
-    ours, names = _columns((_json_header(path) for _, path in parts), own)
+def _join_json(out: BinaryIO, parts: Mapping[str, str], own: re.Pattern[str]) -> None:
+    ours, names = _columns(map(_json_header, parts.values()), own)
     before = b"[\n"
-    for source, path in parts:
+    for source, path in parts.items():
         header = _json_header(path)
-        values = zip(ours, (source, *own.values(source)), strict=True)
+        values = zip(ours, _values(own, source), strict=True)
         begin = b"{" + b"".join(b'"%b":%b,' % (name, json.dumps(value).encode()) for name, value in values)
         absent = b"".join(b',"%b":null' % each for each in names if each not in header)
         for row in _json_rows(path):

@@ -15,9 +15,6 @@ from vorotool.formats.io.layer_names import file_of
 from vorotool.formats.io.temporaries import tagged_temporaries
 from vorotool.plain import plain
 
-INPUT = ""
-"""Key of the input where digests are by the paths of outputs."""
-
 T = TypeVar("T")
 
 
@@ -30,8 +27,7 @@ class Task:
     path: str = ""  # the file, where `source` is more than that
     page: int | None = None
     tag: str = ""  # in the names of temporary files, so that those of a killed process are known
-    # digests of the input (at `INPUT`) and of outputs when it was done before, with the same options
-    done: Mapping[str, str] | None = None
+    done: Outcome | None = None  # how it ended before, with the same options
 
     @property
     def file(self) -> str:
@@ -51,6 +47,7 @@ class Outcome:
     seconds: Mapping[str, float] = field(default_factory=dict)  # seconds a phase
     digest: str = ""  # SHA-256 of the input
     outputs: Mapping[str, str] = field(default_factory=dict)  # SHA-256 of the outputs, by their paths
+    unit: str = ""  # words for the unit of lengths in the outputs
     kept: bool = False  # it was done before
     version: str = __version__  # of the package that did it
 
@@ -85,7 +82,7 @@ def carry_out(process: Process, task: Task) -> Outcome:
     digest = digest_of(task.file)
     if is_done(task, digest):
         assert task.done is not None
-        return Outcome(digest=digest, outputs={path: task.done[path] for path in task.outputs}, kept=True)
+        return replace(task.done, outputs={path: task.done.outputs[path] for path in task.outputs}, kept=True)
     with tagged_temporaries(task.tag):
         outcome = process(task)
     outputs = {} if outcome.code else {path: digest_of(path) for path in task.outputs}
@@ -94,10 +91,9 @@ def carry_out(process: Process, task: Task) -> Outcome:
 
 def is_done(task: Task, digest: str) -> bool:
     """Return whether an input with this digest was done before, and its outputs are unchanged."""
-    done = task.done
-    if not digest or done is None or done[INPUT] != digest:
+    if not digest or task.done is None or task.done.digest != digest:
         return False
-    return all(path in done and digest_of(path) == done[path] for path in task.outputs)
+    return all(digest_of(path) == task.done.outputs.get(path, "none") for path in task.outputs)
 
 
 def digest_of(path: str) -> str:

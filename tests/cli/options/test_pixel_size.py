@@ -1,6 +1,5 @@
 """``--pixel-size``: what is written is what a larger input gives, byte by byte where the factor is a power of two."""
 
-import io
 import json
 import re
 
@@ -9,12 +8,8 @@ import pytest
 
 from support.few import few
 from support.readers.written import rows_of
-from vorotool.batch.tables import join_tables
-from vorotool.errors import InputError
-from vorotool.formats.text.tables import write_table
 from vorotool.products.formats import FORMATS
 from vorotool.products.registry import formats_of
-from vorotool.types.table import Table
 
 XY = np.array([[0, 0], [9, 1], [4, 7], [12, 8], [2, 3], [7, 4], [11, 2], [1, 9], [5, 2], [8, 9]])
 SHAPES = [
@@ -264,19 +259,3 @@ def test_a_table_of_all_inputs_has_one_unit(run, tmp_path):
     for name in ("all.csv", "all.tsv", "all.json"):
         assert run("delaunay", folder, "--table", name, "--pixel-size", "3mm", "-q").code == 0
         assert set(values_of(tmp_path / name, "unit")) == {"mm"}
-
-
-@pytest.mark.parametrize("fmt", ["csv", "tsv", "json"])
-def test_tables_in_different_units_are_not_joined(tmp_path, fmt):
-    parts = []
-    for number, unit in enumerate(("mm", None, "mm", "um", "")):
-        table = {"a": np.arange(0 if unit is None else 2)} | ({"unit": [unit] * 2} if unit else {})
-        with (tmp_path / f"{number}.{fmt}").open("wb") as out:
-            write_table(out, Table(table), fmt)
-        parts.append((f"{number}.png", str(tmp_path / f"{number}.{fmt}")))
-    join_tables(io.BytesIO(), parts[:3], fmt, has_unit=True)
-    with pytest.raises(InputError, match=r"3\.png is in um, but 0\.png in mm: give --pixel-size for all"):
-        join_tables(io.BytesIO(), parts[:4], fmt, has_unit=True)
-    with pytest.raises(InputError, match=r"4\.png is in no unit, but 0\.png in mm"):
-        join_tables(io.BytesIO(), [parts[0], parts[4]], fmt, has_unit=True)
-    join_tables(io.BytesIO(), parts, fmt)  # columns of the inputs may be called so, too

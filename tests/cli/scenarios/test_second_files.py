@@ -185,6 +185,11 @@ def test_one_table_has_one_unit(run, tmp_path):
     (folder / "b.dxf").unlink()
     dxf(folder / "c.dxf", shapely.MultiPolygon(SITES), "mm")
     assert run("voronoi", "in", "--table", "all.csv", "-q").code == 0
+    resumed = ("voronoi", "in", "--out-dir", "out", "--table", "all.csv", "-q", "--resume")
+    assert run(*resumed).code == 0
+    dxf(folder / "d.dxf", shapely.MultiPolygon(SITES), "in")  # the others are kept
+    done = run(*resumed)
+    assert (done.code, "in mm (in/a.dxf) and in inch (in/d.dxf)" in done.err) == (3, True), done.err
     assert run("voronoi", "in/a.dxf", "-o", "a.csv", "--stats", "s.json", "-q").code == 0
     assert json.loads((tmp_path / "s.json").read_text())["unit"] == "mm"
 
