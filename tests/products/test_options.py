@@ -8,8 +8,10 @@ import click
 import pytest
 
 from vorotool.cli.main import vorotool
+from vorotool.cli.values.lengths import spacing
 from vorotool.jobs.options import Options
 from vorotool.jobs.refusals import _KINDS, _PROPERTIES
+from vorotool.jobs.units import lengths_in_steps, with_spacing
 from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import FORMATS, resolved
 from vorotool.products.options import DEFAULTS, GROUPS, options_of
@@ -132,3 +134,19 @@ def test_an_option_is_one_row(tmp_path):
     assert (
         "draw has no --wobble: delaunay, voronoi have it" in called(tmp_path, "draw", "a.csv", "--wobble", "1").stderr
     )
+
+
+NOT_IN_STEPS = {"pixel_size", "spacing", "min_area", "fill_holes", "prune"}
+"""Sizes of pixels, areas, which are those of pixels, and a pruning, which may be a length."""
+LENGTHS = [
+    (command, name)
+    for command in ("delaunay", "voronoi", "skeleton-approx", "skeleton-exact")
+    for name, row in options_of(command).items()
+    if row.type.startswith("lengths.") and name not in NOT_IN_STEPS
+]
+
+
+@pytest.mark.parametrize(("command", "name"), LENGTHS)
+def test_every_length_is_counted_in_the_steps_of_spacing(command, name):
+    o = with_spacing(Options(command, spacing=spacing("0.5,0.25um"), **{name: (3.0, 1.5)}))
+    assert getattr(lengths_in_steps(o), name) == (12.0, 6.0)

@@ -16,6 +16,7 @@ from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.layer_names import file_of, output_name
 from vorotool.formats.io.sources import GZIP, without_gz
+from vorotool.formats.parsing.convertible import refuse_geodatabase
 from vorotool.jobs.inputs import is_pattern, is_searched
 from vorotool.plain import plain
 
@@ -128,6 +129,7 @@ def _matching(pattern: str, search: Search) -> list[Input]:
 
 def _inside(folder: str, extensions: frozenset[str], search: Search) -> list[Input]:
     """Return the files in a folder that are in a format that is read; companions of these are not worth a note."""
+    refuse_geodatabase(folder)
     paths = [path for path in search.matches(Path(folder), (ANY,)) if not path.name.endswith(RECORD_ENDING)]
     known = {path for path in paths if _is_known(path, extensions)}
     stems = {(path.parent, path.name.partition(".")[0]) for path in known}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from vorotool.errors import InputError, UsageError
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.units import PixelSize, Sides, in_coordinates, measured, refuse_lengths
-from vorotool.products.options import flag
+from vorotool.products.options import flag, options_of
 
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.volumes.voxel_grid import VoxelGrid
+
+
+_USUAL = "give --pixel-size, such as 0.325um, or 1m for coordinates in meters"
 
 
 def lengths_of_vectors(o: Options, value: PointSet | PolygonSet | Sites) -> Options:
@@ -114,7 +117,7 @@ def _size_of(asked: PixelSize, unit: InputUnit | None) -> PixelSize:
     if unit is None:
         raise UsageError(
             "--pixel-size auto is for inputs whose files state a unit: give a number and its unit, such as 0.325um, or "
-            "1m for coordinates in metres"
+            "1m for coordinates in meters"
         )
     return PixelSize(unit.side, unit.unit)
 
@@ -123,7 +126,8 @@ def _converted(o: Options, unit: InputUnit | None, shapes: PointSet | PolygonSet
     if not measured(o):
         return o
     if unit is None:
-        return _refused(o)
+        system = "; for a map give --input-crs, such as EPSG:3857" if "input_crs" in options_of(o.command) else ""
+        return _refused(o, f"{_USUAL}{system}")
     if not unit.is_length:
         return _refused_degrees(o, shapes.crs, shapes.xy)
     return in_coordinates(o, Sides(unit.unit, (unit.side,) * 2))
@@ -135,8 +139,7 @@ def _refused(o: Options, instead: str = "") -> Options:
         from vorotool.numeric.length_units import METRES
 
         refuse_lengths(o, f"{size.option} has none: give it one of {', '.join(METRES)}")
-    usual = "give --pixel-size, such as 0.325um, or 1m for coordinates in metres"
-    refuse_lengths(o, f"that of the input is not known: {instead or usual}")
+    refuse_lengths(o, f"that of the input is not known: {instead or _USUAL}")
     return o
 
 

@@ -7,13 +7,14 @@ from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vorotool.errors import UsageError
+from vorotool.errors import OUTPUT, UsageError
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.layer_names import output_name
 from vorotool.formats.io.sources import without_gz
 from vorotool.plain import plain
 from vorotool.products.formats import EXTENSIONS, FORMATS, format_named
+from vorotool.products.inputs import NAMES_WITH
 
 if TYPE_CHECKING:
     from vorotool.jobs.options import Options
@@ -109,6 +110,7 @@ def check_targets(options: Options, targets: Sequence[Target], source: str) -> N
         "inputs": (source, *options.files_read().values()),
         "makes_folder": options.out_dir is not None,
     }
+    named_by = OUTPUT if options.out_dir is None else "--out-dir"
     for one, other in combinations(targets, 2):
         is_of_layers = one.fmt == other.fmt == "gpkg" and one.path == other.path
         if not is_of_layers and is_same_output(one.path, other.path):
@@ -117,7 +119,7 @@ def check_targets(options: Options, targets: Sequence[Target], source: str) -> N
         if target.fmt == "zarr":
             check_store(target.path, **rules)
         else:
-            check_output(target.path, binary=target.is_binary, **rules)
+            check_output(target.path, binary=target.is_binary, option=named_by, **rules)
             if target.fmt == "gpkg" and stream_kind(target.path) is None:
                 from vorotool.formats.features.geopackage import check_layers
 
@@ -126,7 +128,8 @@ def check_targets(options: Options, targets: Sequence[Target], source: str) -> N
             if FORMATS[target.fmt].parts:
                 from vorotool.formats.features.shapefile_parts import check_parts
 
-                check_parts(target.path, Rules(options.no_clobber, rules["inputs"]), makes_folder=rules["makes_folder"])
+                replaced = Rules(options.no_clobber, rules["inputs"], named_by)
+                check_parts(target.path, replaced, makes_folder=rules["makes_folder"])
     if options.stats is not None:
         in_out_dir = options.out_dir is not None and Path(options.stats).parent == Path(options.out_dir)
         check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir, option="--stats")
@@ -166,7 +169,13 @@ def _chosen(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, ex
     if chosen is None and extension:
         chosen = EXTENSIONS.get(extension)
         if chosen is None:
-            raise UsageError(f"the extension {extension} names no format: use one of {', '.join(possible)}, or -f")
+            is_read = extension.removeprefix(".") in NAMES_WITH[None]
+            fault = (
+                f"{extension} files can be read, but not written"
+                if is_read
+                else f"the extension {extension} is not known"
+            )
+            raise UsageError(f"{fault}: use one of {', '.join(possible)}, or -f")
     chosen = chosen or possible[0]
     if chosen not in possible and what == "picture":
         raise UsageError(

@@ -16,7 +16,7 @@ from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
 from vorotool.plain import plain
 from vorotool.products.formats import FORMATS
-from vorotool.products.options import flag
+from vorotool.products.options import flag, options_of
 from vorotool.products.registry import PLOTS
 
 if TYPE_CHECKING:
@@ -53,11 +53,10 @@ AUTO = PixelSize(Fraction(1), None, is_auto=True)
 AUTO_SPACING = AUTO._replace(is_spacing=True)
 """What the file says of both sides."""
 
-_IN_STEPS = (
-    *("frame", "flatten", "simplify", "max_distance", "distance", "every", "smooth", "gap", "step", "tolerance"),
-    *("start", "end"),
+_IN_STEPS = frozenset(
+    f"lengths.{name}" for name in "length length_or_zero tolerance_or_auto distances place rectangle".split()
 )
-"""Options of shapes and meshes that are lengths or places, and no fractions of others."""
+"""Types of options that are lengths or positions in the coordinates of shapes and meshes."""
 
 _NUMBERS = {2: "two numbers, SX,SY", 3: "three numbers, SX,SY,SZ"}
 
@@ -94,9 +93,9 @@ def lengths_in_steps(o: Options) -> Options:
     if size is None or size.sides is None:
         return o
     step = size.sides.step
-    given = vars(o)
-    others: dict[str, Any] = {name: _in_steps(given[name], step) for name in given if name in _IN_STEPS}
-    prune: Pruning | None = given.get("prune")
+    names = (name for name, row in options_of(o.command).items() if row.type in _IN_STEPS)
+    others: dict[str, Any] = {name: _in_steps(getattr(o, name), step) for name in names}
+    prune: Pruning | None = o.prune
     if prune is not None and prune.criterion in PRUNED_LENGTHS:
         others["prune"] = prune._replace(threshold=_in_steps(prune.threshold, step))
     return changed(o, **others, pixel_size=size._replace(factor=step))

@@ -459,3 +459,9 @@ def test_records_that_links_lead_elsewhere(run, inputs, name):
     assert (done.code, "through a link: remove the link" in done.err) == (4, True), done.err
     assert (inputs / "victim").read_text() == "x"
     assert [*(inputs / "elsewhere").iterdir(), *inputs.glob("all.csv"), *inputs.glob("out/*.png")] == []
+
+
+def test_a_geodatabase_is_not_searched(run, tmp_path):
+    (tmp_path / "towns.gdb").mkdir()
+    done = run("voronoi", "towns.gdb", "--out-dir", "out")
+    assert (done.code, done.err.endswith("convert it: ogr2ogr towns.gpkg towns.gdb\n")) == (3, True)

@@ -64,6 +64,17 @@ def test_vectors(run, tmp_path):
     assert "contradicts" not in run("skeleton-exact", "in.svg", "--pixel-size", "0.1cm", "--what", "table").err
 
 
+@pytest.mark.parametrize(
+    ("size", "output", "is_said"),
+    [("0.001km", "a.gpkg", True), ("2", "a.geojson", True), ("1m", "a.gpkg", False), ("0.001km", "a.csv", False)],
+)
+def test_a_size_that_moves_a_map(run, tmp_path, size, output, is_said):
+    (tmp_path / "in.wkt").write_text("SRID=32632;POLYGON ((0 0, 9 0, 5 7, 0 0))")
+    done = run("skeleton-exact", "in.wkt", "--pixel-size", size, "-o", output)
+    assert (done.code, f"--pixel-size {size} scales the coordinates, but {output}" in done.err) == (0, is_said)
+    assert run("skeleton-exact", "in.wkt", "--pixel-size", size, "-o", output, "--strict").code == (3 if is_said else 0)
+
+
 @pytest.mark.parametrize("what", ["labels", "distance", "table"])
 def test_pixels_that_are_no_squares_are_noted(run, tmp_path, what):
     ome(tmp_path / "in.tif", 0.25, 0.5)

@@ -55,6 +55,11 @@ def test_files_to_convert(suffix):
     )
 
 
+@pytest.mark.parametrize("suffix", [".shx", ".dbf", ".prj", ".cpg"])
+def test_a_part_of_a_shapefile_names_the_file_to_read(suffix):
+    assert error_of(b"\0\0\x27\x0a", f"data/towns{suffix}").endswith(": name data/towns.shp")
+
+
 def test_options_that_do_not_fit():
     assert "expected one of csv, tsv, txt, node, npz" in error_of("", kind=UsageError, input_format="xyz")
     for fmt in set(POINT_FORMATS) - {"csv", "json", "jsonl", "npz", "parquet"}:

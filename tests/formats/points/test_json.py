@@ -132,7 +132,7 @@ def test_geojson_notes():
         (
             collection(feature([1, 2]), feature([[[0, 0], [1, 0], [1, 1], [0, 0]]], "Polygon")),
             "a.geojson, feature 2: 'Polygon' is not a point; replace it by its centroid or its vertices "
-            "(skeleton_exact takes polygons and lines)",
+            "(voronoi and skeleton_exact take polygons and lines, tessellate(..., cell_size=...) rasterizes them)",
         ),
         (collection(feature([1, 2]), feature([1, "2"])), "a.geojson, feature 2: [1, '2']"),
         (collection(feature(None)), "a.geojson, feature 1"),

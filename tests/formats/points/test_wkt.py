@@ -44,9 +44,8 @@ def test_wkt_without_points(text):
         ("1,2\n", "a.wkt, line 1: '1,2'"),
         (
             "POINT (1 2)\nLINESTRING (0 0, 1 1)\n",
-            "a.wkt, line 2: a LineString is not a point; replace it by its centroid or its "
-            "vertices (skeleton_exact "
-            "takes polygons and lines)",
+            "a.wkt, line 2: a LineString is not a point; replace it by its centroid or its vertices "
+            "(voronoi and skeleton_exact take polygons and lines",
         ),
         ("GEOMETRYCOLLECTION (POLYGON EMPTY)", "a.wkt, line 1"),
         ("GEOMETRYCOLLECTION (" * 5000, "a.wkt, line 1"),

@@ -10,9 +10,10 @@ from vorotool.errors import OTSU, InputError
 from vorotool.formats.io.sources import Source
 
 _MAPS = (".gml", ".gdb", ".tab", ".mif")
+_SHAPEFILE_PARTS = (".shx", ".dbf", ".prj", ".cpg")
 _DRAWINGS = (".pdf", ".eps", ".ps", ".ai")
 _FONTS = (".ttf", ".otf", ".ttc", ".woff", ".woff2")
-_OTHERS = (".dwg", ".zip", ".qgz", ".qgs", ".roi", *_FONTS)
+_OTHERS = (".dwg", ".zip", ".qgz", ".qgs", ".roi", *_FONTS, *_SHAPEFILE_PARTS)
 _HEADS = (
     *((b"%PDF-", ".pdf"), (b"%!PS", ".ps"), (b"\xc5\xd0\xd3\xc6", ".eps"), (b"OTTO\0", ".otf")),
     *((b"\0\1\0\0\0", ".ttf"), (b"wOFF", ".woff"), (b"wOF2", ".woff2"), (b"ttcf", ".ttc")),
@@ -31,6 +32,13 @@ def refuse_convertible(source: Source) -> None:
     if found is not None:
         file = source.name if source.suffix == found else f"FILE{found}"
         raise InputError(f"{source.name}: {found} files are not read; {_CONVERSIONS.get(found, _as_map)(file)}")
+
+
+def refuse_geodatabase(folder: str) -> None:
+    """Refuse a file geodatabase, which is a folder."""
+    if Path(folder).suffix.lower() == ".gdb":
+        target = Path(folder).with_suffix(".gpkg")
+        raise InputError(f"{folder}: file geodatabases are not supported; convert it: ogr2ogr {target} {folder}")
 
 
 def _as_map(file: str) -> str:
@@ -62,11 +70,16 @@ def _written(file: str) -> str:
     return "it is a font: write the text in a drawing program, convert it to paths, and save these as SVG"
 
 
+def _as_part(file: str) -> str:
+    return f"it is part of a Shapefile: name {Path(file).with_suffix('.shp')}"
+
+
 _POSTSCRIPT = _as_drawing("gs -o {stem}.png -sDEVICE=pnggray -r300 -dEPSCrop {file}")
 _CONVERSIONS: dict[str, Callable[[str], str]] = {
     **dict.fromkeys((".eps", ".ps", ".ai"), _POSTSCRIPT),
     ".pdf": _as_drawing("pdftoppm -r 300 -gray -singlefile {file} {stem}"),
     **dict.fromkeys(_FONTS, _written),
+    **dict.fromkeys(_SHAPEFILE_PARTS, _as_part),
     ".dwg": _as_dxf,
     ".zip": _unpacked,
     **dict.fromkeys((".qgz", ".qgs"), lambda _: "it is a project of QGIS: give the files of its layers"),
