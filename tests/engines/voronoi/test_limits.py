@@ -40,6 +40,14 @@ def test_around_a_point():
     assert [KINDS[k] for k in kinds_of(cells)] == ["circle"] * 2
 
 
+@pytest.mark.parametrize("y", [0.1, 0.3, 1 / 3, 0.7])
+def test_half_a_disc_beside_a_clip(y):
+    """Its ends have the coordinates of the clip, and its middle those of the lattice, whose step is near 10^-7."""
+    cells = voronoi([[2.1, y]], clip=[shapely.box(-0.7, y, 1000 / 7, 9.1)], max_distance=0.35)
+    assert cells.areas.tolist() == pytest.approx([ROUND * 0.35**2 / 2], rel=1e-5)
+    assert cells.perimeters.tolist() == pytest.approx([(ROUND + 2) * 0.35], rel=1e-5)
+
+
 def test_around_a_line():
     cells = within([shapely.LineString([(0, 0), (8, 0)])], 2, FRAME)
     assert cells.areas.tolist() == pytest.approx([32 + 4 * ROUND])

@@ -5,9 +5,9 @@ import warnings
 import numpy as np
 import pytest
 import shapely
-from tests.support.families.meeting_cuts import meeting_scene
+from tests.support.families.meeting_cuts import meeting_scene, moved_scene
 from tests.support.oracles.cut_oracle import assert_nearest_in_regions, faces_between, meets_itself
-from tests.support.oracles.meeting_regions import areas_of_points, regions_of_cuts
+from tests.support.oracles.meeting_regions import area_within, areas_of_points, regions_of_cuts
 
 from support.few import few
 from vorotool import VorotoolWarning, verify_voronoi, voronoi
@@ -18,17 +18,21 @@ CORNER = shapely.Polygon([(9, 9), (10, 9), (9, 10)])
 
 @pytest.mark.parametrize("seed", few(range(60), 6))
 def test_scenes_on_a_lattice(seed):
-    check_scene(seed)
+    check_scene(*meeting_scene(seed), seed)
 
 
-def check_scene(seed):
-    sites, options = meeting_scene(seed)
+@pytest.mark.parametrize("seed", few(range(60), 6))
+def test_scenes_scaled_and_shifted(seed):
+    check_scene(*moved_scene(seed), seed)
+
+
+def check_scene(sites, options, seed):
     with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
         cells = voronoi(sites, **options)
     limit, regions = options.get("max_distance"), regions_of_cuts(sites, cells.frame, options)
-    if limit is None:
-        assert cells.areas.sum() == pytest.approx(sum(region.area for region, own in regions if own), abs=1e-5)
-        assert_nearest_in_regions(cells, sites, regions, seed=seed)
+    area = area_within(regions, np.array(sites), limit)
+    assert cells.areas.sum() == pytest.approx(area, rel=1e-5, abs=1e-5)
+    assert_nearest_in_regions(cells, sites, regions, limit=limit, seed=seed)
     if all(site.geom_type == "Point" for site in sites):
         np.testing.assert_allclose(cells.areas, areas_of_points(sites, regions, limit), atol=2e-4)
     verify_voronoi(cells, places=30)

@@ -45,6 +45,17 @@ def test_more_than_half_a_circle():
     assert arc.areas_beside(np.zeros(2))[0] == pytest.approx(0.75 * np.pi)
 
 
+@pytest.mark.parametrize("move", [-1e-6, -1e-9, 0, 1e-9, 1e-6])
+@pytest.mark.parametrize("off", [-1e-9, 0, 1e-9])
+def test_half_circles_whose_ends_are_off_by_a_lattice(move, off):
+    """What moves an end by little changes lengths, areas and sagittas by little."""
+    ends = np.array([[1.0, move]]), np.array([[-1.0 - off, move]])
+    arc = MixedArcs(*ends, np.full((1, 2), np.nan), np.zeros((1, 2)), np.array([True]))
+    assert arc.lengths[0] == pytest.approx(np.pi - 2 * move, abs=3e-9)
+    assert arc.areas_beside(np.zeros(2))[0] == pytest.approx(np.pi / 2 - move, abs=3e-9)
+    assert arc.sagittas[0] == pytest.approx(1 - move, abs=3e-9)
+
+
 def test_the_other_way_round():
     arcs, _, _ = circles(np.random.default_rng(2), 50)
     back = arcs.reversed(np.ones(50, dtype=bool))

@@ -62,3 +62,25 @@ def meeting_scene(seed):
     if random.random() < 0.4:
         made["max_distance"] = float(random.choice([0.25, 0.5, 1, 1.5, 3]))
     return sites, made
+
+
+def moved_scene(seed):
+    """The same, scaled and shifted: what met or touched does so as far as doubles tell.
+
+    In one of 150 of them a corner or an end is on a slanted line, and the lattice has it on a side of that.
+    """
+    random = np.random.default_rng([seed, 1])
+    (sites, made), scale = meeting_scene(seed), float(random.choice([0.1, 1 / 3, 0.7, 1]))
+    shift = random.choice([0, 0.3, 1e3 / 7], 2)
+    made = {key: _moved(value, scale, shift) for key, value in made.items()}
+    if "frame" in made:
+        x, y, w, h = made["frame"]
+        x0, y0, x1, y1 = _moved(shapely.box(x, y, x + w, y + h), scale, shift).bounds
+        made["frame"] = (x0, y0, x1 - x0, y1 - y0)
+    return [_moved(site, scale, shift) for site in sites], made
+
+
+def _moved(value, scale, shift):
+    if isinstance(value, float):
+        return value * scale
+    return value if isinstance(value, tuple) else shapely.transform(value, lambda xy: xy * scale + shift)

@@ -39,8 +39,11 @@ def meets_itself(shapes):
     )
 
 
-def assert_nearest_in_regions(cells, sites, regions, *, seed=0, count=40):
-    """At random places in each region the cell is of the first of the nearest of its sites; gives how many told."""
+def assert_nearest_in_regions(cells, sites, regions, *, limit=None, seed=0, count=40):
+    """At random places in each region the cell is of the first of the nearest of its sites; gives how many told.
+
+    Beyond the limit it is nobody's.
+    """
     random = np.random.default_rng(seed)
     shapes = cells.to_shapely(flatten=NEAR / 10)
     told = 0
@@ -52,6 +55,10 @@ def assert_nearest_in_regions(cells, sites, regions, *, seed=0, count=40):
             assert not shapely.STRtree(shapes).query(points, predicate="intersects").size
             continue
         distance = np.array([shapely.distance(sites[k], points) for k in own])
+        if limit is not None:
+            least = distance.min(axis=0)
+            assert not shapely.STRtree(shapes).query(points[least > limit + NEAR], predicate="intersects").size
+            points, distance = points[least < limit - NEAR], distance[:, least < limit - NEAR]
         tie = distance <= distance.min(axis=0) + 1e-9
         clear = (tie == (distance <= distance.min(axis=0) + NEAR)).all(axis=0)
         first = np.array(own)[tie.argmax(axis=0)]

@@ -4,6 +4,8 @@ import numpy as np
 import shapely
 
 NEAR = 1e-7
+GRID = 2e-8
+"""What shapely's overlays round to: lines that touch as far as doubles tell have one vertex."""
 
 
 def regions_of_cuts(sites, default, options):
@@ -13,25 +15,30 @@ def regions_of_cuts(sites, default, options):
     if "clip" in options:
         clip = shapely.union_all(options["clip"])
         shared = shapely.intersection(shared, clip) if "frame" in options else clip
-    if "enclosures" not in options:
+    shared = shapely.union_all(_areas(shared))
+    if "enclosures" not in options or shared.is_empty:
         return [(part, [*range(len(sites))]) for part in _areas(shared)]
-    lines = shapely.union_all([each.boundary if each.area else each for each in options["enclosures"]])
+    given = [each.boundary if each.area else each for each in options["enclosures"]]
+    lines = shapely.union_all(given, grid_size=GRID)
     closed = _faces(lines)
     around = shapely.box(*shapely.total_bounds([shared, lines, *sites])).buffer(5, join_style="mitre")
+    border = shapely.set_precision(shared, GRID).boundary
+    without_open = shapely.union_all([face.boundary for face in closed])
+    whole, parts = (
+        [part for part in _faces(shapely.union_all([each, border], grid_size=GRID)) if shared.covers(_inside(part))]
+        for each in (without_open, lines)
+    )
     made = []
     for face in [*closed, shapely.difference(around, shapely.union_all(closed))]:
-        whole = _areas(shapely.intersection(face, shared))
-        if not whole:
-            continue
-        inner = shapely.union_all(whole)
-        parts = [part for part in _faces(shapely.union_all([lines, inner.boundary])) if inner.covers(_inside(part))]
+        inner, own = ([part for part in each if face.covers(_inside(part))] for each in (whole, parts))
         open_lines = shapely.intersection(lines, face.buffer(-NEAR))
-        is_along = shapely.intersection(open_lines, inner.boundary.buffer(NEAR)).length > 1e-5
-        if len(parts) == len(whole) and not is_along:
-            made.append((inner, _meeting(sites, face, _walls(face, lines))))
+        is_along = shapely.intersection(open_lines, border.buffer(NEAR)).length > 1e-5
+        walls = _walls(face, lines)
+        if len(own) == len(inner) and not is_along:
+            meeting = _meeting(sites, face, walls)
+            made += [(part, meeting) for part in own]
         else:
-            walls = _walls(face, lines)
-            made += [(part, _meeting(sites, part, walls.union(_walls(part, lines)))) for part in parts]
+            made += [(part, _meeting(sites, part, walls.union(_walls(part, lines)))) for part in own]
     return made
 
 
@@ -40,7 +47,7 @@ def _areas(shape):
 
 
 def _faces(lines):
-    return [*shapely.get_parts(shapely.polygonize(shapely.get_parts(lines)))]
+    return _areas(shapely.polygonize(shapely.get_parts(lines)))
 
 
 def _inside(shape):
@@ -66,6 +73,16 @@ def _meeting(sites, face, walls):
         if meets:
             own.append(k)
     return own
+
+
+def area_within(regions, sites, limit):
+    """The area of what is within a limit of the sites of its region."""
+    near = None if limit is None else shapely.buffer(sites, limit, quad_segs=512)
+    area = 0
+    for region, own in regions:
+        if own:
+            area += (region if near is None else shapely.intersection(region, shapely.union_all(near[own]))).area
+    return area
 
 
 def areas_of_points(sites, regions, limit):

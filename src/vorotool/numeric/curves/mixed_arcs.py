@@ -20,6 +20,9 @@ Indices = NDArray[np.int64]
 _SMALL = 0.25
 """Sines of half angles up to which segments of circles are sums of series: beyond, four bits at most are lost."""
 
+_LARGE = 0.998
+"""Sines of half angles from which angles are those of cosines: a sine tells little of an angle near a quarter turn."""
+
 _TERMS = 15
 """Of the series: the next one is below 2^-60 of the first where the sine is small."""
 
@@ -68,8 +71,8 @@ class MixedArcs:
         lengths = bezier.lengths_of(self.source, self.control, self.target)
         circles = np.flatnonzero(self.is_circle)
         if circles.size:
-            radius, sine, is_over = self._half_angles(circles)
-            angle = 2 * inverse_sine(sine)
+            radius, sine, cosine, is_over = self._half_angles(circles)
+            angle = 2 * _angles_of(sine, cosine)
             lengths[circles] = radius * np.where(is_over, 2 * PI - angle, angle)
         return lengths
 
@@ -78,9 +81,9 @@ class MixedArcs:
         areas = bezier.areas_beside(self.source, self.control, self.target, place)
         circles = np.flatnonzero(self.is_circle)
         if circles.size:
-            radius, sine, is_over = self._half_angles(circles)
+            radius, sine, cosine, is_over = self._half_angles(circles)
             square = radius * radius
-            segment = square * _segments_of(sine)
+            segment = square * _segments_of(sine, cosine)
             segment = np.where(is_over, PI * square - segment, segment)
             areas[circles] += np.where(self.is_left[circles], segment, -segment)
         return areas
@@ -91,8 +94,7 @@ class MixedArcs:
         sagittas = np.full(len(self.source), np.inf)
         circles = np.flatnonzero(self.is_circle)
         if circles.size:
-            radius, sine, is_over = self._half_angles(circles)
-            cosine = np.sqrt((1 - sine) * (1 + sine))
+            radius, sine, cosine, is_over = self._half_angles(circles)
             sagittas[circles] = radius * np.where(is_over, 1 + cosine, sine * sine / (1 + cosine))
         return sagittas
 
@@ -116,18 +118,28 @@ class MixedArcs:
         points[ranges(start[circles], sizes[circles] - 1)] = inner
         return points, start
 
-    def _half_angles(self, circles: Indices) -> tuple[Floats, Floats, NDArray[np.bool_]]:
-        """Radius, sine of half the angle, and whether that is over half a turn, of circular arcs."""
+    def _half_angles(self, circles: Indices) -> tuple[Floats, Floats, Floats, NDArray[np.bool_]]:
+        """Radius, sine and cosine of half the angle, and whether that is over half a turn, of circular arcs."""
         a, b = self.source[circles] - self.center[circles], self.target[circles] - self.center[circles]
         radius, chord = hypotenuse(*a.T), hypotenuse(*(b - a).T)
         cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
         sine = np.minimum(np.divide(chord, 2 * radius, out=np.zeros_like(chord), where=radius > 0), 1)
-        return radius, sine, np.where(self.is_left[circles], cross < 0, cross > 0)
+        cosine = np.sqrt((1 - sine) * (1 + sine))
+        np.divide(np.abs(cross), chord * radius, out=cosine, where=sine > _LARGE)
+        return radius, sine, cosine, np.where(self.is_left[circles], cross < 0, cross > 0)
 
 
-def _segments_of(sine: Floats) -> Floats:
-    """Areas between chords of the unit circle and their arcs, from sines of half the angle, up to half a circle."""
-    area = inverse_sine(sine) - sine * np.sqrt((1 - sine) * (1 + sine))
+def _angles_of(sine: Floats, cosine: Floats) -> Floats:
+    """Angles up to a quarter turn."""
+    is_large = sine > _LARGE
+    angle = inverse_sine(np.where(is_large, cosine, sine))
+    made: Floats = np.where(is_large, PI / 2 - angle, angle)
+    return made
+
+
+def _segments_of(sine: Floats, cosine: Floats) -> Floats:
+    """Areas between chords of the unit circle and their arcs, from half the angle, up to half a circle."""
+    area = _angles_of(sine, cosine) - sine * cosine
     small = np.flatnonzero(sine <= _SMALL)
     s = sine[small]
     square, total, coefficient = s * s, np.zeros(len(s)), 1.0
