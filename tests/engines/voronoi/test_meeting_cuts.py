@@ -166,3 +166,30 @@ def test_cells_may_go_beyond_a_frame_by_what_the_lattice_moves():
     cells = voronoi(scene, enclosures=[line], frame=(0.3, 3.0, 5.5, 3.0), max_distance=1.4999999999999998)
     assert cells.areas.sum() == pytest.approx(16.5, rel=1e-8)
     verify_voronoi(cells)
+
+
+LIMIT = 2 / 3
+TOUCHING_ENDS = [
+    (
+        shapely.box(1 / 6, 2 / 15, 0.5, 7 / 15).union(shapely.box(7 / 6, 22 / 15, 1.5, 1.8)),
+        ["LINESTRING (1 0.9666666666666666, 2.6666666666666665 1.6333333333333333)"]
+        + ["LINESTRING (1.6666666666666665 1.6333333333333333, 0.3333333333333333 0.3)"],
+        (0.0, 0.3, 2.6666666666666665, 3.333333333333333),
+    ),
+    (
+        shapely.box(5 / 6, 144.35714285714286, 7 / 6, 144.6904761904762),
+        ["LINESTRING (0.3333333333333333 143.85714285714286, 1.3333333333333333 142.85714285714286)"]
+        + ["LINESTRING (0.3333333333333333 145.1904761904762, 1 143.1904761904762)"],
+        (0.0, 142.85714285714286, 1.3333333333333333, 2.333333333333343),
+    ),
+]
+"""A site, enclosures of which one ends on the other, as far as doubles tell, and a frame."""
+
+
+@pytest.mark.parametrize(("site", "lines", "frame"), TOUCHING_ENDS)
+def test_the_checker_takes_ends_beside_lines_for_touching_or_not(site, lines, frame):
+    sites, options = [*shapely.get_parts(site)], {"enclosures": shapely.from_wkt(lines), "frame": frame}
+    cells = voronoi(sites, max_distance=LIMIT, **options)
+    area = area_within(regions_of_cuts(sites, frame, options), np.array(sites), LIMIT)
+    assert cells.areas.sum() == pytest.approx(area, rel=1e-6)
+    verify_voronoi(cells, places=200)

@@ -28,7 +28,7 @@ def shared_out(cells: VoronoiMap) -> Any:
 
 
 class EnclosedFaces:
-    """Faces between the enclosures of a map, and the sites that meet the inside of each."""
+    """Faces between the enclosures of a map; where these only touch, as far as doubles tell, they may meet or not."""
 
     def __init__(self, cells: VoronoiMap, geometry: NDArray[Any], near: float) -> None:
         import shapely
@@ -37,7 +37,30 @@ class EnclosedFaces:
         given = to_shapely(cells.enclosures)
         lines = np.where(cells.enclosures.is_line, given, shapely.boundary(given))
         shared = shared_out(cells)
-        noded = shapely.union_all([*lines, shapely.boundary(shared)])
+        border = shapely.boundary(shared)
+        corners = shapely.multipoints(shapely.get_coordinates([border, *lines]))
+        met = [shapely.snap(each, corners, near) for each in (lines, border)]
+        self.readings = [_Faces(shared, *each, geometry, near) for each in ((lines, border), (met[0], met[1]))]
+        self.boundaries = shapely.boundary(np.concatenate([each.shapes for each in self.readings]))
+
+    def least(self, places: Floats) -> Floats:
+        """Of each place from the nearest of the sites that surely meet its face; infinity where none surely does."""
+        least: Floats = np.maximum.reduce([each.least(places) for each in self.readings])
+        return least
+
+    def may_have(self, places: Floats, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """(k,) whether a site may meet the face of each place."""
+        fits: NDArray[np.bool_] = np.logical_or.reduce([each.may_have(places, rows) for each in self.readings])
+        return fits
+
+
+class _Faces:
+    """Faces between lines, and the sites that meet the inside of each."""
+
+    def __init__(self, shared: Any, lines: NDArray[Any], border: Any, geometry: NDArray[Any], near: float) -> None:
+        import shapely
+
+        noded = shapely.union_all([*lines, border])
         faces = np.asarray(shapely.get_parts(shapely.polygonize(shapely.get_parts(noded))))
         self.shapes = faces[shapely.covers(shared, shapely.point_on_surface(faces))]
         cuts = shapely.union_all(lines)

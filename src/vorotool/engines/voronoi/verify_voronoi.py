@@ -334,8 +334,7 @@ def _check_shares(
     doubtful = np.flatnonzero(is_wrong)
     is_wrong[doubtful] = shapely.distance(shapely.boundary(shared), points[doubtful]) > near
     if sites.faces is not None:
-        lines = shapely.boundary(sites.faces.shapes)
-        close = shapely.STRtree(lines).query(points, predicate="dwithin", distance=near)[0]
+        close = shapely.STRtree(sites.faces.boundaries).query(points, predicate="dwithin", distance=near)[0]
         strange = ~sites.faces.may_have(places[place], sites.row[cell])
         is_wrong[place[strange]] = True
         is_wrong[close] = False
