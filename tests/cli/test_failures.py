@@ -55,7 +55,7 @@ BAD_INPUTS = {
     "table.json": (
         b'[{"label_a":1,"label_b":4,"length":2.5}]',
         3,
-        ["the header names no known pair of coordinates", "label_a", "--columns"],
+        ["no coordinate columns", "label_a", "--columns"],
     ),
     "shapes.json": (b'{"polygons":[]}', 3, ["shapes.json holds polygons", "skeleton-exact reads it"]),
     "polygon.geojson": (b'{"type": "Polygon", "coordinates": [[[0,0],[1,0],[1,1],[0,0]]]}', 3, ["Polygon"]),

@@ -66,7 +66,7 @@ def test_advice_names_the_option_of_the_output(run, folder):
     done = run("delaunay", "dots.csv", "dots.csv", "--table", "have.csv", "--no-clobber")
     assert (done.code, "--table" in done.err) == (4, True)
     done = run("delaunay", "dots.csv", "-o", "a.csv", "--stats", "/proc/s.json")
-    words = "error: /proc/s.json cannot be written: no file can be made in /proc; write elsewhere with --stats\n"
+    words = "error: /proc/s.json cannot be written: no file can be created in /proc; write elsewhere with --stats\n"
     assert (done.code, done.err) == (4, words)
 
 
@@ -74,7 +74,7 @@ def test_advice_names_the_option_of_the_output(run, folder):
 def test_a_folder_of_the_system_that_holds_no_files(run, folder, name):
     done = run("delaunay", "dots.csv", "-f", "csv", "-o", name)
     place = name.rpartition("/")[0]
-    words = f"error: {name} cannot be written: no file can be made in {place}; write elsewhere with -o\n"
+    words = f"error: {name} cannot be written: no file can be created in {place}; write elsewhere with -o\n"
     assert (done.code, done.err) == (4, words)
 
 

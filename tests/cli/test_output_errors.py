@@ -12,7 +12,7 @@ from support.processes.leftovers import leftovers
 
 
 def test_outputs_that_cannot_be_written(run, folder):
-    assert "'' is no name: name a file" in run("tessellate", "dots.csv", "-f", "png", "-o", "").err
+    assert run("tessellate", "dots.csv", "-f", "png", "-o", "").code == 4
     assert run("tessellate", "dots.csv", "-o", "no/such/a.png").code == 4
     assert run("tessellate", "dots.csv", "-o", "/dev/full", "-f", "npy").code == 4
     for fmt in ("csv", "npz"):
@@ -147,7 +147,7 @@ def test_failures_are_known_before_the_first_output(run, folder):
     for arguments, code, words in [
         (["labels.npy", "--what", "table,labels", "-o", "a"], 5, "do not fit in a 16-bit PNG"),
         (["dots.csv", "--size", "1001x1000", "--what", "table,labels", "-o", "a", "-f", "svg"], 2, "table"),
-        (["dots.csv", "--what", "table,labels", "-o", "b", "--no-clobber"], 4, "b.labels.png exists already"),
+        (["dots.csv", "--what", "table,labels", "-o", "b", "--no-clobber"], 4, "b.labels.png already exists"),
         (["dots.csv", "--what", "table", "-o", "a.csv", "--stats", "no/such/s.json"], 4, "no/such/s.json"),
         (["dots.csv", "--what", "table", "-o", "a.csv", "--stats", "plain/s.json"], 4, "plain/s.json"),
         (["dots.csv", "--what", "table,labels", "--out-dir", "plain/in"], 4, "plain/in"),

@@ -129,7 +129,7 @@ def test_points_that_are_none():
 
 @pytest.mark.parametrize("path", [5, None, b"data/dots.csv", [[0, 0], [1, 1]]])
 def test_paths_that_are_none(path):
-    with pytest.raises(InputError, match="is no path: give the name of a file"):
+    with pytest.raises(InputError, match="is not a path: give the name of a file"):
         vorotool.read(path)
 
 

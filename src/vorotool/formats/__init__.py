@@ -153,9 +153,7 @@ def read(
     from vorotool.products.inputs import SPACE_READER, VOLUME_READER
 
     if not is_choice(geometry, (None, "points", "polygons", "volume", "space")):
-        raise UsageError(
-            f"invalid geometry {shown_number(geometry)}: expected points, polygons, volume or space, or none"
-        )
+        raise UsageError(f"invalid geometry {shown_number(geometry)}: expected points, polygons, volume, space or None")
     properties = checked_flag(properties, "properties")
     if max_sites is not None:
         real_number(max_sites, "max_sites")
@@ -191,4 +189,4 @@ def _refuse(options: Mapping[str, object], holds: str) -> None:
 
     for name, value in options.items():
         if value is not None:
-            raise UsageError(f"{name} is not for {holds}: leave it out")
+            raise UsageError(f"{name} does not apply to {holds}: leave it out")

@@ -42,7 +42,7 @@ def opened(
     """Open an input: errors that arise while it is open carry its name."""
     said = known_input_format(input_format, NAMES_WITH[geometry])
     if not isinstance(path, str | PathLike):
-        raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
+        raise InputError(f"{path!r} is not a path: give the name of a file; pass arrays to functions as they are")
     name = fspath(path)
     with reading(name):
         yield Opened(name, geometry, said, page, layer, open_zarr(name, said, page))
@@ -126,5 +126,5 @@ def _member(crs: str) -> dict[str, Any]:
 
     member = crs_member(crs) if isinstance(crs, str) else None
     if member is None:
-        raise UsageError(f"{crs!r} names no coordinate reference system: write authority and code, such as EPSG:3857")
+        raise UsageError(f"{crs!r} is not a coordinate reference system: write authority and code, such as EPSG:3857")
     return member

@@ -55,7 +55,7 @@ def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
     if holds == "image":
         refuse_for_images(options, source.layer)
     elif source.layer is not None and "layers" not in INPUTS[source.format].has:
-        raise UsageError(f"{_LAYER} is for files of several layers, but {source.name} has none: leave it out")
+        raise UsageError(f"{_LAYER} applies to files with layers, but {source.name} has none: leave it out")
     readers = INPUTS[source.format].readers
     name = readers["polygons"] if holds == "sites" and "sites" not in readers else readers[holds]
     reader: Callable[[Source, ReadOptions], Any] = resolved(name)
@@ -73,7 +73,7 @@ def refuse_for_images(options: ReadOptions, layer: str | None) -> None:
     """Refuse what is said of points, polygons and lines where the input is an image."""
     for name, given in ((_CRS, options.crs), (_TO_CRS, options.to_crs), (_LAYER, layer)):
         if given is not None:
-            raise UsageError(f"{name} is for points, polygons and lines, but the input is an image: leave it out")
+            raise UsageError(f"{name} applies to points, polygons and lines, but the input is an image: leave it out")
 
 
 def image_source(source: Source, said: str | None = None) -> Source:
@@ -82,8 +82,8 @@ def image_source(source: Source, said: str | None = None) -> Source:
     found = said if said == "npy" and source.data.startswith(MAGIC) else image_format(source, said)
     if found is None:
         raise InputError(
-            f"{source.name} is no image that is read (PNG, TIFF, PGM, PBM, NPY, {', '.join(PICTURES.values())}): "
-            f"name it with {INPUT_FORMAT}, or convert it to PNG"
+            f"{source.name} is not an image in a supported format (PNG, TIFF, PGM, PBM, NPY, "
+            f"{', '.join(PICTURES.values())}): name its format with {INPUT_FORMAT}, or convert it to PNG"
         )
     refuse_for_images(ReadOptions(), source.layer)
     return replace(source, format=found)
@@ -101,10 +101,10 @@ def image_format(source: Source, said: str | None = None) -> str | None:
     if chosen == "zarr":
         raise InputError(f"{source.name} is a file, but a Zarr store is a folder: leave out {INPUT_FORMAT}")
     if not source.data:
-        raise InputError(f"{source.name} is empty: an image was expected")
+        raise InputError(f"{source.name} is empty, but an image is expected: check the program that wrote it")
     if found and found != chosen:
         said_so = option(f"--input-format {found}", f'input_format="{found}"')
-        raise InputError(f"{source.name} is no {chosen} file, it begins as {found}: use {said_so}")
+        raise InputError(f"{source.name} is not a {chosen} file, it begins as {found}: use {said_so}")
     return chosen
 
 

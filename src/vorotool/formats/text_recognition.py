@@ -52,7 +52,7 @@ def recognised_geometry(
     else:
         holds, source = _either(source, said)
     if holds == "polygons" and columns is not None:
-        raise UsageError(f"{option('--columns')} is for lists of points: leave it out for polygons")
+        raise UsageError(f"{option('--columns')} applies to lists of points: leave it out for polygons")
     return holds, source
 
 
@@ -111,14 +111,14 @@ def polygon_format(source: Source) -> str:
         return "wkt"
     if not source.data.strip() and found == "csv":
         raise InputError(
-            f"{source.name} is empty: polygons, lines or an image were expected; check what was to write it"
+            f"{source.name} is empty, but polygons, lines or an image are expected; check the program that wrote it"
         )
     is_table = found == "csv" and geometry_column(header_fields(text_source(source, found).data)) is None
     if "polygons" in INPUTS[found].readers and not is_table:
         return found
     raise InputError(
-        f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT, "
-        f".poly, SVG or DXF, or say which with {INPUT_FORMAT}; of points {_ALPHA} makes polygons"
+        f"{source.name} holds no polygons or lines in a supported format (it looks like {found}): use JSON, GeoJSON, "
+        f"WKT, .poly, SVG or DXF, or name the format with {INPUT_FORMAT}; for polygons around points use {_ALPHA}"
     )
 
 
@@ -178,7 +178,7 @@ def _points(source: Source, chosen: str, columns: str | None) -> Source:
     source = _with_format(source, chosen)
     if columns is not None and source.format not in _WITH_COLUMNS:
         raise UsageError(
-            f"{option('--columns')} is for delimited text, but {source.name} is read as {chosen}: leave it out"
+            f"{option('--columns')} applies to delimited text, but {source.name} is read as {chosen}: leave it out"
         )
     return source
 
@@ -194,12 +194,13 @@ def text_source(source: Source, chosen: str) -> Source:
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
     if source.data.startswith(NPZ_MAGIC):
         raise InputError(
-            f"{source.name} is an NPZ or ZIP archive: for NPZ leave out {INPUT_FORMAT}, or call it .npz; unpack others"
+            f"{source.name} is an NPZ or ZIP archive: for NPZ leave out {INPUT_FORMAT}, or name the file .npz; unpack "
+            "a ZIP archive"
         )
     if b"\0" in source.data[:4096]:
         raise InputError(
             f"{source.name} is binary, not points or polygons; use CSV, .node, NPY, .poly, GeoJSON, WKT or JSON, or "
-            f"say which with {INPUT_FORMAT}"
+            f"name the format with {INPUT_FORMAT}"
         )
     data = source.data.removeprefix(_UTF8_MARK)
     is_lines = chosen in ("json", "geojson") and is_json_lines(data)

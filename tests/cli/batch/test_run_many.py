@@ -319,7 +319,7 @@ def test_an_existing_output_is_a_failure_of_its_input(run, inputs):
     (inputs / "out/p0.csv").write_text("old")
     done = run("delaunay", "points", "--out-dir", "out", "--no-clobber", "--keep-going", "-q")
     assert done.code == 6
-    assert "out/p0.csv exists already" in done.err
+    assert "out/p0.csv already exists" in done.err
     assert (inputs / "out/p0.csv").read_text() == "old"
     assert set(files(inputs / "out")) == {"p0.csv", "p2.csv", "sub/p1.csv"}
 

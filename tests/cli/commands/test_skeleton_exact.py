@@ -112,7 +112,7 @@ BAD = {
     "nested": (b"[" * 5000, 3, "a.json"),
     "points": (b'{"type": "Point", "coordinates": [0, 0]}', 3, "point"),
     "short": (b"[[0, 0]", 3, "JSON"),
-    "empty": (b" ", 3, "a.json is empty: JSON was expected"),
+    "empty": (b" ", 3, "a.json is empty"),
     "table": (b'[{"polygon": 0, "area": 2}]', 3, "a.json holds a table, whose rows have polygon, area, not polygons"),
     "offsets": (b'{"type": "vorotool.offsets", "polygons": []}', 3, "write them as GeoJSON (--what offset -f geojson)"),
 }

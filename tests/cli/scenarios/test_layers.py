@@ -86,7 +86,7 @@ def test_layers_of_files_that_have_none_and_of_two_options_are_refused(run, town
 def test_a_layer_without_geometry_is_told_from_none(run, folder):
     run("sample", "dots.csv", "-o", "dots.csv")
     assert run("delaunay", "dots.csv", "--what", "edges,table", "-o", "x.gpkg").code == 0
-    for layer, fault in (("table", "has no geometry"), ("nothing", "is not there")):
+    for layer, fault in (("table", "has no geometry"), ("nothing", "does not exist")):
         done = run("skeleton-exact", f"x.gpkg:{layer}", "-o", "s.json")
         assert (done.code, fault in done.err, "edges" in done.err) == (3, True, True)
 

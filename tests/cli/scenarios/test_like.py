@@ -131,7 +131,7 @@ def test_pictures_on_a_map_have_north_on_top(run, tmp_path):
         ("r.tif --like r.tif", 2, "--like is for lists of points"),
         ("in.geojson --like -", 2, "is a stream"),
         ("in.geojson --like none.tif", 3, "none.tif"),
-        ("in.geojson --like in.geojson", 3, "in.geojson is no TIFF, PNG"),
+        ("in.geojson --like in.geojson", 3, "in.geojson is not a TIFF, PNG"),
         ("in.geojson --like turned.tif", 3, "gdalwarp turned.tif"),
         ("in.geojson --like flat.tif", 3, "12.5 x 25 m"),
         ("in.geojson --like far.tif", 3, "in EPSG:2056, but far.tif in EPSG:4326: bring them into one"),

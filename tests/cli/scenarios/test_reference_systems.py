@@ -140,7 +140,7 @@ def test_what_names_no_system_is_refused(run, maps, name):
 def test_images_have_no_system_to_declare(run, folder):
     done = run("delaunay", "mask.pbm", "--input-crs", "EPSG:3857")
     assert done.code == 2
-    assert "is for points, polygons and lines" in done.err
+    assert "applies to points, polygons and lines" in done.err
 
 
 def test_each_input_of_a_batch_has_its_own_system(run, maps):

@@ -55,6 +55,6 @@ def test_seeds_outside_the_frame_are_named(run, tmp_path, monkeypatch):
 def test_a_column_z_is_no_coordinate(run, tmp_path, monkeypatch, options, is_told):
     monkeypatch.chdir(tmp_path)
     said = run("delaunay", "space.csv", *options, "-o", "a.csv").err
-    assert ("space.csv: the column z is no coordinate here: only x and y are used" in said) == is_told
+    assert ("space.csv: the column z is ignored: only x and y are used" in said) == is_told
     if not options:  # of a volume it is one
         assert "column z" not in run("tessellate", "--volume", "space.csv", "--size", "9x9x9", "-o", "a.tif").err

@@ -342,7 +342,7 @@ def test_what_is_left_out_is_said(drawing):
     shapes, notes = read(drawing)
     assert not len(shapes)
     said = "1 3DFACE, 1 CIRCLE, 1 DIMENSION, 1 HATCH, 1 MTEXT, 1 POINT, 1 POLYLINE, 1 TEXT"
-    assert any(note.endswith(f"left out are {said}") for note in notes)
+    assert any(note.endswith(f"skipped: {said}") for note in notes)
     assert any("2 entities on layers that are off or frozen" in note for note in notes)
 
 
@@ -390,7 +390,7 @@ def test_damaged_files(data):
 
 def test_places_beyond_numbers(drawing):
     drawing.modelspace().add_circle((1e308, 0), 1e308)
-    with pytest.raises(InputError, match="layer 0: a place is beyond the largest number"):
+    with pytest.raises(InputError, match="layer 0: a coordinate is too large"):
         read(drawing)
 
 
@@ -407,7 +407,7 @@ def test_options_of_the_library(tmp_path, drawing):
     assert len(vorotool.read(path, flatten=0.5, join_tolerance=0).xy) == 4
     with pytest.raises(UsageError, match="the tolerance is -1: it must be 0 or more"):
         vorotool.read(path, join_tolerance=-1)
-    with pytest.raises(InputError, match="is a drawing, which holds polygons and lines"):
+    with pytest.raises(InputError, match="is a drawing"):
         vorotool.read(path, geometry="points")
 
 

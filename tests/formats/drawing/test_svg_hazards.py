@@ -123,7 +123,7 @@ THIN = [
 def test_fills_without_area_are_left_out(path, rule):
     drawing, notes = svg(f'<path fill-rule="{rule}" d="{path}"/>{RECT}')
     assert drawing.xy.tolist() == [[0, 0], [4, 0], [4, 3], [0, 3]]
-    assert any("1 shapes" in note for note in notes)
+    assert any("1 filled shape" in note for note in notes)
 
 
 def test_crossings_that_rounding_makes_anew():

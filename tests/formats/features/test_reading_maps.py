@@ -70,8 +70,8 @@ def test_lines_and_heights_and_no_geometry(tmp_path, fmt):
     assert shapes.is_line.all()
     assert shapes.ring(0).tolist() == [[0, 0], [1, 1]]
     assert notes_of(path) == [
-        f"{path}: 2 features without a geometry are left out",
-        f"{path}: only x and y are used, heights are left out",
+        f"{path}: 2 features without geometry skipped",
+        f"{path}: only x and y are used; z is ignored",
     ]
 
 
@@ -143,10 +143,10 @@ def test_layers(tmp_path):
 
 def test_layers_where_there_are_none(tmp_path):
     (tmp_path / "a.csv").write_text("x,y\n1,2\n")
-    with pytest.raises(UsageError, match=r"layer or FILE:LAYER is for files of several layers, but .*a.csv has none"):
+    with pytest.raises(UsageError, match=r"layer or FILE:LAYER applies to .*a.csv has none"):
         vorotool.read(tmp_path / "a.csv", layer="a")
     vorotool.write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), tmp_path / "a.png")
-    with pytest.raises(UsageError, match="layer or FILE:LAYER is for points, polygons and lines, but the input is"):
+    with pytest.raises(UsageError, match="layer or FILE:LAYER applies to points, polygons and lines, but the input is"):
         vorotool.read(tmp_path / "a.png", layer="a")
 
 
@@ -334,7 +334,7 @@ def test_files_that_name_others_are_not_opened(tmp_path):
         for comment in ("", f"<!-- <{fmt}> -->", f"<?x <{fmt} ?>"):
             path = tmp_path / f"b.{fmt}"
             path.write_text(f"{comment}{virtual}</OGRVRTDataSource>")
-            with pytest.raises(InputError, match=r"b\.\w+ is no \w+ that can be read: it begins as something else"):
+            with pytest.raises(InputError, match=r"b\.\w+ is not a \w+( file)?: its first bytes"):
                 vorotool.read(path, input_format=fmt)
 
 

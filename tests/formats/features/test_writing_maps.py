@@ -164,7 +164,7 @@ def test_times_of_a_zone(tmp_path):
 
 
 def test_a_shapefile_needs_a_file(tmp_path):
-    with pytest.raises(UsageError, match="a Shapefile is several files, and no stream such as - holds them"):
+    with pytest.raises(UsageError, match="a Shapefile is several files, which the stream - cannot hold"):
         vorotool.write(shapes(), "-", fmt="shp")
 
 

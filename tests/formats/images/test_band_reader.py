@@ -123,7 +123,7 @@ def test_limits_and_options(tmp_path, monkeypatch):
     path = make(tmp_path / "a.zarr")
     with pytest.raises(LimitError, match="50 x 70 = 3500 pixels"):
         vorotool.read(path, max_pixels=3499)
-    with pytest.raises(InputError, match="no page=1"):
+    with pytest.raises(InputError, match="page=1 does not exist"):
         vorotool.read(path, page=1)
     (tmp_path / "file.zarr").write_text("")
     with pytest.raises(InputError, match="a Zarr store is a folder"):

@@ -161,7 +161,7 @@ def test_what_comes_meanwhile_stays(folder):
                 (folder / "late.csv").write_text("mine")
 
     before = contents(folder)
-    with pytest.raises(OutputError, match=r"late\.csv exists already"):
+    with pytest.raises(OutputError, match=r"late\.csv already exists"):
         come()
     assert contents(folder) == before | {"late.csv": b"mine"}
 

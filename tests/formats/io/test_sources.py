@@ -66,7 +66,7 @@ def test_a_missing_file(tmp_path):
     name = str(tmp_path / "seeds.csv")
     assert error_of(read_source, name).startswith(name)
     name = str(tmp_path / "gone" / "seeds.csv")
-    assert f"directory {tmp_path / 'gone'}" in error_of(read_source, name)
+    assert f"folder {tmp_path / 'gone'} does not" in error_of(read_source, name)
 
 
 def test_a_directory(tmp_path):

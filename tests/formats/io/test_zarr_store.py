@@ -82,7 +82,7 @@ def test_what_is_not_replaced(tmp_path):
     group = make(tmp_path / "group", "", "group")
     array = make(tmp_path / "array", "")
     for path in (tmp_path / "folder", tmp_path / "file", group):
-        with pytest.raises(OutputError, match="is no Zarr array"):
+        with pytest.raises(OutputError, match="is not a Zarr array"):
             check_store(path)
     with pytest.raises(OutputError, match="no_clobber"):
         check_store(array, no_clobber=True)
@@ -172,7 +172,7 @@ def test_what_comes_meanwhile_and_is_no_store_stays(tmp_path, kind):
         with open_store(tmp_path / "a.zarr"):
             (tmp_path / "a.zarr").mkdir() if kind == "folder" else (tmp_path / "a.zarr").write_text("mine")
 
-    with pytest.raises(OutputError, match="is no Zarr array"):
+    with pytest.raises(OutputError, match="is not a Zarr array"):
         come()
     assert names(tmp_path) == ["a.zarr"]
     assert (tmp_path / "a.zarr").is_dir() == (kind == "folder")

@@ -14,8 +14,8 @@ FONTS = {".ttf": b"\0\1\0\0\0\x0f", ".otf": b"OTTO\0\x0f", ".woff2": b"wOF2\0\1"
 @pytest.mark.parametrize("name", ["plan.pdf", "plan"])
 def test_documents(tmp_path, name, geometry):
     (tmp_path / name).write_bytes(b"%PDF-1.7\n")
-    advice = r'make an image of it and give threshold="otsu", .* pdftoppm .*; or, for its outlines, an SVG: inkscape '
-    with pytest.raises(InputError, match=r"\.pdf files are not read; " + advice):
+    advice = r'.*threshold="otsu", .* pdftoppm .*; or, for its outlines, an SVG: inkscape '
+    with pytest.raises(InputError, match=r"\.pdf files are not supported; " + advice):
         vorotool.read(tmp_path / name, geometry=geometry)
 
 
@@ -24,7 +24,7 @@ def test_documents(tmp_path, name, geometry):
 def test_fonts(tmp_path, suffix, geometry):
     for name in (f"a{suffix}", "font"):
         (tmp_path / name).write_bytes(FONTS[suffix])
-        with pytest.raises(InputError, match=rf"\{suffix} files are not read; it is a font: write the text"):
+        with pytest.raises(InputError, match=rf"\{suffix} files are not supported; it is a font: write the text"):
             vorotool.read(tmp_path / name, geometry=geometry)
 
 
@@ -52,7 +52,7 @@ def test_a_column_of_geometry_beside_x_and_y_is_a_column(tmp_path):
 @pytest.mark.parametrize("text", ['{"type": \n"Point"\n', '{"a": 1}\n[1]\n', "[[1, 2],\n[3, 4]\n"])
 def test_other_json_is_told_where_it_is_wrong(tmp_path, text):
     (tmp_path / "a.json").write_text(text)
-    with pytest.raises(InputError, match=r"line \d, column \d: this is not JSON"):
+    with pytest.raises(InputError, match=r"line \d, column \d: .* not valid JSON"):
         vorotool.read(tmp_path / "a.json")
 
 
@@ -74,10 +74,10 @@ def test_arrays_that_are_lists(tmp_path, shape):
             r"otsu., for example: gs -o a\.png .* a\.eps; or.*inkscape a\.eps .*a\.svg$",
         ),
         ("a.ai", b"%PDF-1.4\n", r"gs -o a\.png .* a\.ai; or"),
-        ("page", b"%!PS\n", r"\.ps files are not read; .*gs -o FILE\.png .* FILE\.ps; or"),
+        ("page", b"%!PS\n", r"\.ps files are not supported; .*gs -o FILE\.png .* FILE\.ps; or"),
         ("a.dwg", b"AC1032\0", r"save it as DXF .*dwg2dxf -o a\.dxf a\.dwg$"),
-        ("plan", b"AC1015\0", r"\.dwg files are not read"),
-        ("a.zip", b"PK\3\4", r"unpack it, and give a file that is in it: unzip a\.zip$"),
+        ("plan", b"AC1015\0", r"\.dwg files are not supported"),
+        ("a.zip", b"PK\3\4", r"unpack it, .*: unzip a\.zip$"),
     ],
 )
 def test_files_that_others_open(tmp_path, monkeypatch, name, data, advice, geometry):

@@ -118,8 +118,8 @@ def test_many_lines_are_read_at_once(written):
         ('{"type":"Point","coordinates":[1,2]}\n{"type":"Point","coordinates":[1]}\n', r"feature 2"),
         ('\x1e{"x":1,\n"y":2}\n\x1e{"x":\n1,}', "line 4, column 2"),
         ("[" * 200, "nest"),
-        ("", "a.jsonl is empty: JSON was expected"),
-        ("\n \n", "a.jsonl is empty: JSON was expected"),
+        ("", "a.jsonl is empty"),
+        ("\n \n", "a.jsonl is empty"),
         ("[1,2]\n[3,4]\n", r"line 1: \[1"),
         ("null\n", "line 1"),
     ],
@@ -132,7 +132,7 @@ def test_what_is_wrong_is_named_with_its_line(written, text, words):
 def test_polygons_are_not_made_of_rows(written):
     with pytest.raises(InputError, match=r"a.jsonl holds a table, whose rows have label, x, y, note, not polygons"):
         vorotool.read(written(lines_of(ROWS)), geometry="polygons")
-    with pytest.raises(UsageError, match="columns is for delimited text"):
+    with pytest.raises(UsageError, match="columns applies to delimited text"):
         vorotool.read(written(lines_of(POINTS)), columns="x,y")
 
 

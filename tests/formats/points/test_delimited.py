@@ -52,7 +52,7 @@ def test_recognised_headers(header, used, point):
         "meters (UTM)"
     )
     is_map = used.lower().startswith("lon")
-    assert [note for note in notes[1:] if "the column z is no coordinate" not in note] == ([degrees] if is_map else [])
+    assert [note for note in notes[1:] if "the column z is ignored" not in note] == ([degrees] if is_map else [])
     assert any("the column z" in note for note in notes) == ("z" in header)
     points = read(text)
     assert (points.y_axis == "up") == is_map
@@ -146,19 +146,19 @@ def test_bad_lines(text, message):
     [
         (
             "1,2,3\n",
-            '3 columns without a header; say which are x and y, for example columns="1,2" (its '
+            '3 columns without a header; name the columns of x and y, for example columns="1,2" (its '
             "columns are 1 = 1, "
             "2 = 2, 3 = 3)",
         ),
         (
             "id,east,north\n1,2,3\n",
-            "the header names no known pair of coordinates; say which are x and y, for example "
+            "no coordinate columns recognized in the header; name the columns of x and y, for example "
             'columns="east,north" '
             "(its columns are 1 = id, 2 = east, 3 = north)",
         ),
         (
             "lng,lat\n1,2\n",
-            "the header names no known pair of coordinates; say which are x and y, for example "
+            "no coordinate columns recognized in the header; name the columns of x and y, for example "
             'columns="lng,lat" '
             "(its columns are 1 = lng, 2 = lat)",
         ),

@@ -50,7 +50,7 @@ def test_detection(name, content, expected):
 def test_files_to_convert(suffix):
     message = error_of(b"", f"data/towns{suffix}")
     assert message == (
-        f"data/towns{suffix}: {suffix} files are not read; convert it: "
+        f"data/towns{suffix}: {suffix} files are not supported; convert it: "
         f"ogr2ogr -f GeoJSON data/towns.geojson data/towns{suffix}"
     )
 
@@ -63,7 +63,7 @@ def test_a_part_of_a_shapefile_names_the_file_to_read(suffix):
 def test_options_that_do_not_fit():
     assert "expected one of csv, tsv, txt, node, npz" in error_of("", kind=UsageError, input_format="xyz")
     for fmt in set(POINT_FORMATS) - {"csv", "json", "jsonl", "npz", "parquet"}:
-        assert "columns is for delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
+        assert "columns applies to delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
 
 
 def npz(**columns):

@@ -39,7 +39,7 @@ def test_node_with_a_short_header():
         ),
         (
             "1 2 0 2\n1 0 0 0 0\n",
-            ", line 1: 0 attributes and 2 boundary markers a vertex; write <vertices> 2 "
+            ", line 1: 0 attributes and 2 boundary markers per vertex; write <vertices> 2 "
             "<attributes> <0 or 1 boundary markers>",
         ),
     ],

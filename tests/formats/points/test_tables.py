@@ -60,14 +60,14 @@ def saved(tmp_path, **arrays):
 @pytest.mark.parametrize(
     ("arrays", "words"),
     [
-        ({"x": np.zeros(2), "y": np.zeros(3)}, "is no table: it holds arrays of 2 to 3 values"),
-        ({}, "is no table: it holds no arrays"),
+        ({"x": np.zeros(2), "y": np.zeros(3)}, "is not a table: it holds arrays of 2 to 3 values"),
+        ({}, "is not a table: it holds no arrays"),
         ({"x": np.zeros((2, 2)), "y": np.zeros(2)}, r"x\.npy is of type float64 and shape \(2, 2\)"),
         ({"x": np.array([None]), "y": np.zeros(1)}, r"x\.npy is of type object"),
         ({"x": np.zeros(2), "y": np.array([1, np.nan])}, "row 2"),
         ({"x": np.array(["a"]), "y": np.zeros(1)}, "row 1"),
         ({"x": np.array([2**60 + 1]), "y": np.zeros(1)}, r"row 1"),
-        ({"u": np.zeros(1), "v": np.zeros(1)}, "the header names no known pair of coordinates"),
+        ({"u": np.zeros(1), "v": np.zeros(1)}, "no coordinate columns"),
     ],
 )
 def test_what_is_no_table_of_points_is_refused(tmp_path, arrays, words):
@@ -100,8 +100,8 @@ def test_rows_of_json_are_alike(tmp_path):
     for rows, words in (
         ([{"x": 1, "y": 2}, {"x": 1}], "row 2: .* has other fields than the first"),
         ([{"x": 1, "y": 2}, 5], "row 2: 5 has other fields"),
-        ([{"x": 1, "y": None}], "row 1: y is None, no finite number"),
-        ([{"x": 1, "y": True}], "row 1: y is True, no finite number"),
+        ([{"x": 1, "y": None}], "row 1: y is None, not a finite number"),
+        ([{"x": 1, "y": True}], "row 1: y is True, not a finite number"),
     ):
         path.write_text(json.dumps(rows))
         with pytest.raises(InputError, match=words):
@@ -113,7 +113,7 @@ def test_rows_of_json_are_alike(tmp_path):
 
 def test_columns_are_for_tables(tmp_path):
     (tmp_path / "a.json").write_text("[[1, 2], [3, 4]]")
-    with pytest.raises(UsageError, match="columns is for delimited text and tables"):
+    with pytest.raises(UsageError, match="columns applies to delimited text and tables"):
         vorotool.read(tmp_path / "a.json", columns="x,y")
 
 

@@ -28,7 +28,7 @@ def test_wkt():
     assert read("POINT (1 2)", STANDARD_INPUT).properties == {}
     assert rows("# (see below\nPOINT (1 2)", "a.wkt") == [[1, 2]]
     assert rows("MULTIPOINT\n (\n 1 2,\n 3 4)\nPOINT(5 6)", "a.wkt") == [[1, 2], [3, 4], [5, 6]]
-    assert notes_of("POINT Z (1 2 3)", "a.wkt") == ["a.wkt: only x and y are used, heights are left out"]
+    assert notes_of("POINT Z (1 2 3)", "a.wkt") == ["a.wkt: only x and y are used; z is ignored"]
 
 
 @pytest.mark.parametrize("text", ["", "\n", "POINT EMPTY", "MULTIPOINT EMPTY", "GEOMETRYCOLLECTION EMPTY"])

@@ -56,9 +56,9 @@ def test_the_caller_knows(tmp_path):
         vorotool.read(path, geometry="points")
     with pytest.raises(UsageError, match="invalid geometry 'lines'"):
         vorotool.read(path, geometry="lines")
-    with pytest.raises(UsageError, match="columns is for lists of points"):
+    with pytest.raises(UsageError, match="columns applies to lists of points"):
         vorotool.read(path, geometry="polygons", columns="1,2")
-    with pytest.raises(UsageError, match="columns is for delimited text"):
+    with pytest.raises(UsageError, match="columns applies to delimited text"):
         vorotool.read(path, columns="1,2")
 
 
@@ -76,7 +76,10 @@ def test_json_is_parsed_once(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(
     ("geometries", "message"),
-    [((POLYGON, POINT), "'Point' is no polygon or line; put points"), ((POINT, POLYGON), "'Polygon' is not a point")],
+    [
+        ((POLYGON, POINT), "'Point' is not a polygon or line; put points"),
+        ((POINT, POLYGON), "'Polygon' is not a point"),
+    ],
 )
 def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
     (tmp_path / "a.geojson").write_text(collected(*geometries))

@@ -48,7 +48,7 @@ def test_feature_collection():
         "n": [None, None, 1.5, None, None, None, None],
     }
     assert (shapes.y_axis, shapes.crs) == ("up", CRS)
-    assert notes_of(text, "a.geojson") == ["a.geojson: 2 features without a geometry are left out"]
+    assert notes_of(text, "a.geojson") == ["a.geojson: 2 features without geometry skipped"]
     back = written(shapes, "geojson")
     assert_same(read(back, "a.geojson"), shapes)
     kinds = [each["geometry"]["type"] for each in json.loads(back)["features"]]
@@ -68,15 +68,15 @@ def test_bare_geometry_and_feature():
 
 
 UNNAMED = (
-    "a.geojson names no coordinate reference system, and is taken for planar: if it is longitude and latitude, say so "
-    'with crs="OGC:CRS84"'
+    "a.geojson states no coordinate reference system and is treated as planar: for longitude and latitude use "
+    'crs="OGC:CRS84"'
 )
 
 
 def test_degrees_are_told_by_the_reference_system_alone_and_heights_are_left_out():
     utm, other = '="EPSG:32631" works in meters (UTM)', " reprojects them to a projected system"
     degrees = "a.geojson: longitude and latitude are treated as planar, lengths are in degrees; to_crs"
-    heights = "a.geojson: only x and y are used, heights are left out"
+    heights = "a.geojson: only x and y are used; z is ignored"
     lake = [[7.5, 46.9, 400], [8, 46], [8, 47]]
     assert notes_of(collection(feature("Polygon", [lake])), "a.geojson") == [heights, UNNAMED]
     assert notes_of(collection(feature("Polygon", [[[750.5, 46], [8, 46], [8, 47]]])), "a.geojson") == []

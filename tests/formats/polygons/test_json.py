@@ -33,7 +33,7 @@ def test_many():
     assert shapes.part.tolist() == [1, 2, 1, 1]
     assert shapes.ids == ["a", "a", 7, None]
     assert shapes.properties == {"n": [1, None, None, None], "m": [None, None, [1], None]}
-    assert notes_of(json.dumps({"polygons": items})) == ["shapes.json: 1 features without a geometry are left out"]
+    assert notes_of(json.dumps({"polygons": items})) == ["shapes.json: 1 feature without geometry skipped"]
     assert_same(read(written(shapes, "json")), shapes)
     bare = read(json.dumps({"polygons": items}), properties=False)
     assert (bare.ids, bare.properties) == (None, {})
@@ -59,7 +59,7 @@ def test_writing():
     ("text", "message"),
     [
         ("[[0, 0], [1, ]]", "line 1"),
-        ("5", "shapes.json: 5 is no polygon; write [[x, y], …], or {"),
+        ("5", "shapes.json: 5 is not a polygon; write [[x, y], …], or {"),
         ("{}", "shapes.json: the object has no list of polygons; write {"),
         ("[[0, 0], [1, 0], [1]]", "polygon 1, vertex 3: [1]"),
         ("[[0, 0], [1, true]]", "polygon 1, vertex 2: [1"),

@@ -24,7 +24,7 @@ def test_poly(base):
         (1, 0, HOLE),
         (2, 1, [[20, 0], [21, 1], [20, 2]]),
     ]
-    assert notes_of(text, "a.poly") == ["a.poly: attributes and boundary markers are left out"]
+    assert notes_of(text, "a.poly") == ["a.poly: attributes and boundary markers are ignored"]
 
 
 def test_round_trip():
@@ -41,24 +41,22 @@ def test_loops_that_touch():
     points = "6 2\n1 0 0\n2 1 0\n3 0 1\n4 -1 0\n5 0 -1\n6 5 5\n"
     shapes = read(points + "7\n1 1 2\n2 2 3\n3 3 1\n4 1 4\n5 4 5\n6 5 1\n7 6 1\n", "a.poly")
     assert [(kind, len(ring)) for kind, _, ring in rings(shapes)] == [(0, 3), (0, 3), (2, 2)]
-    assert notes_of("3 2\n1 0 0\n2 1 0\n3 1 1\n1\n1 1 2\n", "a.poly") == [
-        "a.poly: 1 vertices of no segment are left out"
-    ]
+    assert notes_of("3 2\n1 0 0\n2 1 0\n3 1 1\n1\n1 1 2\n", "a.poly") == ["a.poly: 1 vertex without a segment skipped"]
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", ": the file ends where <vertices> 2 <attributes> <0 or 1 boundary markers> is due; complete it"),
+        ("", ": the file ends before a header; write <vertices> 2 <attributes> <0 or 1 boundary markers>"),
         ("x 2\n", "line 1: 'x 2'"),
-        ("0 2 0 0\n", ": the vertices are in a .node file of their own; copy its lines in place of the first line"),
+        ("0 2 0 0\n", ": the vertices are in a separate .node file; copy its lines in place of the first line"),
         ("1 3\n1 0 0 0\n", "line 1"),
         ("2 2\n1 0 0\n", "line 1"),
         ("1 2\n1 0\n", "line 2"),
         ("1 2\n1 0 a\n", "line 2: '1 0 a'"),
         ("1 2\n1 0 inf\n", "line 2: '1 0 inf'"),
         ("2 2\n1 0 0\n3 0 0\n", "line 3: vertex 3"),
-        ("1 2\n1 0 0\n", ": the file ends where <segments> <0 or 1 boundary markers> is due; complete it"),
+        ("1 2\n1 0 0\n", ": the file ends before a header; write <segments> <0 or 1 boundary markers>"),
         ("1 2\n1 0 0\n1\n1 1 2\n", "vertex 2"),
         ("1 2\n1 0 0\n1\n1 1 0.5\n", "line 4"),
         ("3 2\n1 0 0\n2 1 0\n3 0 1\n3\n1 1 2\n2 2 3\n3 3 1\n1\n1 5 5\n", "hole 1, (5, 5)"),

@@ -45,8 +45,8 @@ def test_wkt():
 def test_nothing_and_too_little():
     assert len(read("", "a.wkt")) == 0
     assert notes_of("POLYGON EMPTY\nLINESTRING Z (0 0 1, 1 1 2)", "a.wkt") == [
-        "a.wkt: only x and y are used, heights are left out",
-        "a.wkt: 1 features without a geometry are left out",
+        "a.wkt: only x and y are used; z is ignored",
+        "a.wkt: 1 feature without geometry skipped",
     ]
     small = as_polygons([{"shell": [[1, 2]]}, {"shell": [[1, 2], [3, 4]]}, {"line": [[5, 6]]}])
     assert written(small, "wkt").splitlines() == [

@@ -111,8 +111,8 @@ def about(**members):
         ({"ring_polygon": np.array([1])}, "ring_polygon"),
         ({"ring_polygon": np.array([-1])}, "ring_polygon"),
         ({"arc_control_x": "text", "arc_control_y": "text"}, "arc_control_x is of type"),
-        ({"arc_source": "large"}, "arc_source 0 is 99; write whole numbers from 0"),
-        ({"arc_kind": "large"}, "arc_kind 0 is 99; write whole numbers from 0 to 1"),
+        ({"arc_source": "large"}, "arc_source 0 is 99; write integers from 0"),
+        ({"arc_kind": "large"}, "arc_kind 0 is 99; write integers from 0 to 1"),
         ({"arc_side": "large"}, "arc_side 0 is 99"),
         ({"arc_site_a": "large"}, "arc_site_a 0 is 99"),
         ({"site_kind": "large"}, "site_kind 0 is 99"),
@@ -170,7 +170,7 @@ def test_cut_files_are_refused(tmp_path):
 def test_what_holds_no_polygons(tmp_path):
     points = damaged(tmp_path, {"x": np.arange(3.0), "y": np.arange(3.0)})
     assert len(vorotool.read(points)) == 3
-    with pytest.raises(InputError, match=r"a\.npz holds no polygons that are read: an NPZ has those of cells"):
+    with pytest.raises(InputError, match=r"a\.npz holds no polygons"):
         vorotool.read(points, geometry="polygons")
 
 

@@ -60,15 +60,15 @@ def changed(member, index, **fields):
 
 
 BROKEN = {
-    "json": (b'{"type":"vorotool.offsets",', "not JSON"),
+    "json": (b'{"type":"vorotool.offsets",', "not valid JSON"),
     "type": (b'{"type":"vorotool.skeleton","version":1}', "holds no offset curves; its type should be"),
-    "version": (b'{"type":"vorotool.offsets","version":9}', "version 9 of vorotool.offsets is not known"),
+    "version": (b'{"type":"vorotool.offsets","version":9}', "version 9 of vorotool.offsets"),
     "polygons": (b'{"type":"vorotool.offsets","version":1}', "polygons are None; write a list"),
     "distance": (changed("shapes", 1, distance=0), "shapes 1: the distance is 0"),
-    "polygon": (changed("shapes", 0, polygon=2), "shapes 0: polygon is 2; write a whole number from 0 to 1"),
-    "first": (changed("rings", 1, first=0), "rings 1: the pieces of each follow those of the one before"),
-    "none": (changed("rings", 0, pieces=0), "rings 0: the pieces of each follow those of the one before"),
-    "fewer": (changed("shapes", -1, rings=1), r"shapes \d: the rings of each follow those of the one before; list all"),
+    "polygon": (changed("shapes", 0, polygon=2), "shapes 0: polygon is 2; write an integer from 0 to 1"),
+    "first": (changed("rings", 1, first=0), "rings 1: the pieces"),
+    "none": (changed("rings", 0, pieces=0), "rings 0: the pieces"),
+    "fewer": (changed("shapes", -1, rings=1), r"shapes \d: the rings .* list all"),
     "start": (changed("pieces", 3, start=[1, None]), r"pieces 3: start is .*; write \[number, number\]"),
     "center": (changed("pieces", 0, kind="arc", center=None), r"pieces 0: the center of an arc is \[x, y\]"),
     "site": (changed("pieces", 2, site=-1), "pieces 2: site is -1"),

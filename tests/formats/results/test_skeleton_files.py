@@ -98,7 +98,7 @@ BROKEN = {
     "version": (put(["version"], 2), "version 2"),
     "type": (put(["type"], "other"), "no skeleton"),
     "no list": (put(["arcs"], 3), "arcs are 3"),
-    "no object": (put(["vertices", 4], 3), "vertices 4: 3 is no object"),
+    "no object": (put(["vertices", 4], 3), "vertices 4: 3 is not an object"),
     "no number": (put(["vertices", 4, "r"], "a"), "vertices 4: r is \"a\"|vertices 4: r is 'a'"),
     "true": (put(["vertices", 4, "r"], True), "vertices 4: r"),
     "index": (put(["arcs", 1, "target"], 5000), "arcs 1: target is 5000"),
@@ -114,7 +114,7 @@ BROKEN = {
     "frame": (put(["frame"], [1, 2]), "the frame is"),
     "gap": (put(["gap"], -1), "the gap is"),
     "polygons": (put(["polygons", 0, "shell", 0], [1]), "polygon 1"),
-    "truncated": (json.dumps(DOCUMENT).encode()[:-30], "not JSON"),
+    "truncated": (json.dumps(DOCUMENT).encode()[:-30], "not valid JSON"),
 }
 
 

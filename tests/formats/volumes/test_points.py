@@ -119,9 +119,9 @@ def test_npz_and_npy(tmp_path):
 @pytest.mark.parametrize(
     ("name", "data", "columns", "words"),
     [
-        ("a.csv", "x,y\n1,2\n", None, r"no columns are known as x, y and z; say which are with columns=\"X,Y,z=Z\""),
-        ("a.csv", "1,2,3\n", None, "no columns are known as x, y and z"),
-        ("a.csv", "a,b,c\n1,2,3\n", "a,b", "no columns are known as x, y and z"),
+        ("a.csv", "x,y\n1,2\n", None, r"no columns recognized as x, y and z; name them with columns=\"X,Y,z=Z\""),
+        ("a.csv", "1,2,3\n", None, "no columns recognized as x, y and z"),
+        ("a.csv", "a,b,c\n1,2,3\n", "a,b", "no columns recognized as x, y and z"),
         ("a.csv", "a,b,c\n1,2,3\n", "a,b,z=d", "'d'"),
         ("a.csv", "a,b,c\n1,2,3\n", "1,2,z=a", "names one column twice"),
         ("a.csv", "x,y,z\n1,2,nan\n", None, r"a.csv, line 2: 'nan' in column 3 \(z\)"),
@@ -160,5 +160,5 @@ def test_a_z_stays_a_property_of_points_in_the_plane(tmp_path):
     points = vorotool.read(tmp_path / "a.csv")
     assert points.xy.tolist() == [row[:2] for row in XYZ]
     assert list(points.properties) == ["z"]
-    with pytest.raises(UsageError, match="crs is not for points in space"):
+    with pytest.raises(UsageError, match="crs does not apply to points in space"):
         vorotool.read(tmp_path / "a.csv", geometry="space", crs="EPSG:2056")

@@ -128,12 +128,12 @@ def test_planes_that_are_stated_again_and_again():
     [
         (ome('SizeZ="5" SizeC="2"', ""), r"has 2 channels: a volume has one of each.*page=N"),
         (ome('SizeZ="5" SizeC="2" SizeT="3"', ""), "has 2 channels and 3 time steps"),
-        (ome('SizeZ="6"', ""), "has 5 pages, but its XML says that there are 6 slices"),
+        (ome('SizeZ="6"', ""), "has 5 pages, but its XML states 6 slices"),
         (ome('SizeZ="5"', '<TiffData IFD="0" FirstZ="1"/>'), "slice 0"),
         (ome('SizeZ="5"', '<TiffData IFD="7"/>'), "slice 0"),
         (ome('SizeZ="five"', ""), "'five'"),
         (ome('SizeZ="0"', ""), "SizeZ"),
-        (ome(f'SizeZ="{"9" * 50}"', ""), "no whole number"),
+        (ome(f'SizeZ="{"9" * 50}"', ""), "not an integer"),
         (
             ome('SizeZ="5"', '<TiffData><UUID FileName="a"/></TiffData><TiffData><UUID FileName="b"/></TiffData>'),
             "2 files",
@@ -141,7 +141,7 @@ def test_planes_that_are_stated_again_and_again():
         (b"<OME><Image><Pixels/></Image><Image><Pixels/></Image></OME>", "holds 2 images"),
         (b"ImageJ=1.54f\nimages=10\nchannels=2\nslices=5\n", "has 2 channels"),
         (b"ImageJ=1.54f\nimages=5\nframes=5\n", r"has 5 time steps \(frames\)"),
-        (b"ImageJ=1.54f\nimages=7\nslices=7\n", "has 5 pages, but its description says that there are 7 slices"),
+        (b"ImageJ=1.54f\nimages=7\nslices=7\n", "has 5 pages, but its description states 7 slices"),
         (b"ImageJ=1.54f\nimages=-7\n", "images=-7"),
         (b"ImageJ=1.54f\nimages=x\n", "images="),
     ],
@@ -176,7 +176,7 @@ def test_pages_that_differ(tmp_path):
         with pytest.raises(InputError, match=words):
             open_volume(tmp_path / "a.tif")
     tifffile.imwrite(tmp_path / "a.tif", np.zeros((4, 5, 3), np.uint8), photometric="rgb")
-    with pytest.raises(InputError, match="has 3 values a pixel: a volume has one"):
+    with pytest.raises(InputError, match="has 3 values per pixel: a volume has one"):
         open_volume(tmp_path / "a.tif")
 
 
@@ -229,7 +229,7 @@ def test_limits(tmp_path):
     (tmp_path / "b.tif").write_bytes(tiff_file(grey(8, 8, 8) | huge, [bytes(64)]))
     with pytest.raises(InputError, match=r"b.tif"):
         read_volume(tmp_path / "b.tif")
-    with pytest.raises(UsageError, match="page is not for a volume"):
+    with pytest.raises(UsageError, match="page does not apply to a volume"):
         vorotool.read(path, geometry="volume", page=1)
 
 

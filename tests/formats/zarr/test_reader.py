@@ -156,14 +156,14 @@ def test_a_codec_of_format_3_that_is_not_known(tmp_path, name):
     ("metadata", "version", "words"),
     [
         (version_2(dtype="|O"), 2, r"'\|O'"),
-        (version_2(dtype=[["a", "<u1"]]), 2, "an image of numbers was expected"),
+        (version_2(dtype=[["a", "<u1"]]), 2, "an image of numbers is expected"),
         (version_3(data_type="string"), 3, "it holds 'string'"),
-        (version_3(data_type={"name": "struct"}), 3, "an image of numbers was expected"),
-        (version_3(shape=[2, -4]), 3, r"\[2, -4\] is no shape: whole numbers from 0"),
-        (version_3(shape=[2, 4.0]), 3, "is no shape"),
-        (version_3(shape=[2, True]), 3, "is no shape"),
+        (version_3(data_type={"name": "struct"}), 3, "an image of numbers is expected"),
+        (version_3(shape=[2, -4]), 3, r"\[2, -4\] is not a shape"),
+        (version_3(shape=[2, 4.0]), 3, "is not a shape"),
+        (version_3(shape=[2, True]), 3, "is not a shape"),
         (version_3(shape=[2, 4, 4]), 3, "but that of its chunks"),
-        (version_2(chunks=[0, 4]), 2, "is no shape: whole numbers from 1"),
+        (version_2(chunks=[0, 4]), 2, "is not a shape: .* 1"),
         (version_2(chunks=[2**20, 2**20]), 2, r"chunks of shape \(1048576, 1048576\) for an array of shape"),
         (version_2(fill_value=300), 2, "value 300"),
         (version_2(fill_value="x"), 2, "cannot be read as Zarr"),
@@ -172,9 +172,9 @@ def test_a_codec_of_format_3_that_is_not_known(tmp_path, name):
         (version_2(dimension_separator="../"), 2, r"dimension_separator"),
         (version_3(storage_transformers=["x"]), 3, "storage transformers"),
         (version_3(extension=1), 3, "'extension'"),
-        (version_3(codecs=[]), 3, "make no bytes"),
+        (version_3(codecs=[]), 3, "produce no bytes"),
         (version_3(codecs=5), 3, "its codecs are 5"),
-        (version_3(codecs=[{"name": "transpose", "configuration": {"order": [0, 0]}}]), 3, "none of 2 axes"),
+        (version_3(codecs=[{"name": "transpose", "configuration": {"order": [0, 0]}}]), 3, "not an order of 2 axes"),
         (version_3({"name": "crc32c"}, {"name": "transpose"}), 3, "'transpose'"),
         (version_3(zarr_format=4), 3, "format is 4"),
         (version_3(shape=[1] * 50_000), 3, "50000 axes"),
@@ -185,8 +185,8 @@ def test_a_codec_of_format_3_that_is_not_known(tmp_path, name):
         ('{"a":' * 100_000, 2, "100"),
         (" " * 2**20 + "{}", 3, "more than 1048576 bytes"),
         ("[1]", 3, "holds no JSON object"),
-        ('{"node_type": "array"', 3, "is no JSON"),
-        ('{"zarr_format": 3, "node_type": "array", "shape": [' + "9" * 5000 + "]}", 3, "is no JSON"),
+        ('{"node_type": "array"', 3, "is not JSON"),
+        ('{"zarr_format": 3, "node_type": "array", "shape": [' + "9" * 5000 + "]}", 3, "is not JSON"),
     ],
 )
 def test_metadata_that_are_refused(tmp_path, metadata, version, words):
@@ -198,7 +198,7 @@ def test_metadata_that_are_refused(tmp_path, metadata, version, words):
 
 def test_nested_brackets_as_an_output(tmp_path):
     path = store(tmp_path / "a.zarr", "[" * 100_000)
-    with pytest.raises(OutputError, match="is there and is no Zarr array, which alone is replaced"):
+    with pytest.raises(OutputError, match="is not a Zarr array"):
         check_store(path)
 
 
@@ -209,8 +209,8 @@ def test_nested_brackets_as_an_output(tmp_path):
         ((), bytes(9), "needs 8 bytes, but has 9"),
         (("crc32c",), bytes(12), "wrong checksum"),
         (("zstd",), b"", "needs 8 bytes, but has 0"),
-        (("blosc",), bytes(5), "header of 16 bytes"),
-        (("lz4",), bytes(3), "header of 4 bytes"),
+        (("blosc",), bytes(5), "Blosc has 16 bytes"),
+        (("lz4",), bytes(3), "LZ4 has 4 bytes"),
         (("gzip",), b"\x1f\x8b", "too early"),
     ],
 )

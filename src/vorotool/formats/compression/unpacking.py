@@ -85,7 +85,7 @@ def unpack_packbits(data: Packed, limit: int) -> bytes:
 def unpack_lz4(data: Packed, limit: int) -> bytes:
     """Undo LZ4 as numcodecs writes it: four bytes say how much there is."""
     if len(data) < 4:
-        raise ValueError(f"LZ4 has a header of 4 bytes, there are {len(data)}")
+        raise ValueError(f"the header of LZ4 has 4 bytes, but the data have {len(data)}")
     if int.from_bytes(data[:4], "little") > limit:
         return bytes(limit + 1)
     return bytes(_numcodecs("lz4").decompress(data))
@@ -94,7 +94,7 @@ def unpack_lz4(data: Packed, limit: int) -> bytes:
 def unpack_blosc(data: Packed, limit: int) -> bytes:
     """Undo Blosc, whose header says how much there is."""
     if len(data) < 16:
-        raise ValueError(f"Blosc has a header of 16 bytes, there are {len(data)}")
+        raise ValueError(f"the header of Blosc has 16 bytes, but the data have {len(data)}")
     if int.from_bytes(data[4:8], "little") > limit:
         return bytes(limit + 1)
     if int.from_bytes(data[12:16], "little") > len(data):

@@ -19,7 +19,7 @@ def most_unpacked(data: bytes | memoryview) -> tuple[int, bool]:
             at += 8 + _number(data, at + 4, 4)
             continue
         if magic != _FRAME:
-            raise ValueError(f"there is no Zstandard frame at byte {at}")
+            raise ValueError(f"no Zstandard frame begins at byte {at}")
         stated, window, at, has_checksum = _header(data, at + 4)
         most, at = _blocks(data, at, min(window, _MOST_OF_BLOCK))
         total += most if stated is None else stated
@@ -53,7 +53,7 @@ def _blocks(data: bytes | memoryview, at: int, most_of_block: int) -> tuple[int,
         header = _number(data, at, 3)
         kind, size = header >> 1 & 3, header >> 3
         if kind > _COMPRESSED:
-            raise ValueError(f"the block at byte {at} is of no kind that Zstandard has")
+            raise ValueError(f"the block at byte {at} has a type that Zstandard does not define")
         most += most_of_block if kind == _COMPRESSED else size
         at += 3 + (1 if kind == _RUN else size)
         if header & 1:

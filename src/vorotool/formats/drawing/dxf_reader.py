@@ -21,6 +21,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.types.axis import UP
 from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.values import counted
 
 MOST_ENTITIES = 2**17
 """Of a drawing once its blocks are there as often as they are inserted, where that is more than the file holds; and
@@ -44,16 +45,18 @@ def read_dxf(source: Source, options: ReadOptions) -> PolygonSet:
         raise _damaged(source.name, error) from None
     if blocks.left_out:
         counts = ", ".join(f"{count} {kind}" for kind, count in sorted(blocks.left_out.items()))
-        options.note(f"{source.name}: only lines and curves in the plane are read, left out are {counts}")
+        options.note(f"{source.name}: only lines and curves in the plane are read; skipped: {counts}")
     if blocks.hidden:
-        options.note(f"{source.name}: {blocks.hidden} entities on layers that are off or frozen are left out")
+        options.note(
+            f"{source.name}: {counted(blocks.hidden, 'entity', 'entities')} on layers that are off or frozen skipped"
+        )
     return _polygons(source.name, blocks, options, unit)
 
 
 def _polygons(name: str, blocks: _Blocks, options: ReadOptions, unit: str | None) -> PolygonSet:
     beyond = next((k for k, curves in blocks.curves.items() if not all(map(Curve.is_finite, curves))), None)
     if beyond is not None:
-        raise InputError(f"{name}, layer {beyond}: a place is beyond the largest number; correct or remove it")
+        raise InputError(f"{name}, layer {beyond}: a coordinate is too large for a double; correct or remove it")
     everything = [curve for curves in blocks.curves.values() for curve in curves]
     near = options.join_tolerance
     near = default_tolerance(everything, unit) if near is None else near
@@ -108,7 +111,7 @@ def _faults() -> tuple[type[Exception], ...]:
 
 def _damaged(name: str, error: Exception) -> InputError:
     said = " ".join(str(error).split())[:80] or type(error).__name__
-    return InputError(f"{name} is no DXF that can be read ({said}); save the drawing again, as DXF 2000 or later")
+    return InputError(f"{name} is not a readable DXF file ({said}); save the drawing again, as DXF 2000 or later")
 
 
 # ---- blocks ----------------------------------------------------------------------------------------
@@ -139,9 +142,7 @@ class _Blocks:
             return self.drawing.modelspace()
         found = self.drawing.blocks.get(block)
         if found is None:
-            raise InputError(
-                f"{self.name}: there is no block {block[:40]!r}, which is inserted; save the drawing again"
-            )
+            raise InputError(f"{self.name}: the inserted block {block[:40]!r} does not exist; save the drawing again")
         return found
 
     def count(self, block: str | None, level: int) -> _Seen:
@@ -149,7 +150,7 @@ class _Blocks:
         key = None if block is None else block.lower()
         known = self._seen.get(key, _Seen(0, 0))
         if known is None:
-            raise InputError(f"{self.name}: the block {block!r} is inserted in itself; remove it from itself")
+            raise InputError(f"{self.name}: the block {block!r} is inserted in itself; remove that insertion")
         if key not in self._seen:
             if level > MOST_LEVELS:
                 raise self._too_deep()
@@ -229,5 +230,5 @@ def _map_of(insert: Any) -> Affine:
     (a, b, *_), (c, d, *_), _, (e, f, *_) = (tuple(matrix.get_row(row)) for row in range(4))
     made = Affine(float(a), float(b), float(c), float(d), float(e), float(f))
     if not all(map(isfinite, made)):
-        raise ValueError("an insertion goes beyond the largest number")
+        raise ValueError("an inserted coordinate is too large for a double")
     return made

@@ -18,6 +18,7 @@ from vorotool.numeric.length_units import ratio
 from vorotool.types.axis import DOWN, YAxis
 from vorotool.types.box import Box
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.types.values import counted
 
 NESTED = "nested"
 """A rule beside those of SVG: closed curves are shells, holes, and shells in these by how they lie in one another, each
@@ -49,7 +50,7 @@ def shapes_to_polygons(
     """Flatten the curves of shapes, one feature a shape."""
     beyond = next((shape for shape in shapes if not all(curve.is_finite() for curve in shape.curves)), None)
     if beyond is not None:
-        raise InputError(f"{beyond.place}: a place is beyond the largest number; correct or remove it")
+        raise InputError(f"{beyond.place}: a coordinate is too large for a double; correct or remove it")
     collected = _Rings(name, options, _finest(unit))
     for index, shape in enumerate(shapes):
         collected.add(index, shape)
@@ -71,9 +72,9 @@ def shapes_to_polygons(
         is_drawing=True,
     )
     if collected.outlines:
-        options.note(f"{name}: {collected.outlines} closed lines without a fill are read as polygons")
+        options.note(f"{name}: {counted(collected.outlines, 'closed line')} without a fill read as polygons")
     if collected.without_area:
-        options.note(f"{name}: {collected.without_area} shapes whose fill has no area are left out")
+        options.note(f"{name}: {counted(collected.without_area, 'filled shape')} without area skipped")
     return made
 
 

@@ -43,6 +43,6 @@ def refuse_drawing(source: Source) -> None:
     """Refuse a drawing where points are due."""
     if drawing_format(source) is not None:
         raise InputError(
-            f"{source.name} is a drawing, which holds polygons and lines, and points or an image were expected: give "
-            f"it to {_TAKERS}, or make an image of it and give {OTSU}"
+            f"{source.name} is a drawing (polygons and lines), but points or an image are expected: use {_TAKERS}, or "
+            f"convert the drawing to an image and use {OTSU}"
         )

@@ -11,6 +11,7 @@ from vorotool.formats.drawing.svg_shapes import SHAPES
 from vorotool.formats.drawing.svg_styles import Style, StyleSheet, referred
 from vorotool.formats.drawing.xml_tree import Element, parse_xml
 from vorotool.formats.parsing.reader_options import shortened
+from vorotool.types.values import counted
 
 NAMESPACE = "http://www.w3.org/2000/svg"
 _LINK = "http://www.w3.org/1999/xlink}href"
@@ -20,9 +21,9 @@ MOST_REPEATED = 2**17
 """Elements that are drawn, or pieces of curves, where some are used many times: a kilobyte could ask for billions."""
 _DEEPEST = 250
 _REFUSED = {
-    "text": "is text, which only its font makes shapes of: convert it to paths, in Inkscape with Path > Object to Path",
-    "image": "is an image: take it out, and read it as an image of its own",
-    "foreignObject": "holds what is no SVG: take it out, or save the drawing as plain SVG",
+    "text": "is text, not outlines: convert it to paths, in Inkscape with Path > Object to Path",
+    "image": "is an embedded image: remove it, and read the image as a separate file",
+    "foreignObject": "holds elements that are not SVG: remove them, or save the drawing as plain SVG",
 }
 _CLIPPED = {
     "clip-path": "is clipped: apply the clip to it, in Inkscape with Object > Clip > Release and Path > Intersection",
@@ -45,7 +46,9 @@ class Document:
         """Parse a file, and count what it shows before anything of it is made."""
         root = parse_xml(name, data, NAMESPACE)
         if root.tag != "svg":
-            raise InputError(f"{name} is no SVG: it begins with <{root.tag[:40]}>; name the format with {INPUT_FORMAT}")
+            raise InputError(
+                f"{name} is not an SVG file: it begins with <{root.tag[:40]}>; name the format with {INPUT_FORMAT}"
+            )
         made = cls(name, root, _most=max(MOST_REPEATED, sum(1 for _ in root.walk())))
         made._count(root, 0)
         return made
@@ -74,11 +77,14 @@ class Document:
         link = use.attributes.get("href", use.attributes.get(_LINK, ""))
         if link and not link.startswith("#"):
             raise InputError(
-                f"{self.place(use)}: {shortened(link)} is outside of the drawing, and never loaded; put it in there"
+                f"{self.place(use)}: {shortened(link)} is outside the drawing and is never loaded; copy it into the "
+                "drawing"
             )
         found = self.by_id.get(link[1:])
         if found is None:
-            raise InputError(f"{self.place(use)}: there is no element {link or '#'}; correct or remove it")
+            raise InputError(
+                f"{self.place(use)}: the element {link or '#'} does not exist; correct or remove the reference"
+            )
         return found
 
     def shown(self, element: Element) -> list[Element]:
@@ -92,7 +98,7 @@ class Document:
         """Elements that are drawn for one, and how deep: each use counts what it uses again."""
         known = self._counted.get(element, (0, 0))
         if known is None:
-            raise InputError(f"{self.place(element)} is used within itself; remove one of the two")
+            raise InputError(f"{self.place(element)} is used within itself; remove that use")
         if element not in self._counted:
             self._counted[element] = None
             parts = self.shown(element) if element.tag in (*GROUPS, "symbol") else []
@@ -105,7 +111,7 @@ class Document:
             self._counted[element] = known
         if known[0] > self._most:
             raise LimitError(
-                f"{self.place(element)}: more than {self._most} elements are drawn for it, as some are used many "
+                f"{self.place(element)}: more than {self._most} elements are drawn for it, because some are used many "
                 "times; split the drawing"
             )
         if level + known[1] > _DEEPEST:
@@ -142,8 +148,8 @@ class Document:
         """Say what of the rules is left out."""
         if self.styles.others:
             note(
-                f"{self.name}: {len(self.styles.others)} style rules are left out, of selectors that are more than a "
-                f"tag, a class or an id ({shortened(self.styles.others[0])})"
+                f"{self.name}: {counted(len(self.styles.others), 'style rule')} skipped: only selectors of a tag, a "
+                f"class or an id are supported, not {shortened(self.styles.others[0])}"
             )
 
 

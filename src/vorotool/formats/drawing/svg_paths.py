@@ -24,7 +24,7 @@ def path_curves(data: str, place: str) -> list[Curve]:
         raise _damaged(data, lexer.pos, place)
     curves = made.curves()
     if not all(curve.is_finite() for curve in curves):
-        raise InputError(f"{place}: the path goes beyond the largest number; correct it, or remove it")
+        raise InputError(f"{place}: a coordinate of the path is too large for a double; correct it, or remove it")
     return curves
 
 

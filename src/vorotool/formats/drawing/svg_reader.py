@@ -28,6 +28,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.types.box import Box
 from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.values import counted
 
 _INKSCAPE = "http://www.inkscape.org/namespaces/inkscape}"
 GZIP_MAGIC = b"\x1f\x8b"
@@ -42,9 +43,9 @@ def read_svg(source: Source, options: ReadOptions) -> PolygonSet:
     reader = _Reader(document, options)
     reader.walk_root(_State(page.map, Style(), page.viewport, None))
     if document.hidden:
-        options.note(f"{source.name}: {document.hidden} elements that are not displayed are left out")
+        options.note(f"{source.name}: {counted(document.hidden, 'hidden element')} skipped")
     if reader.unpainted:
-        options.note(f"{source.name}: {reader.unpainted} shapes without fill and stroke are left out")
+        options.note(f"{source.name}: {counted(reader.unpainted, 'shape')} without fill and stroke skipped")
     document.note_styles(options.note)
     layers = {"layer": reader.layers} if any(layer is not None for layer in reader.layers) else None
     return shapes_to_polygons(source.name, reader.shapes, options, unit=page.unit, page=page.box, properties=layers)
@@ -79,7 +80,7 @@ def _page(document: Document) -> _Page:
     place = document.place(root)
     box = viewbox_of(root.attributes, place)
     if box is not None and (not box[2] or not box[3]):
-        raise InputError(f"{place}: the viewBox is empty, so that nothing is shown; give it a width and a height")
+        raise InputError(f"{place}: the viewBox is empty, so it shows nothing; give it a width and a height")
     sizes = {name: _size(root, name, place) for name in ("width", "height")}
     x, y, across, down = box or (0.0, 0.0, *((size or 0.0) / PX for size, _ in sizes.values()))
     own, seen = Viewport(across, down), _box(x, y, across, down)
@@ -249,8 +250,8 @@ class _Reader:
             self._repeated += sum(len(curve.pieces) for curve in known)
             if self._repeated > MOST_REPEATED:
                 raise LimitError(
-                    f"{self.document.place(element)}: more than {MOST_REPEATED} pieces of curves are drawn by what is "
-                    "used many times; split the drawing"
+                    f"{self.document.place(element)}: more than {MOST_REPEATED} pieces of curves are drawn, because "
+                    "some elements are used many times; split the drawing"
                 )
             return known
         made = SHAPES[element.tag](Geometry(element.attributes, self.document.place(element), state.viewport))

@@ -73,7 +73,7 @@ class Geometry:
             raise InputError(f"{self.place}: points is {shortened(text)}; write x,y x,y …")
         numbers = [float(number) for number in re.findall(_NUMBER, text)]
         if len(numbers) % 2:
-            raise InputError(f"{self.place}: points has {len(numbers)} numbers; each place needs two")
+            raise InputError(f"{self.place}: points has {len(numbers)} numbers; each point needs two")
         return list(zip(numbers[::2], numbers[1::2], strict=True))
 
 
@@ -202,9 +202,9 @@ def parsed_transform(text: str, place: str) -> Affine:
     numbers = {step: [float(number) for number in re.findall(_NUMBER, step[1])] for step in dict.fromkeys(steps)}
     for (name, _), given in numbers.items():
         if len(given) not in _COUNTS[name]:
-            raise InputError(f"{place}: transform is {shortened(text)}: the count of numbers in {name} is wrong")
+            raise InputError(f"{place}: transform is {shortened(text)}: {name} has a wrong count of numbers")
         if not all(map(isfinite, given)):
-            raise InputError(f"{place}: transform is {shortened(text)}, which goes beyond the largest number")
+            raise InputError(f"{place}: transform is {shortened(text)}, which gives coordinates too large for a double")
     turns = [step for step in numbers if step[0] in _TURNS]
     ways = dict(zip(turns, turned_each([numbers[step][0] for step in turns]), strict=True))
     maps = {
@@ -215,7 +215,7 @@ def parsed_transform(text: str, place: str) -> Affine:
     for step in steps:
         made = made.after(maps[step])
     if not all(map(isfinite, made)):
-        raise InputError(f"{place}: transform is {shortened(text)}, which goes beyond the largest number")
+        raise InputError(f"{place}: transform is {shortened(text)}, which gives coordinates too large for a double")
     return made
 
 

@@ -55,12 +55,12 @@ def parse_xml(name: str, data: bytes, namespace: str) -> Element:
     except expat.ExpatError as error:
         what = expat.ErrorString(error.code)
         raise InputError(
-            f"{name}, line {error.lineno}: this is no well-formed XML ({what}); save the drawing again"
+            f"{name}, line {error.lineno}: the file is not well-formed XML ({what}); save the drawing again"
         ) from None
     except VorotoolError:
         raise
     except (ValueError, LookupError) as error:  # encodings that are not known
-        raise InputError(f"{name} is no XML that can be read ({error}); save the drawing again as UTF-8") from None
+        raise InputError(f"{name} is not readable XML ({error}); save the drawing again as UTF-8") from None
     assert builder.root is not None  # the parser refuses files without elements
     return builder.root
 

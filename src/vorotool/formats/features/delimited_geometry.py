@@ -28,7 +28,8 @@ def features_of(source: Source) -> Features:
     column = geometry_column(text.fields)
     if column is None:
         raise InputError(
-            f"{source.name}: no column is called as one of geometry ({', '.join(GEOMETRY_COLUMNS)}); rename it so"
+            f"{source.name}: no column has the name of a geometry column ({', '.join(GEOMETRY_COLUMNS)}); rename the "
+            "column of geometry"
         )
     columns = text.columns()
     written = columns.pop(list(columns)[column])

@@ -58,7 +58,7 @@ def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet
     """Give the polygons and lines of features; those without a geometry are left out."""
     kept = _kept(features)
     options.note_left_out(features.name, len(features.geometry) - len(kept))
-    _check_kinds(features, features.geometry[kept], kept, _SHAPES, "no polygon or line", not_a_shape_advice)
+    _check_kinds(features, features.geometry[kept], kept, _SHAPES, "not a polygon or line", not_a_shape_advice)
     return _shapes_of(features, kept, options)
 
 
@@ -67,7 +67,7 @@ def sites_of_features(features: Features, options: ReadOptions) -> Sites:
     kept = _kept(features)
     options.note_empty(features.name, len(features.geometry) - len(kept))
     expected = (*_POINTS, *_SHAPES)
-    _check_kinds(features, features.geometry[kept], kept, expected, "no point, line or polygon", lambda _: OF_SITES)
+    _check_kinds(features, features.geometry[kept], kept, expected, "not a point, line or polygon", lambda _: OF_SITES)
     polygons = _shapes_of(features, kept, options)
     assert polygons.feature is not None
     known: dict[str, Any] = {}

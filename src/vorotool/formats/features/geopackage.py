@@ -65,7 +65,7 @@ class _Column(NamedTuple):
 def features_of(source: Source) -> Features:
     """Read a layer: the one that is wanted, or the only one."""
     if not source.data.startswith(MAGIC):
-        raise InputError(f"{source.name} is no GeoPackage that can be read: it begins as something else")
+        raise InputError(f"{source.name} is not a GeoPackage: its first bytes are those of another format")
     with decoding(source.name, "GeoPackage"):
         return interruptible(lambda: _read(source))
 
@@ -172,7 +172,9 @@ def _layers(source: Source, database: sqlite3.Connection) -> list[_Layer]:
         advice = f"convert it: ogr2ogr {Path(source.name).with_suffix('.gpkg').name} {source.name}"
         if "gpkg_contents" in tables:
             return []
-        raise InputError(f"{source.name} is a SQLite database, but no GeoPackage (it has no gpkg_contents): {advice}")
+        raise InputError(
+            f"{source.name} is a SQLite database, but not a GeoPackage (it has no gpkg_contents): {advice}"
+        )
     query = (
         "SELECT c.table_name, g.column_name, g.srs_id FROM gpkg_contents c JOIN gpkg_geometry_columns g "
         "ON lower(c.table_name) = lower(g.table_name) WHERE c.data_type = 'features' ORDER BY c.rowid"
@@ -194,7 +196,7 @@ def _features(source: Source, database: sqlite3.Connection, layer: _Layer) -> Fe
     columns = _columns_of(database, layer.table)
     geometry = next((each for each in columns if each.name.lower() == str(layer.column).lower()), None)
     if geometry is None:
-        raise InputError(f"{source.name}: the layer {layer.table!r} has no column {layer.column!r} of geometry")
+        raise InputError(f"{source.name}: the layer {layer.table!r} has no geometry column {layer.column!r}")
     key = next((each for each in columns if each.is_key), None)
     key = key or next((each for each in columns if each.name.lower() in _FEATURE_IDS), None)
     kept = [each for each in columns if each not in (geometry, key) and not _is_binary(each.kind)]
@@ -244,8 +246,8 @@ def _rows(source: Source, database: sqlite3.Connection, table: str, columns: Seq
         if error.sqlite_errorcode != sqlite3.SQLITE_INTERRUPT:
             raise
         raise LimitError(
-            f"{source.name}: the layer {table!r} takes longer than its file is large, as endless views do: write what "
-            "it holds as a table"
+            f"{source.name}: the layer {table!r} returns more data than the file holds, as an endless view does: save "
+            "its rows as a table"
         ) from None
     return found
 

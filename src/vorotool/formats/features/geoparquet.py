@@ -33,8 +33,8 @@ def features_of(source: Source) -> Features:
         described = document["columns"][name]
         if described.get("encoding") != "WKB":
             raise InputError(
-                f"{source.name}: its geometry is encoded as {described.get('encoding')}, but WKB is read: write it "
-                "anew, as geopandas does by default"
+                f"{source.name}: its geometry is encoded as {described.get('encoding')}, but only WKB is supported: "
+                "write the file again with WKB, the default of geopandas"
             )
         others = [each for each in document["columns"] if each != name]
         geometry, curves = geometry_of_binary(written := columns.pop(name), source.flatten)

@@ -14,11 +14,13 @@ def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> in
     held = ", ".join(named) or "none"
     if source.layer is not None:
         if source.layer not in named:
-            fault = "has no geometry" if source.layer in dict(layers) else "is not there"
-            raise InputError(f"the layer {source.layer!r} of {source.name} {fault}: those with geometry are {held}")
+            fault = "has no geometry" if source.layer in dict(layers) else "does not exist"
+            raise InputError(
+                f"the layer {source.layer!r} of {source.name} {fault}: the layers with geometry are {held}"
+            )
         return named[source.layer]
     if not named:
-        raise InputError(f"{source.name} holds no layer with geometry: nothing can be read of it")
+        raise InputError(f"{source.name} holds no layer with geometry: name another file")
     if len(named) > 1:
         how = f"as {source.name}:{next(iter(named))}"
         if source.name == STANDARD_INPUT:

@@ -82,7 +82,7 @@ def _check_sizes(source: Source, parts: Mapping[str, bytes]) -> None:
     rows, before, width = struct.unpack_from("<IHH", table, 4) if len(table) >= 12 else (0, 0, 0)
     if shapes > len(parts.get(".shp", b"")) or before + rows * width > len(table) + _HEADER:
         raise InputError(
-            f"{source.name}: its index or its table announces more than is there; is it damaged or cut off?"
+            f"{source.name}: its index or its table states more records than the file holds; is it damaged or cut off?"
         )
 
 
@@ -116,8 +116,8 @@ def check_parts(path: str, rules: Rules, *, makes_folder: bool = False) -> None:
     for name in (path, *(str(whole.with_suffix(extension)) for extension in PARTS[1:])):
         if stream_kind(name) is not None:
             raise UsageError(
-                f"a Shapefile is several files, and no stream such as {name} holds them: name a file with "
-                f"{rules.option}, or write a GeoPackage (.gpkg)"
+                f"a Shapefile is several files, which the stream {name} cannot hold: name a file with {rules.option}, "
+                "or write a GeoPackage (.gpkg)"
             )
     target = followed(path)
     for extension in PARTS[1:]:

@@ -48,7 +48,7 @@ def features_of(source: Source) -> Features:
     """Read a layer: the one that is wanted, or the only one."""
     title = TITLES[source.format]
     if not _BEGINNINGS[source.format].match(source.data):
-        raise InputError(f"{source.name} is no {title} that can be read: it begins as something else")
+        raise InputError(f"{source.name} is not a {title} file: its first bytes are those of another format")
     pyogrio = needed("pyogrio", "gis", f"{title} files")
     try:
         with decoding(source.name, title):
@@ -59,7 +59,7 @@ def features_of(source: Source) -> Features:
         if error.__cause__ is None:
             raise
         # what GDAL says is of drivers and of the place in memory that the file had
-        raise InputError(f"{source.name} is no {title} that can be read; is it damaged or cut off?") from error
+        raise InputError(f"{source.name} cannot be read as {title}; is it damaged or cut off?") from error
 
 
 def _check_count(source: Source) -> None:
@@ -73,7 +73,7 @@ def _check_count(source: Source) -> None:
     count = struct.unpack_from("<Q", source.data, root + at)[0] if at else 0
     if count > len(source.data) // _SMALLEST:
         raise InputError(
-            f"{source.name} announces {count} features, more than its {len(source.data)} bytes hold; is it damaged?"
+            f"{source.name} states {count} features, more than its {len(source.data)} bytes can hold; is it damaged?"
         )
     ReadOptions(max_sites=source.max_sites).check_sites(source.name, count)
 

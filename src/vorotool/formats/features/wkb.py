@@ -23,13 +23,15 @@ def features_of(source: Source) -> Features:
     import shapely
 
     if not source.data.strip():
-        raise InputError(f"{source.name} is empty: well-known binary was expected; check what was to write it")
+        raise InputError(
+            f"{source.name} is empty, but well-known binary (WKB) is expected; check the program that wrote it"
+        )
     is_digits = _HEXADECIMAL.fullmatch(source.data) is not None
     written = source.data.split() if is_digits else [source.data]
     geometry, curves = geometry_of_binary([item.decode() for item in written] if is_digits else written, source.flatten)
     bad = np.flatnonzero(shapely.is_missing(geometry))
     if bad.size:
-        raise InputError(f"{source.name}: geometry {bad[0] + 1} is no WKB; is the file damaged or cut off?")
+        raise InputError(f"{source.name}: geometry {bad[0] + 1} is not WKB; is the file damaged or cut off?")
     crs = crs_of_geometry(source.name, geometry, lambda row: row + 1)
     return Features(source.name, geometry, {}, None, crs, curves=curves)
 

@@ -64,9 +64,7 @@ class ZarrRows:
                 read_metadata(self.path)
             except InputError as error:
                 raise InputError(f"{self.name} holds no Zarr array: {error}") from None
-            raise InputError(
-                f"{self.name} holds no Zarr array: a zarr.json or .zarray that describes one must be in it"
-            )
+            raise InputError(f"{self.name} holds no Zarr array: the folder of an array has a zarr.json or .zarray")
         return self._image(self.path, None)
 
     def _image(self, path: str, axes: tuple[str, ...] | None) -> StoredArray:
@@ -88,7 +86,7 @@ class ZarrRows:
                 f"{self.name} has {len(shape)} axes, shape {shape}: an image has two, rows and columns{as_volume}"
             )
         if kind.kind not in "biuf":
-            raise InputError(f"{self.name} holds {kind}: an image of numbers was expected")
+            raise InputError(f"{self.name} holds {kind}: an image of numbers is expected")
         check_pixels(self.name, shape[1], shape[0], shape[0] * shape[1])
         return array
 

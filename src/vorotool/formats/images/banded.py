@@ -44,7 +44,7 @@ def open_zarr(name: str, input_format: str | None = None, page: int | None = Non
     if input_format is None and not is_store(name) and not name.rstrip(os.sep).lower().endswith(".zarr"):
         return None
     if page not in (None, 0):
-        raise InputError(f"{name} has a single page, so there is no {option(f'--page {page}')}")
+        raise InputError(f"{name} has a single page: {option(f'--page {page}')} does not exist")
     from vorotool.formats.images.band_reader import ZarrRows
 
     return ZarrRows(name, str(Path(name).absolute()))

@@ -31,7 +31,7 @@ def image_header(name: str) -> ImageHeader:
     from vorotool.formats.io.limits import check_pixels
 
     if stream_kind(name) is not None:
-        raise UsageError(f"{name} is a stream, of which the header alone cannot be read: name a file")
+        raise UsageError(f"{name} is a stream, whose header cannot be read by itself: name a file")
     array = open_zarr(name)
     if array is not None:
         height, width = array.shape
@@ -79,6 +79,6 @@ def _plain_size(source: Source) -> tuple[int, int]:
         if len(shape) >= 2:
             return shape[1], shape[0]
     raise InputError(
-        f"{source.name} is no TIFF, PNG, PNM, NPY or Zarr image, whose header can be read: convert it with "
-        f"gdal_translate {source.name} raster.tif"
+        f"{source.name} is not a TIFF, PNG, PNM, NPY or Zarr image, so its header cannot be read by itself: convert "
+        f"it with gdal_translate {source.name} raster.tif"
     )

@@ -16,8 +16,8 @@ def check_jpegs(layout: TiffLayout, data: bytes) -> None:
         _, width, height = jpeg_frame(data[offset : offset + count])
         if width > wide or height > high:
             raise InputError(
-                f"{layout.name} is damaged: {layout.kind} {index} holds a JPEG of {width} x {height} pixels, "
-                f"but has place for {layout.columns} x {layout.rows}"
+                f"{layout.name} is damaged: {layout.kind} {index} holds a JPEG of {width} x {height} pixels, but has "
+                f"room for {layout.columns} x {layout.rows}"
             )
 
 

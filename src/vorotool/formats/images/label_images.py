@@ -92,7 +92,7 @@ def label_image_of(image: Raster, name: str) -> LabelImage:
     if values.ndim != 2:
         raise InputError(f"{name} has {values.shape[2]} channels: labels need a single one")
     if image.is_lossy:
-        raise InputError(f"{name} is lossy: its values are no labels; give a PNG, TIFF or NPY file")
+        raise InputError(f"{name} has lossy compression, so its values are not labels; give a PNG, TIFF or NPY file")
     if values.dtype.kind not in "bui":
         raise InputError(f"{name} holds {values.dtype} values: labels need integers")
     if image.mask is not None:

@@ -49,7 +49,7 @@ def read_picture_file(
         count = interruptible(lambda: file.properties(index=...).n_images) if kind in _ANIMATED else 1
         if not 0 <= (page or 0) < count:
             pictures = "a single page" if count == 1 else f"{count} pages, counted from 0"
-            raise InputError(f"{source.name} has {pictures}: there is no {option(f'--page {page}')}")
+            raise InputError(f"{source.name} has {pictures}: {option(f'--page {page}')} does not exist")
         if count > 1 and page is None and note is not None:
             other = option("--page", "page=...")
             note(Message(f"{source.name} has {count} pictures: the first one is read; choose another with {other}"))

@@ -36,7 +36,7 @@ def png_header(source: Source) -> PngHeader:
     """Read the header alone."""
     data = source.data
     if not data.startswith(SIGNATURE) or len(data) < 33 or data[12:16] != b"IHDR":
-        raise InputError(f"{source.name} is no PNG file, or it is cut off in the header ({len(data)} bytes)")
+        raise InputError(f"{source.name} is not a PNG file, or is cut off in the header ({len(data)} bytes)")
     header = PngHeader(*struct.unpack(">IIBB", data[16:26]))
     if header.bit_depth not in _DEPTHS.get(header.color_type, ()):
         raise InputError(
@@ -79,7 +79,7 @@ def _chunks(source: Source) -> Iterator[tuple[bytes, int]]:
     data, at = memoryview(source.data), len(SIGNATURE)
     while True:
         if at + 12 > len(data):
-            raise InputError(f"{source.name} is cut off after {len(data)} bytes: there is no IEND chunk")
+            raise InputError(f"{source.name} is cut off after {len(data)} bytes: it has no IEND chunk")
         length, kind = struct.unpack_from(">I4s", data, at)
         end = at + 12 + length
         if end > len(data):

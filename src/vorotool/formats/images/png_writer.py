@@ -80,7 +80,7 @@ def joined_adler32(first: int, second: int, length: int) -> int:
 
 def _check_kind(bit_depth: int, palette: NDArray[np.uint8] | None) -> None:
     if bit_depth not in (1, 2, 4, 8, 16):
-        raise ValueError(f"bit_depth is {bit_depth}: a PNG has 1, 2, 4, 8 or 16 bits a pixel")
+        raise ValueError(f"bit_depth is {bit_depth}: a PNG has 1, 2, 4, 8 or 16 bits per pixel")
     if palette is None:
         return
     if palette.dtype != np.uint8 or palette.ndim != 2 or palette.shape[1] != 3:

@@ -41,7 +41,7 @@ def read_image(source: Source, options: ReadOptions) -> Raster:
 
 def _check_page(source: Source, page: int | None) -> None:
     if page not in (None, 0):
-        raise InputError(f"{source.name} has a single page, so there is no {option(f'--page {page}')}")
+        raise InputError(f"{source.name} has a single page: {option(f'--page {page}')} does not exist")
 
 
 def _npy_shape(source: Source) -> tuple[int, ...]:

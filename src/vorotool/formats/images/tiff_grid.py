@@ -46,12 +46,15 @@ def grid_of(name: str, file: Any, page: Any) -> PageGrid:
         keys = _keys(page)
         unit, crs = _system(keys)
         if crs is None and keys is not None and {GEOGRAPHIC, PROJECTED} & set(_entries(keys)):
-            note = f"{name} is in a coordinate reference system without an EPSG code: vectors made of it name none"
+            note = (
+                f"{name} is in a coordinate reference system without an EPSG code: vector files written from it state "
+                "no system"
+            )
         return PageGrid(map_grid(transform, unit=unit, crs=crs, keys=keys), nodata, note)
     ome = _ome_grid(file)
     one = "" if ome is None else states_one_side(file.pages[0].description)
     if one:
-        note = f"{name} states {one} alone: its pixels are taken for squares"
+        note = f"{name} states only {one}: pixels are assumed to be squares"
     return PageGrid(ome or _resolution_grid(file, page), nodata, note)
 
 
@@ -127,7 +130,9 @@ def _numbers(name: str, page: Any, tag: int, words: str, count: int) -> tuple[fl
     except (TypeError, ValueError):
         numbers = ()
     if len(numbers) < count or not all(map(isfinite, numbers)):
-        raise InputError(f"{name} is damaged: its {words} has not {count} finite numbers; remove its georeference")
+        raise InputError(
+            f"{name} is damaged: its {words} does not have {count} finite numbers; remove its georeference"
+        )
     return numbers
 
 

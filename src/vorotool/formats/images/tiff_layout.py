@@ -142,7 +142,7 @@ def _checked_numbers(name: str, page: Any, is_tiled: bool) -> dict[str, int]:
     for key, tag in tags.items():
         value = getattr(page, key)
         if not isinstance(value, int):
-            raise InputError(f"{name} is damaged: its {tag} is {value!r:.40}, which is no whole number")
+            raise InputError(f"{name} is damaged: its {tag} is {value!r:.40}, which is not an integer")
         if value < (key != "fillorder"):  # in which 0 means nothing
             shown = f"{page.imagewidth} x {page.imagelength} pixels: an image needs at least 1 x 1"
             is_side = key in ("imagewidth", "imagelength")
@@ -183,9 +183,11 @@ def _check_segments(layout: TiffLayout, size: int) -> None:
     offsets, counts = layout.offsets[:needed], layout.counts[:needed]
     is_left_out = (offsets == 0) & (counts == 0)
     if is_left_out.all():
-        raise InputError(f"{name} is damaged: none of its {needed} {kind}s has any bytes")
+        raise InputError(f"{name} is damaged: all of its {needed} {kind}s are empty")
     _refuse(
-        layout, (counts == 0) != (offsets == 0), "{kind} {index} has {count} bytes at byte {offset}, which cannot be"
+        layout,
+        (counts == 0) != (offsets == 0),
+        "{kind} {index} has {count} bytes at byte {offset}, which is impossible",
     )
     ends = offsets + counts
     if (ends > size).any():

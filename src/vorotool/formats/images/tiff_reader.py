@@ -50,7 +50,7 @@ def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDA
         check_pixels(source.name, layout.width, layout.height, max_pixels)
         if layout.width * layout.height * layout.samples > _MOST_CHANNELS * max_pixels:
             raise LimitError(
-                f"{source.name} has {layout.samples} values a pixel: with {layout.width} x {layout.height} pixels "
+                f"{source.name} has {layout.samples} values per pixel: with {layout.width} x {layout.height} pixels "
                 f"these are more than {_MOST_CHANNELS} x {option(f'--max-pixels {max_pixels}')}"
             )
         with decoding(source.name, "TIFF"):
@@ -60,9 +60,7 @@ def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDA
             else:
                 values = interruptible(lambda: _by_library(source, chosen, layout))
     if values.dtype.kind not in "buif" or not 2 <= values.ndim <= 3:
-        raise InputError(
-            f"{source.name} holds {values.dtype} of shape {values.shape}: an image of numbers was expected"
-        )
+        raise InputError(f"{source.name} holds {values.dtype} of shape {values.shape}: an image of numbers is expected")
     return values, about
 
 
@@ -102,9 +100,9 @@ def page_of(file: Any, name: str, page: int | None) -> Any:
         one = option(f"--page 0 to --page {count - 1}, or --page all", f"page=0 to page={count - 1}")
         raise InputError(f"{name} has {count} pages: choose one with {one}, or read them as a volume with {AS_VOLUME}")
     if count == 0:
-        raise InputError(f"{name} is damaged: it begins as a TIFF, but there is no image in it")
+        raise InputError(f"{name} is damaged: it begins as a TIFF, but holds no image")
     raise InputError(
-        f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no {option(f'--page {page}')}"
+        f"{name} has {count} page{'s' * (count != 1)}, counted from 0: {option(f'--page {page}')} does not exist"
     )
 
 
@@ -118,8 +116,8 @@ def _by_library(source: Source, page: Any, layout: TiffLayout) -> NDArray[Any]:
         return _by_pillow(source, page)
     if page.dtype is None:  # by its version the library refuses such a page, or reads it as an empty one
         raise InputError(
-            f"{source.name} has {layout.bits} bits a sample, which are no numbers: is the file damaged? "
-            "If not, save it with samples of 8, 16 or 32 bits"
+            f"{source.name} has {layout.bits} bits per sample, which is not supported: is the file damaged? If not, "
+            "save it with samples of 8, 16 or 32 bits"
         )
     values = np.asarray(page.asarray())
     if values.ndim == 3 and page.planarconfig == 2 and page.samplesperpixel == values.shape[0]:

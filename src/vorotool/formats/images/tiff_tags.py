@@ -69,8 +69,8 @@ class _Walk:
             page = len(seen)
             if place in seen:
                 raise InputError(
-                    f"{self.name} is damaged: its pages form a circle, since page {page - 1} is followed by page "
-                    f"{seen[place]}; save it anew with the program that wrote it"
+                    f"{self.name} is damaged: its pages form a cycle, since page {page - 1} is followed by page "
+                    f"{seen[place]}; save it again with the program that wrote it"
                 )
             if place >= self.size:
                 raise InputError(f"{self.name} is cut off after {self.size} bytes: page {page} begins at byte {place}")
@@ -93,8 +93,8 @@ class _Walk:
         for tag, kind, values in tags:
             if tag in _NUMBERS and (values != 1 or kind not in _WHOLE):
                 raise InputError(
-                    f"{self.name} is damaged: its {_NUMBERS[tag]} has {values} values of type {kind}, "
-                    "which are not one whole number"
+                    f"{self.name} is damaged: its {_NUMBERS[tag]} has {values} values of type {kind}, which are not "
+                    "one integer"
                 )
         self.entries += 1 + count
         self.stated += length + self._value_bytes(tags)

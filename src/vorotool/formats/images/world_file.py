@@ -50,8 +50,10 @@ def _parsed(name: str, data: bytes) -> PixelGrid:
     except ValueError:
         numbers = []
     if len(data) > _LARGEST or len(numbers) != 6 or not all(map(isfinite, numbers)):
-        raise InputError(f"{name} is no world file: six lines of a number each were expected; repair or remove it")
+        raise InputError(
+            f"{name} is not a world file: it should have six lines of one number each; correct or remove it"
+        )
     a, d, b, e, x, y = numbers  # the place is that of the center of the first pixel
     if a * e == b * d:
-        raise InputError(f"{name} gives pixels without an area: repair or remove it")
+        raise InputError(f"{name} states pixels without an area: correct or remove it")
     return map_grid((a, b, x - (a + b) / 2, d, e, y - (d + e) / 2))

@@ -112,7 +112,7 @@ def make_folder(path: str | os.PathLike[str]) -> None:
         Path(path).mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
-        raise OutputError(f"the folder {os.fspath(path)!r} cannot be made: {reason}; name another") from error
+        raise OutputError(f"the folder {os.fspath(path)!r} cannot be created: {reason}; name another") from error
 
 
 def _checked_descriptor(name: str, binary: bool, option: str) -> int | None:
@@ -168,8 +168,10 @@ def _embedded_output() -> Iterator[BinaryIO]:
 def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathLike[str]], option: str) -> Path:
     target = followed(name, option)
     exists = target.exists()
-    if not name or target.is_dir() or name.endswith(os.sep):
-        raise OutputError(f"{name!r} is {'a directory' if name else 'no name'}: name a file{' in it' * bool(name)}")
+    if not name:
+        raise OutputError("the name of the output is empty: name a file")
+    if target.is_dir() or name.endswith(os.sep):
+        raise OutputError(f"{name!r} is a directory: name a file in it")
     if not exists or not _is_regular(target):
         return target
     _check_replaced(name, target, Rules(no_clobber, tuple(inputs), option))
@@ -193,7 +195,7 @@ def followed(name: str, option: str = OUTPUT) -> Path:
     try:
         if is_of_another_process(name):
             raise OutputError(
-                f"{name} is open in another process, which alone can go on with it: name a file with {option}"
+                f"{name} is open in another process and cannot be opened again: name a file with {option}"
             )
         target = Path(os.path.realpath(name))
         if not target.exists() and target.is_symlink():
@@ -207,7 +209,7 @@ def followed(name: str, option: str = OUTPUT) -> Path:
 
 def clobber_error(name: str, option: str = OUTPUT) -> OutputError:
     """Say that an output is there already, with ``--no-clobber``."""
-    return OutputError(f"{name} exists already and {NO_CLOBBER} is given: choose another name with {option}")
+    return OutputError(f"{name} already exists, and {NO_CLOBBER} is set: choose another name with {option}")
 
 
 def _is_regular(target: Path) -> bool:
@@ -287,7 +289,7 @@ def failure(name: str, error: OSError, option: str = OUTPUT) -> OutputError:
     if code == "ENOENT":
         reason = "the directory does not exist"
         if (folder := Path(name).parent).is_dir():  # as in /proc and /dev/fd, which are made by the system
-            code, reason = "", f"no file can be made in {folder}"
+            code, reason = "", f"no file can be created in {folder}"
     return OutputError(f"{name} cannot be written: {reason}; {advice.get(code, elsewhere)}")
 
 

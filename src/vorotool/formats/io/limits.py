@@ -37,8 +37,8 @@ def check_unpacked(name: str, size: int, packed: int) -> None:
     """Refuse what becomes larger than 512 MiB and than 100 times the file that holds it."""
     if size > max(MOST_UNPACKED, _MOST_TIMES * packed):
         raise LimitError(
-            f"{name} is {packed} bytes that become {size} or more, over {_MOST_TIMES} times as many: split it, or "
-            "write it without compression"
+            f"{name} has {packed} bytes that unpack to at least {size}, more than {_MOST_TIMES} times as many: split "
+            "it, or write it without compression"
         )
 
 

@@ -47,7 +47,7 @@ def npy_header(source: Source) -> NpyHeader:
     if dtype.kind not in "buif":
         raise InputError(f"{source.name} holds {dtype}, not numbers; save it as integers or floating-point numbers")
     if any(type(side) is not int or side < 0 for side in shape):  # a truth value is taken for a number, too
-        raise InputError(f"{source.name} has the shape {shape}; whole numbers from 0 on were expected")
+        raise InputError(f"{source.name} has the shape {shape}; expected integers of 0 or more")
     return NpyHeader(shape, dtype, fortran_order, stream.tell())
 
 

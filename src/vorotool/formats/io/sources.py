@@ -172,7 +172,7 @@ def _number_of_standard_input() -> int | None:
 
 def _place(name: str) -> str:
     parent = Path(name).parent
-    return f"looked in {parent.resolve()}" if parent.is_dir() else f"nor is there a directory {parent}"
+    return f"looked in {parent.resolve()}" if parent.is_dir() else f"the folder {parent} does not exist either"
 
 
 def check_nesting(text: str | bytes, limit: int = NESTING_LIMIT, name: str = "the text") -> None:

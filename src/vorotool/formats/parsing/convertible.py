@@ -31,7 +31,7 @@ def refuse_convertible(source: Source) -> None:
         found = ".roi"
     if found is not None:
         file = source.name if source.suffix == found else f"FILE{found}"
-        raise InputError(f"{source.name}: {found} files are not read; {_CONVERSIONS.get(found, _as_map)(file)}")
+        raise InputError(f"{source.name}: {found} files are not supported; {_CONVERSIONS.get(found, _as_map)(file)}")
 
 
 def refuse_geodatabase(folder: str) -> None:
@@ -49,9 +49,8 @@ def _as_drawing(command: str) -> Callable[[str], str]:
     def advice(file: str) -> str:
         stem = Path(file).with_suffix("")
         return (
-            f"make an image of it and give {OTSU}, for example: {command.format(file=file, stem=stem)}; or, "
-            f"for its outlines, an SVG: inkscape {file} --export-text-to-path --export-plain-svg "
-            f"--export-filename={stem}.svg"
+            f"convert it to an image and use {OTSU}, for example: {command.format(file=file, stem=stem)}; or, for its "
+            f"outlines, an SVG: inkscape {file} --export-text-to-path --export-plain-svg --export-filename={stem}.svg"
         )
 
     return advice
@@ -63,7 +62,7 @@ def _as_dxf(file: str) -> str:
 
 
 def _unpacked(file: str) -> str:
-    return f"unpack it, and give a file that is in it: unzip {file}"
+    return f"unpack it, and name a file from it: unzip {file}"
 
 
 def _written(file: str) -> str:
@@ -82,6 +81,6 @@ _CONVERSIONS: dict[str, Callable[[str], str]] = {
     **dict.fromkeys(_SHAPEFILE_PARTS, _as_part),
     ".dwg": _as_dxf,
     ".zip": _unpacked,
-    **dict.fromkeys((".qgz", ".qgs"), lambda _: "it is a project of QGIS: give the files of its layers"),
-    ".roi": lambda _: "make a mask of the regions in ImageJ (Edit, Selection, Create Mask), and give that image",
+    **dict.fromkeys((".qgz", ".qgs"), lambda _: "it is a project of QGIS: name the files of its layers"),
+    ".roi": lambda _: "make a mask of the regions in ImageJ (Edit, Selection, Create Mask), and use that image",
 }

@@ -22,7 +22,7 @@ def parse_json(source: Source) -> Any:
     if source.document is not None:
         return source.document
     if not source.data.strip():
-        raise InputError(f"{source.name} is empty: JSON was expected; check what was to write it")
+        raise InputError(f"{source.name} is empty, but JSON is expected; check the program that wrote it")
     check_nesting(source.data, name=source.name)
     if source.format == "jsonl":
         return parse_lines(source)
@@ -30,7 +30,8 @@ def parse_json(source: Source) -> Any:
         return orjson.loads(source.data)
     except orjson.JSONDecodeError as error:
         raise InputError(
-            f"{source.name}, line {error.lineno}, column {error.colno}: this is not JSON ({error.msg}); correct it"
+            f"{source.name}, line {error.lineno}, column {error.colno}: the file is not valid JSON ({error.msg}); "
+            "correct it"
         ) from None
 
 
@@ -74,7 +75,7 @@ def feature_places(name: str, document: Mapping[str, Any]) -> Callable[[int], st
 def geometry_of(feature: Any, place: str) -> Mapping[str, Any] | None:
     """Give the geometry of a feature, or None; what is inside it is not looked at."""
     if not isinstance(feature, dict) or feature.get("type") != "Feature":
-        raise InputError(f'{place}: {shortened(feature)} is no Feature; give it "type": "Feature"')
+        raise InputError(f'{place}: {shortened(feature)} is not a Feature; give it "type": "Feature"')
     if not isinstance(feature.get("properties"), dict | None):
         raise InputError(f"{place}: properties are {shortened(feature['properties'])}; write an object or null")
     geometry = feature.get("geometry")

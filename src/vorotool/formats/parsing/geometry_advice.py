@@ -24,5 +24,5 @@ def not_a_point_advice(kind: str) -> str:
 def not_a_shape_advice(kind: str) -> str:
     """Say what to do with a geometry that is neither polygon nor line."""
     if kind.lower().removeprefix("multi") == "point":
-        return f"put points into a file of their own ({_TAKER_OF_ALL} points, lines and polygons together)"
+        return f"put points into a separate file ({_TAKER_OF_ALL} points, lines and polygons together)"
     return "use (Multi)Polygon or (Multi)LineString"

@@ -50,11 +50,13 @@ def parse_lines(source: Source) -> Any:
             row = orjson.loads(text)
         except orjson.JSONDecodeError as error:
             raise InputError(
-                f"{source.name}, line {line + error.lineno - 1}, column {error.colno}: this is not JSON "
+                f"{source.name}, line {line + error.lineno - 1}, column {error.colno}: the line is not valid JSON "
                 f"({error.msg}); correct it, or remove the line"
             ) from None
         if not isinstance(row, dict):
-            raise InputError(f"{source.name}, line {line}: {shortened(row)} is no object; write one on each line")
+            raise InputError(
+                f"{source.name}, line {line}: {shortened(row)} is not an object; write one object per line"
+            )
         rows.append(row)
         lines.append(line)
     kind = rows[0].get("type") if rows else None
@@ -80,7 +82,7 @@ def _feature(name: str, line: int, row: dict[str, Any]) -> dict[str, Any]:
     if kind in _GEOMETRIES:
         return {"type": "Feature", "geometry": row, "properties": None}
     if kind != "Feature":
-        raise InputError(f"{name}, line {line}: {shortened(row)} is no feature, as those before are")
+        raise InputError(f"{name}, line {line}: {shortened(row)} is not a feature, unlike those before it")
     return row
 
 
@@ -92,7 +94,8 @@ def _common_members(name: str, lines: list[int], rows: list[dict[str, Any]]) -> 
         other = next((line for line, row in zip(lines, rows, strict=True) if row.get(member) != stated), None)
         if other is not None:
             raise InputError(
-                f"{name}, line {other}: {member} is not {stated!r}, as on line {lines[0]}: give both the same"
+                f"{name}, line {other}: {member} is not {stated!r}, the value on line {lines[0]}: write the same in "
+                "all lines"
             )
         if stated is not None:
             members[member] = stated
@@ -109,6 +112,6 @@ def _common_crs(name: str, lines: list[int], rows: list[dict[str, Any]]) -> Any:
         if other != crs and not same_crs(other, crs):
             raise InputError(
                 f"{name}, line {line}: the feature is in {crs_name(other)}, but that of line {before} in "
-                f"{crs_name(crs)}: put them into a file each"
+                f"{crs_name(crs)}: put them into separate files"
             )
     return crs

@@ -68,5 +68,5 @@ def _column(name: str, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, options
         needed = math.prod(shape) * dtype.itemsize
         data = member.read(needed)
     if len(data) < needed:
-        raise InputError(f"{name}: {entry.filename} is cut off: {needed} bytes are announced, {len(data)} are there")
+        raise InputError(f"{name}: {entry.filename} is cut off: it should have {needed} bytes, but has {len(data)}")
     return np.frombuffer(data, dtype)

@@ -13,6 +13,7 @@ from vorotool.errors import InputError, LimitError, option
 from vorotool.plain import plain
 from vorotool.types.axis import YAxis
 from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.values import counted
 
 LARGEST_LABEL = 0xFFFFFFFF
 """Labels are uint32: there cannot be more sites either."""
@@ -65,12 +66,12 @@ class ReadOptions:
     def note_left_out(self, name: str, features: int) -> None:
         """Say how many features have no geometry, if any."""
         if features:
-            self.note(f"{name}: {features} features without a geometry are left out")
+            self.note(f"{name}: {counted(features, 'feature')} without geometry skipped")
 
     def note_empty(self, name: str, features: int) -> None:
         """Say how many sites have no geometry, if any."""
         if features:
-            self.note(f"{name}: {features} features without a geometry have empty cells")
+            self.note(f"{name}: {counted(features, 'feature')} without geometry, hence with an empty cell")
 
     def note_curves(self, name: str, curves: int) -> None:
         """Say how many curves were flattened, if any."""
@@ -81,7 +82,7 @@ class ReadOptions:
 
     def note_heights(self, name: str) -> None:
         """Say that coordinates beyond x and y are not used."""
-        self.note(f"{name}: only x and y are used, heights are left out")
+        self.note(f"{name}: only x and y are used; z is ignored")
 
 
 def no_points(axes: int = 2) -> NDArray[np.float64]:

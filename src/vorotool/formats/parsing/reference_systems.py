@@ -30,8 +30,8 @@ def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
     if options.to_crs is not None:
         if value.crs is None:
             raise InputError(
-                f"{name} names no coordinate reference system, so that {TO_CRS} cannot bring it into another one: "
-                f"say which it is in with {_CRS}"
+                f"{name} states no coordinate reference system, so {TO_CRS} cannot reproject it: name its system with "
+                f"{_CRS}"
             )
         if not same_crs(value.crs, options.to_crs):
             from vorotool.formats.parsing.reprojection import reprojected
@@ -58,8 +58,8 @@ def declared_in(value: Placed, name: str, declared: Any) -> Placed:
         return replace(value, crs=declared, y_axis=UP)
     if not same_crs(value.crs, declared):
         raise InputError(
-            f"{name} is in {crs_name(value.crs)}, as it says itself, not in {crs_name(declared)}: leave out "
-            f"{_CRS}, which reprojects nothing; {TO_CRS} does"
+            f"{name} is in {crs_name(value.crs)}, as the file states, not in {crs_name(declared)}: leave out {_CRS}, "
+            f"which does not reproject; {TO_CRS} does"
         )
     return value
 
@@ -68,8 +68,8 @@ def note_unnamed(name: str, xy: NDArray[np.float64], note: Callable[[str], None]
     """Tell of GeoJSON that names no system and may be longitude and latitude: by its numbers that is not known."""
     if len(xy) and bool((np.abs(xy) <= (180.0, 90.0)).all()) and bool((xy % 1 != 0).any()):
         text = (
-            f"{name} names no coordinate reference system, and is taken for planar: if it is longitude and latitude, "
-            "say so with " + option("--input-crs OGC:CRS84", 'crs="OGC:CRS84"')
+            f"{name} states no coordinate reference system and is treated as planar: for longitude and latitude use "
+            + option("--input-crs OGC:CRS84", 'crs="OGC:CRS84"')
         )
         note(Message(text, Kind.UNNAMED_CRS, source=name))
 
@@ -83,6 +83,6 @@ def crs_of_numbers(name: str, srids: Sequence[int], line_of: Callable[[int], int
     if other is not None:
         raise InputError(
             f"{name}, line {line_of(other)}: the geometry is in EPSG:{srids[other]}, but that of line "
-            f"{line_of(first)} in EPSG:{srids[first]}: put them into a file each"
+            f"{line_of(first)} in EPSG:{srids[first]}: put them into separate files"
         )
     return crs_member(f"EPSG:{srids[first]}")

@@ -22,8 +22,8 @@ def reprojected(xy: NDArray[np.float64], name: str, source: Any, target: Any) ->
     if bad.size:
         x, y = xy[bad[0]].tolist()
         raise InputError(
-            f"{name}: ({x}, {y}) in {crs_name(source)} has no place in {crs_name(target)} ({bad.size} such vertices): "
-            "choose a system that is made for the region"
+            f"{name}: ({x}, {y}) in {crs_name(source)} cannot be expressed in {crs_name(target)} ({bad.size} such "
+            "vertices): choose a system for this region"
         )
     return made
 

@@ -125,7 +125,7 @@ def _look_up(name: str, fields: list[str], wanted: Wanted, options: ReadOptions)
 
 
 def _no_z(name: str, fields: list[str]) -> InputError:
-    return InputError(f"{name}: no columns are known as x, y and z; say which are with {_X_Y_Z} ({_listing(fields)})")
+    return InputError(f"{name}: no columns recognized as x, y and z; name them with {_X_Y_Z} ({_listing(fields)})")
 
 
 def _is_number(column: str) -> bool:
@@ -155,15 +155,15 @@ def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
             f"{name}: the first line has one column, {fields[0][:40]!r}; give x and y, separated by "
             "a comma, a semicolon, a tab or blanks"
         )
-    what = "the header names no known pair of coordinates" if header else f"{len(fields)} columns without a header"
+    what = "no coordinate columns recognized in the header" if header else f"{len(fields)} columns without a header"
     example = _example(fields) if header else _numeric_example(fields)
     if example is None:
         return InputError(
-            f"{name}: {what}, and no two columns look like one; give the points that the table was made from, or say "
-            f"which are x and y with {_X_Y} ({_listing(fields)})"
+            f"{name}: {what}; give the points that the table was computed from, or name the columns of x and y with "
+            f"{_X_Y} ({_listing(fields)})"
         )
     chosen = option(f"--columns {example}", f'columns="{example}"')
-    return InputError(f"{name}: {what}; say which are x and y, for example {chosen} ({_listing(fields)})")
+    return InputError(f"{name}: {what}; name the columns of x and y, for example {chosen} ({_listing(fields)})")
 
 
 def _example(fields: list[str]) -> str | None:

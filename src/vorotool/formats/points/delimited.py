@@ -172,7 +172,7 @@ def _read_rows(layout: _Layout, options: ReadOptions) -> PointRows:
     options.check_sites(layout.name, len(values))
     axes = len(chosen.coordinates)
     if axes == 2 and options.columns is None and layout.header and "z" in map(plain_name, layout.first_record):
-        options.note(f"{layout.name}: the column z is no coordinate here: only x and y are used")
+        options.note(f"{layout.name}: the column z is ignored: only x and y are used")
     labels = None if chosen.label is None else _labels(layout, values[:, axes])
     rest = [i for i in range(fields) if i not in chosen.used] if options.properties else []
     x, y = (layout.first_record[column] if layout.header else "" for column in (chosen.x, chosen.y))
@@ -199,8 +199,8 @@ def _labels(layout: _Layout, values: NDArray[np.float64]) -> NDArray[np.int64]:
         row = int(bad[0])
         line = _core.text.line_of_row(layout.data, layout.delimiter, layout.header_records, row)
         raise InputError(
-            f"{layout.name}, line {line}: the label {values[row]:.17g} is not a whole number from 1 to "
-            f"{LARGEST_LABEL}; correct it, or leave the label out of {COLUMNS}"
+            f"{layout.name}, line {line}: the label {values[row]:.17g} is not an integer from 1 to {LARGEST_LABEL}; "
+            f"correct it, or drop the label from {COLUMNS}"
         )
     return values.astype(np.int64)
 

@@ -43,7 +43,7 @@ def json_rows(source: Source, options: ReadOptions) -> PointRows:
         _refuse_columns(source.name, options)
         return _read_document(source.name, document, options)
     if not isinstance(document, list):
-        raise InputError(f"{source.name}: {shortened(document)} is no list of points; write {_form(options)}")
+        raise InputError(f"{source.name}: {shortened(document)} is not a list of points; write {_form(options)}")
     if is_table(document):
         return points_of_objects(source.name, document, options)
     _refuse_columns(source.name, options)
@@ -63,7 +63,9 @@ def _form(options: ReadOptions) -> str:
 
 def _refuse_columns(name: str, options: ReadOptions) -> None:
     if options.columns is not None:
-        raise UsageError(f"{option('--columns')} is for delimited text and tables, but {name} is neither: leave it out")
+        raise UsageError(
+            f"{option('--columns')} applies to delimited text and tables, but {name} is neither: leave it out"
+        )
 
 
 def read_geojson(source: Source, options: ReadOptions) -> PointSet:
@@ -92,8 +94,8 @@ class _Collected:
 def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions) -> PointRows:
     if "polygons" in document:
         raise InputError(
-            f"{name} holds polygons, or what was made of them, not points: {_READER} it; for places along a "
-            f"skeleton use {_ALONG}"
+            f"{name} holds polygons, or a result for polygons, not points: {_READER} it; for points along a skeleton "
+            f"use {_ALONG}"
         )
     features = features_of(name, document)
     place = feature_places(name, document)

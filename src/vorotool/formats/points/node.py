@@ -76,14 +76,15 @@ def _read_header(name: str, first: tuple[int, str, list[str]], wanted: int) -> _
     line, text, fields = first
     form = _FORM.format(wanted)
     if not 1 <= len(fields) <= 4 or not all(field.isdecimal() and len(field) < 16 for field in fields):
-        raise InputError(f"{name}, line {line}: {text[:40]!r} is no header of a .node file; write {form}")
+        raise InputError(f"{name}, line {line}: {text[:40]!r} is not a header of a .node file; write {form}")
     vertices, dimension, attributes, markers = (int(v) for v in fields + ["0", str(wanted), "0", "0"][len(fields) :])
     if dimension != wanted:
-        what = "points in space have 3" if wanted == 3 else f"only 2 are read{f', 3 by {_SPACE}' * (dimension == 3)}"
+        two = f"only 2 are read{f', or 3 with {_SPACE}' * (dimension == 3)}"
+        what = "points in space have 3" if wanted == 3 else two
         raise InputError(f"{name}, line {line}: the vertices have {dimension} dimensions; {what}")
     if markers > 1 or attributes > 1000:
         raise InputError(
-            f"{name}, line {line}: {attributes} attributes and {markers} boundary markers a vertex; write {form}"
+            f"{name}, line {line}: {attributes} attributes and {markers} boundary markers per vertex; write {form}"
         )
     return _Header(line, vertices, dimension, attributes, markers)
 
@@ -91,8 +92,8 @@ def _read_header(name: str, first: tuple[int, str, list[str]], wanted: int) -> _
 def _check_count(name: str, header: _Header, rows: int) -> None:
     if rows != header.vertices:
         raise InputError(
-            f"{name}, line {header.line}: {header.vertices} vertices are announced, but {rows} follow; "
-            "correct the header, or complete the file"
+            f"{name}, line {header.line}: the header states {header.vertices} vertices, but {rows} follow; correct "
+            "the header, or complete the file"
         )
 
 
@@ -104,8 +105,8 @@ def _checked_numbering(source: Source, indices: NDArray[np.float64]) -> int:
         row = int(bad[0])
         line = _core.text.line_of_row(source.data, " ", 1, row)
         raise InputError(
-            f"{source.name}, line {line}: vertex {indices[row]:.17g} stands where {row + base} is due; "
-            "number the vertices from 0 or 1 without gaps"
+            f"{source.name}, line {line}: vertex {indices[row]:.17g} should be {row + base}; number the vertices from "
+            "0 or 1 without gaps"
         )
     return base
 

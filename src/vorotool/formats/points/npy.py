@@ -58,7 +58,7 @@ def npy_labels(name: str, values: NDArray[np.generic]) -> NDArray[np.int64]:
     if bad.size:
         row = int(bad[0])
         raise InputError(
-            f"{name}, row {row + 1}: the label {values[row]} is not a whole number from 1 to "
-            f"{LARGEST_LABEL}; correct it, or save x and y alone"
+            f"{name}, row {row + 1}: the label {values[row]} is not an integer from 1 to {LARGEST_LABEL}; correct it, "
+            "or save x and y alone"
         )
     return values.astype(np.int64)

@@ -36,7 +36,8 @@ def points_of_objects(name: str, rows: Sequence[Any], options: ReadOptions) -> P
     for number, row in enumerate(rows, 1):
         if not isinstance(row, dict) or row.keys() != rows[0].keys():
             raise InputError(
-                f"{name}, row {number}: {shortened(row)} has other fields than the first; give all the same"
+                f"{name}, row {number}: {shortened(row)} has other fields than the first row; give all rows the same "
+                "fields"
             )
     return rows_of_columns(name, {each: [row[each] for row in rows] for each in names}, options)
 
@@ -53,8 +54,8 @@ def npz_rows(source: Source, options: ReadOptions) -> PointRows:
     if len(lengths) != 1:
         held = "no arrays" if not lengths else f"arrays of {min(lengths)} to {max(lengths)} values"
         raise InputError(
-            f"{source.name} is no table: it holds {held}; give one whose columns are of one length, and of a "
-            f"skeleton or offset curves the table ({option('--what points -f npz', 'of points_along')}) or the JSON"
+            f"{source.name} is not a table: it holds {held}; save columns of one length, or for a skeleton or offset "
+            f"curves give the table ({option('--what points -f npz', 'of points_along')}) or the JSON"
         )
     kept = {name: values for name, values in columns.items() if not name.endswith(_MISSING)}
     values = {name: _present(values, columns.get(f"{name}{_MISSING}")) for name, values in kept.items()}
@@ -86,7 +87,7 @@ def _numbers(name: str, column: str, values: list[Any]) -> NDArray[np.float64]:
     for row, value in enumerate(values, 1):
         if type(value) is not int and not (type(value) is float and math.isfinite(value)):
             raise InputError(
-                f"{name}, row {row}: {column} is {shortened(value)}, no finite number; correct or remove it"
+                f"{name}, row {row}: {column} is {shortened(value)}, not a finite number; correct or remove it"
             )
     inexact = first_inexact(np.array(values, dtype=object).reshape(-1, 1))
     if inexact is not None:
@@ -103,7 +104,7 @@ def _labels(name: str, values: list[Any]) -> NDArray[np.int64]:
     for row, value in enumerate(values, 1):
         if type(value) not in (int, float) or value != value // 1 or not 1 <= value <= LARGEST_LABEL:
             raise InputError(
-                f"{name}, row {row}: the label {shortened(value)} is not a whole number from 1 to {LARGEST_LABEL}; "
-                f"correct it, or leave the label out of {option('--columns')}"
+                f"{name}, row {row}: the label {shortened(value)} is not an integer from 1 to {LARGEST_LABEL}; "
+                f"correct it, or drop the label from {option('--columns')}"
             )
     return np.array(values, dtype=np.int64)

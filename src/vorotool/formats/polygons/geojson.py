@@ -99,9 +99,9 @@ def _collect(collector: RingCollector, feature: int, geometry: Any, place: str) 
         for position in coordinates if kind == "MultiPoint" else [coordinates]:
             collector.add_point(feature, position)
     elif collector.takes_points:
-        raise InputError(f"{place}: {shortened(kind)} is no point, line or polygon; {OF_SITES}")
+        raise InputError(f"{place}: {shortened(kind)} is not a point, line or polygon; {OF_SITES}")
     else:
-        raise InputError(f"{place}: {shortened(kind)} is no polygon or line; {not_a_shape_advice(str(kind))}")
+        raise InputError(f"{place}: {shortened(kind)} is not a polygon or line; {not_a_shape_advice(str(kind))}")
 
 
 def write_geojson(out: BinaryIO, polygons: PolygonSet) -> None:

@@ -61,7 +61,7 @@ def read_sites(source: Source, options: ReadOptions) -> Sites:
     """Read polygons and lines, or where the object has a type GeoJSON, whose points are sites, too."""
     document = parse_json(source)
     if isinstance(document, dict) and document.get("type") == "vorotool.voronoi":
-        options.note(f"{source.name} holds a Voronoi map: the sites in it are read")
+        options.note(f"{source.name} holds a Voronoi map: its sites are read")
         sites: Sites = resolved("formats.results.voronoi_files:read_sites")(source, options)
         return sites
     if isinstance(document, dict) and "polygons" not in document and "type" in document:
@@ -84,7 +84,7 @@ def _note_holes(name: str, polygons: PolygonSet, options: ReadOptions) -> None:
     for ring in within.tolist():
         if shapely.covers(first, shapely.linestrings(closed_ring(polygons.ring(ring)))):
             options.note(
-                f"{name}: ring {ring + 1} lies in ring 1, but each ring of a list is a polygon of its own: if it is a "
+                f"{name}: ring {ring + 1} lies in ring 1, but each ring of a list is a separate polygon: if it is a "
                 f"hole, write {_FORM}"
             )
             return
@@ -95,12 +95,12 @@ def _check_type(name: str, document: Any, options: ReadOptions) -> None:
     kind = document.get("type") if isinstance(document, dict) and "polygons" in document else None
     if kind == "vorotool.offsets":
         raise InputError(
-            f"{name} holds offset curves, with arcs: write them as GeoJSON ({_AS_GEOJSON}), which has "
-            "polygons instead, or give the file that they were made from"
+            f"{name} holds offset curves, with arcs: write them as GeoJSON ({_AS_GEOJSON}), which has polygons "
+            "instead, or give the file that they were computed from"
         )
     for known, noun in (("vorotool.skeleton", "skeleton"), ("vorotool.voronoi", "Voronoi map")):
         if kind == known:
-            options.note(f"{name} holds a {noun}: the polygons in it are read")
+            options.note(f"{name} holds a {noun}: its polygons are read")
 
 
 def _items(name: str, document: Any) -> list[Any]:
@@ -110,8 +110,8 @@ def _items(name: str, document: Any) -> list[Any]:
             raise InputError(f"{name}: the object has no list of polygons; write {_FORM}, GeoJSON, or [[x, y], …]")
         return items
     if not isinstance(document, list):
-        raise InputError(f"{name}: {shortened(document)} is no polygon; write [[x, y], …], or {_FORM}")
-    refuse_table(name, document, f"polygons: give the file that it was made from, or write {_FORM}")
+        raise InputError(f"{name}: {shortened(document)} is not a polygon; write [[x, y], …], or {_FORM}")
+    refuse_table(name, document, f"polygons: give the file that it was computed from, or write {_FORM}")
     return document if is_list_of_shells(document) else [document] if document else []
 
 
@@ -135,7 +135,7 @@ def _collect(collector: RingCollector, index: int, item: Any, place: str) -> Non
             raise InputError(f"{place}: holes are {shortened(holes)}; write [[[x, y], …], …]")
         collector.add_polygon(index, [item["shell"], *(holes or [])])
     else:
-        raise InputError(f"{place}: {shortened(item)} is no polygon; write {_FORM}")
+        raise InputError(f"{place}: {shortened(item)} is not a polygon; write {_FORM}")
 
 
 def _features(described: list[dict[str, Any]], owners: list[int], place: Any) -> list[int]:
@@ -146,7 +146,7 @@ def _features(described: list[dict[str, Any]], owners: list[int], place: Any) ->
         part = described[index].get("part", 1)
         if type(part) is not int or (part != 1 and part != before + 1):
             raise InputError(
-                f"{place(index)}: part is {shortened(part)}; number the parts of a feature 1, 2, … one after the other"
+                f"{place(index)}: part is {shortened(part)}; number the parts of each feature 1, 2, … in order"
             )
         features.append((features[-1] if features else -1) + (part == 1))
         before = part

@@ -17,6 +17,7 @@ from vorotool.plain import plain
 from vorotool.types.box import bounds
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.types.values import counted
 
 _VERTICES = "<vertices> 2 <attributes> <0 or 1 boundary markers>"
 _SEGMENTS = "<segments> <0 or 1 boundary markers>"
@@ -31,7 +32,7 @@ def read_poly(source: Source, options: ReadOptions) -> PolygonSet:
     chains = _chains(segments, len(xy))
     unused = len(xy) - len(distinct(segments))
     if unused:
-        options.note(f"{source.name}: {unused} vertices of no segment are left out")
+        options.note(f"{source.name}: {counted(unused, 'vertex', 'vertices')} without a segment skipped")
     loops = {i: xy[chain[:-1]] for i, chain in enumerate(chains) if len(chain) > 3 and chain[0] == chain[-1]}
     polygons = _nested(loops, holes, _Frame.of(xy), source.name)
     polygons |= {i: [xy[chain]] for i, chain in enumerate(chains) if i not in loops}
@@ -58,10 +59,10 @@ class _Lines:
     def header(self, form: str, defaults: list[int]) -> list[int]:
         """Numbers of a header: a count, and others that may be left out."""
         if self.next == len(self.rows):
-            raise InputError(f"{self.name}: the file ends where {form} is due; complete it")
+            raise InputError(f"{self.name}: the file ends before a header; write {form}")
         fields = self.rows[self.next][1]
         if len(fields) > 1 + len(defaults) or not all(field.isdecimal() and len(field) < 10 for field in fields):
-            raise InputError(f"{self.place(self.next)}: {shortened(' '.join(fields))} stands where {form} is due")
+            raise InputError(f"{self.place(self.next)}: {shortened(' '.join(fields))} is not a header; write {form}")
         self.next += 1
         return [int(field) for field in fields] + defaults[len(fields) - 1 :]
 
@@ -70,7 +71,7 @@ class _Lines:
         taken = self.rows[self.next : self.next + rows]
         if len(taken) < rows:
             raise InputError(
-                f"{self.place(self.next - 1)}: {rows} {noun} are announced, but {len(taken)} lines follow; "
+                f"{self.place(self.next - 1)}: the header states {rows} {noun}, but {len(taken)} lines follow; "
                 "correct the number, or complete the file"
             )
         values = np.empty((rows, columns))
@@ -99,7 +100,7 @@ def _read_vertices(lines: _Lines, options: ReadOptions) -> tuple[NDArray[np.floa
     count, dimension, attributes, markers = lines.header(_VERTICES, [2, 0, 0])
     if count == 0:
         raise InputError(
-            f"{lines.name}: the vertices are in a .node file of their own; copy its lines in place of the first line"
+            f"{lines.name}: the vertices are in a separate .node file; copy its lines in place of the first line"
         )
     if dimension != 2:
         raise InputError(f"{lines.place(lines.next - 1)}: the vertices have {dimension} dimensions; only 2 are read")
@@ -111,11 +112,11 @@ def _read_vertices(lines: _Lines, options: ReadOptions) -> tuple[NDArray[np.floa
     if bad.size:
         row = int(bad[0])
         raise InputError(
-            f"{lines.place(first_row + row)}: vertex {table[row, 0]:.17g} stands where {row + base} is due; "
-            "number the vertices from 0 or 1 without gaps"
+            f"{lines.place(first_row + row)}: vertex {table[row, 0]:.17g} should be {row + base}; number the vertices "
+            "from 0 or 1 without gaps"
         )
     if attributes or markers:
-        options.note(f"{lines.name}: attributes and boundary markers are left out")
+        options.note(f"{lines.name}: attributes and boundary markers are ignored")
     return table[:, 1:], base
 
 

@@ -87,8 +87,8 @@ def _check_geometry(geometry: Any, text: str, place: str, expected: tuple[int, .
     elif kind not in expected:
         name = geometry.geom_type
         if _POINTS[0] in expected:
-            raise InputError(f"{place}: a {name} is no point, line or polygon; {OF_SITES}")
-        raise InputError(f"{place}: a {name} is no polygon or line; {not_a_shape_advice(name)}")
+            raise InputError(f"{place}: a {name} is not a point, line or polygon; {OF_SITES}")
+        raise InputError(f"{place}: a {name} is not a polygon or line; {not_a_shape_advice(name)}")
 
 
 def _check_finite(name: str, geometries: Any, texts: list[str], lines: list[int]) -> None:

@@ -105,7 +105,7 @@ def opened_document(source: Source, kind: str, noun: str) -> JsonRows:
         raise InputError(f'{source.name} holds no {noun}; its type should be "{kind}"')
     if document.get("version") != VERSION:
         found = shortened(document.get("version"))
-        raise InputError(f"{source.name}: version {found} of {kind} is not known; write version {VERSION}")
+        raise InputError(f"{source.name}: version {found} of {kind} is not supported; write version {VERSION}")
     return JsonRows(source.name, document)
 
 

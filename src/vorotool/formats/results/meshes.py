@@ -28,8 +28,8 @@ def write_mesh(
     """Write edges, triangles or points; the bytes depend on nothing but the mesh, the format and the precision."""
     if isinstance(mesh, DigitalTriangulation) and fmt != "obj":
         raise UsageError(
-            f"{what} as {fmt!r} is for triangulations: what a digital tessellation shows need not be one; write its "
-            "edges or triangles as csv, json, geojson, npz or obj"
+            f"{what} as {fmt!r} needs a triangulation, but the result is of a digital tessellation; write its edges "
+            "or triangles as csv, json, geojson, npz or obj"
         )
     _WRITERS[fmt](out, mesh, what, precision, threads)
 

@@ -34,8 +34,8 @@ def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
     holds = npz_holds(source.data)
     if holds == "points":
         raise InputError(
-            f"{source.name} holds no polygons that are read: an NPZ has those of cells ({_CELLS}) or of a "
-            f"skeleton; of others, and of offset curves, give the JSON ({_AS_JSON}), and unpack what is no NPZ"
+            f"{source.name} holds no polygons: an NPZ file has polygons for cells ({_CELLS}) and skeletons only; for "
+            f"other results give the JSON ({_AS_JSON}); unpack other archives"
         )
     if holds == "voronoi":
         return read_map(source, options).polygons
@@ -50,7 +50,7 @@ def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
 def read_sites(source: Source, options: ReadOptions) -> Sites:
     """Read the sites of a Voronoi map, or polygons as `read_polygons`, each feature a site."""
     if npz_holds(source.data) == "voronoi":
-        options.note(f"{source.name} holds a Voronoi map: the sites in it are read")
+        options.note(f"{source.name} holds a Voronoi map: its sites are read")
         return sites_of_map(read_map(source, options))
     return as_sites(read_polygons(source, options))
 
@@ -103,7 +103,7 @@ def _lists(name: str, arrays: Arrays, names: Sequence[str], numbers: str = "any"
         raise InputError(f"{name}: arrays that belong together are of different lengths ({sizes}); write it again")
     for each in names if numbers == "finite" else ():
         if arrays[each].dtype.kind not in "iuf" or not np.isfinite(arrays[each]).all():
-            raise InputError(f"{name}: {each} holds what is no finite number; write it again")
+            raise InputError(f"{name}: {each} holds a number that is not finite; write it again")
     return [arrays[each].tolist() for each in names]
 
 
@@ -111,8 +111,8 @@ def _divided(name: str, what: str, start: list[Any], items: list[Any]) -> list[A
     """Lists of items, by where each begins, and the end; none is empty but those of cells."""
     array = np.array(start)
     if array.dtype.kind not in "iu" or not divides(array.astype(np.int64), len(items)):
-        raise InputError(f"{name}: {what} should grow from 0 to {len(items)}; write it again")
+        raise InputError(f"{name}: {what} should increase from 0 to {len(items)}; write it again")
     parts = [items[begin:end] for begin, end in pairwise(start)]
     if what != "cell_starts" and not all(parts):
-        raise InputError(f"{name}: {what} has the same place twice, where a part would be empty; write it again")
+        raise InputError(f"{name}: {what} repeats a number, so that a part is empty; write it again")
     return parts

@@ -81,7 +81,9 @@ def _offsets(rows: Rows, options: ReadOptions) -> Offsets:
     sites = d.read_sites(rows, polygons)
     distance = rows.numbers("shapes", "distance")
     if not distance.all():
-        raise InputError(f"{rows.name}, shapes {np.flatnonzero(distance == 0)[0]}: the distance is 0; write another")
+        raise InputError(
+            f"{rows.name}, shapes {np.flatnonzero(distance == 0)[0]}: the distance is 0; write a nonzero one"
+        )
     start, end, center = _places(rows)
     return Offsets(
         start,
@@ -122,5 +124,7 @@ def _starts(rows: Rows, member: str, parts: str) -> NDArray[np.int64]:
     wrong = np.flatnonzero((first != expected[:-1]) | (number < 1))
     if wrong.size or expected[-1] != count:
         at = wrong[0] if wrong.size else len(first) - 1
-        raise InputError(f"{rows.name}, {member} {at}: the {parts} of each follow those of the one before; list all")
+        raise InputError(
+            f"{rows.name}, {member} {at}: the {parts} should begin where those of the previous row end; list all"
+        )
     return expected

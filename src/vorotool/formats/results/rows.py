@@ -80,7 +80,7 @@ class JsonRows:
                 raise InputError(f"{self.name}: {member} are {shortened(value)}; write a list")
             for index, row in enumerate(value):
                 if not isinstance(row, dict):
-                    raise InputError(f"{self.name}, {member} {index}: {shortened(row)} is no object")
+                    raise InputError(f"{self.name}, {member} {index}: {shortened(row)} is not an object")
             self._lists[member] = value
         return self._lists[member]
 
@@ -107,7 +107,7 @@ class JsonRows:
 
     def indices(self, member: str, name: str, limit: int, *, optional: bool = False) -> NDArray[np.int32]:
         """Return integers from 0 to below a limit; None becomes -1 where it is allowed."""
-        what = f"a whole number from 0 to {limit - 1}"
+        what = f"an integer from 0 to {limit - 1}"
         values = self.values(member, name, lambda v: _is_index(v, limit, optional=optional), what)
         return np.array([-1 if value is None else value for value in values], dtype=np.int32)
 
@@ -144,7 +144,7 @@ class JsonRows:
             return _is_pair(value) and all(_is_index(each, limit, optional=optional) for each in value)
 
         null = ", or null" if optional else ""
-        values = self.values(member, name, is_right, f"two whole numbers from 0 to {limit - 1}{null}")
+        values = self.values(member, name, is_right, f"two integers from 0 to {limit - 1}{null}")
         pairs = [[-1 if each is None else each for each in value or (None, None)] for value in values]
         return np.array(pairs, dtype=np.int32).reshape(-1, 2)
 
@@ -208,7 +208,7 @@ class ArrayRows:
 
     def integers(self, name: str, low: int, high: int) -> NDArray[np.int64]:
         """Return an array of integers from one to below another."""
-        what = f"whole numbers from {low} to {high - 1}"
+        what = f"integers from {low} to {high - 1}"
         return self.checked(name, "iub", lambda a: (a >= low) & (a < high), what).astype(np.int64)
 
     def numbers(self, member: str, name: str, *, optional: bool = False) -> NDArray[np.float64]:

@@ -22,13 +22,13 @@ def check_map(name: str, cells: VoronoiMap) -> None:
     cell = cells.cell_of_polygon[owners(np.diff(cells.polygon_starts))][ring]
     count = len(cells.arcs)
     wrong = (signed == 0) | (arc >= count)
-    _refuse(name, "cells", wrong, lambda at: f"a ring passes arc {signed[at]}; there are {count}", cell)
+    _refuse(name, "cells", wrong, lambda at: f"a ring has arc {signed[at]}, but there are {count}", cell)
     own = cells.sites[arc, is_back.astype(int)]
     _refuse(
         name,
         "cells",
         own != cell,
-        lambda at: f"a ring passes arc {signed[at]}, whose side is {_side(int(own[at]))}; correct its sites",
+        lambda at: f"a ring has arc {signed[at]}, whose side is {_side(int(own[at]))}; correct its sites",
         cell,
     )
     begin, end = np.where(is_back, high[arc], low[arc]), np.where(is_back, low[arc], high[arc])
@@ -38,7 +38,7 @@ def check_map(name: str, cells: VoronoiMap) -> None:
         name,
         "cells",
         end != begin[after],
-        lambda at: f"a ring goes on at vertex {begin[after[at]]}, but arc {signed[at]} ends at {end[at]}; close it",
+        lambda at: f"a ring continues at vertex {begin[after[at]]}, but arc {signed[at]} ends at {end[at]}; close it",
         cell,
     )
     passed = np.bincount(2 * arc + is_back, minlength=2 * count)
@@ -48,7 +48,7 @@ def check_map(name: str, cells: VoronoiMap) -> None:
         name,
         "arcs",
         passed != due,
-        lambda at: f"rings pass its {('left', 'right')[at % 2]} side {passed[at]} times; it should be {int(due[at])}",
+        lambda at: f"rings have its {('left', 'right')[at % 2]} side {passed[at]} times; expected {int(due[at])}",
         sides,
     )
 

@@ -159,7 +159,7 @@ def _map(rows: Rows, polygons: PolygonSet, site: NDArray[np.int32], options: Rea
     cells = _of_arrays(rows) if isinstance(rows, ArrayRows) else _of_cells(JsonRows(rows.name, rows.document))
     if len(cells["cell_starts"]) != len(sites) + 1:
         count = len(cells["cell_starts"]) - 1
-        raise InputError(f"{rows.name}: there are {count} cells, but {len(sites)} sites: write one cell a site")
+        raise InputError(f"{rows.name}: there are {count} cells, but {len(sites)} sites: write one cell per site")
     pairs = rows.index_pairs("arcs", "sites", _SIDES, len(sites), optional=True)
     return VoronoiMap(
         vertices=np.stack([rows.numbers("vertices", axis) for axis in "xy"], axis=1),
@@ -182,7 +182,7 @@ def _whole(rows: JsonRows, options: ReadOptions) -> PolygonSet:
     """The polygons of a document, all of which have vertices."""
     made = d.read_polygons(rows, replace(options, note=no_note))
     if len(made) != rows.count("polygons"):
-        raise InputError(f"{rows.name}: a polygon has no vertices; write each with some")
+        raise InputError(f"{rows.name}: a polygon has no vertices; write at least one")
     return made
 
 
@@ -212,7 +212,7 @@ def _limits(rows: Rows, options: ReadOptions) -> dict[str, Any]:
 
 def _cut(name: str, document: Any, options: ReadOptions) -> PolygonSet:
     if not isinstance(document, dict):
-        raise InputError(f'{name}: {shortened(document)} is no object; write {{"polygons": […]}}')
+        raise InputError(f'{name}: {shortened(document)} is not an object; write {{"polygons": […]}}')
     rows = JsonRows(name, document)
     return replace(_whole(rows, options), feature=rows.indices("polygons", "feature", _MOST))
 

@@ -68,7 +68,7 @@ class NpyVolume:
         """That the order of the axes costs time."""
         if not self._header.fortran_order or 1 in self.shape:
             return ""
-        return f"{self.name} is in Fortran order, each slice all over the file: saved in C order it is read faster"
+        return f"{self.name} is in Fortran order, which is read slowly: save it in C order"
 
     @property
     def chunk_depth(self) -> int:

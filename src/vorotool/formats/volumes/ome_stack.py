@@ -41,7 +41,7 @@ class OmeStack:
         refuse_axes(name, {"channels": self._size(name, "C"), "time steps": self._size(name, "T")})
         depth = self._size(name, "Z")
         if depth > count:
-            raise InputError(f"{name} has {count} pages, but its XML says that there are {depth} slices")
+            raise InputError(f"{name} has {count} pages, but its XML states {depth} slices")
         if not self.planes:
             return tuple(range(depth))
         place: dict[int, int] = {}
@@ -59,7 +59,7 @@ class OmeStack:
         missing = next((k for k in range(depth) if not 0 <= place.get(k, -1) < count), None)
         if missing is not None:
             raise InputError(
-                f"{name} has no page for slice {missing}, counted from 0: its XML gives it none that is there"
+                f"{name} has no page for slice {missing}, counted from 0: its XML names no page that exists"
             )
         return tuple(place[k] for k in range(depth))
 
@@ -86,7 +86,7 @@ class OmeStack:
         sides = self._sides()
         if "Z" in sides or "X" not in sides:
             return ""
-        return f"{name} says how wide its voxels are, but not how deep: it has no PhysicalSizeZ"
+        return f"{name} states the width of its voxels, but not their depth: it has no PhysicalSizeZ"
 
     def _sides(self) -> dict[str, tuple[Fraction, str]]:
         """Sides by axes, each with its unit."""
@@ -117,5 +117,5 @@ def ome_stack(text: str) -> OmeStack | None:
 def _whole(name: str, text: str, what: str) -> int:
     plain = text.strip()
     if not (plain.isascii() and plain.isdecimal() and len(plain) <= _MOST_DIGITS):
-        raise InputError(f"{name} is damaged: its {what} is {text[:40]!r}, which is no whole number")
+        raise InputError(f"{name} is damaged: its {what} is {text[:40]!r}, which is not an integer")
     return int(plain)

@@ -31,7 +31,7 @@ def open_volume(path: str | PathLike[str], *, input_format: str | None = None) -
     """Open a volume, to read it some slices at a time; its header is checked, and nothing is held."""
     said = known_input_format(input_format, VOLUME_NAMES)
     if not isinstance(path, str | PathLike):
-        raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
+        raise InputError(f"{path!r} is not a path: give the name of a file; pass arrays to functions as they are")
     name = fspath(path)
     with reading(name):
         source = _opened(name, said)
@@ -80,14 +80,15 @@ def _kind(name: str, head: bytes, said: str | None) -> str:
     """Tell the format by the content, which must be what the caller says."""
     found = next((kind for start, kind in _HEADS if head.startswith(start)), None)
     if not head:
-        raise InputError(f"{name} is empty: a volume was expected")
+        raise InputError(f"{name} is empty, but a volume is expected: check the program that wrote it")
     if said == "zarr":
         raise InputError(f"{name} is a file, but a Zarr store is a folder: leave out {INPUT_FORMAT}")
     if found is None:
         raise InputError(
-            f"{name} is no volume that is read: give a TIFF stack, an NPY array of three axes, Zarr or OME-Zarr"
+            f"{name} is not a volume in a supported format: give a TIFF stack, an NPY array of three axes, Zarr or "
+            "OME-Zarr"
         )
     if said not in (None, found):
         right = option(f"--input-format {found}", f'input_format="{found}"')
-        raise InputError(f"{name} is no {said} file, it begins as {found}: use {right}")
+        raise InputError(f"{name} is not a {said} file, it begins as {found}: use {right}")
     return found

@@ -59,7 +59,7 @@ def _rows(source: Source, said: str | None, options: ReadOptions) -> PointRows:
     if holds != "points" or reader is None:
         what = "an image" if holds == "image" else f"in the format {source.format}"
         known = ", ".join(SPACE_READERS)
-        raise InputError(f"{source.name} is {what}, from which no points with a z are read: give one of {known}, npy")
+        raise InputError(f"{source.name} is {what}, but points with a z are expected: give one of {known}, npy")
     read: Callable[[Source, ReadOptions], PointRows] = resolved(reader)
     return read(source, options)
 
@@ -74,7 +74,7 @@ def _of_array(source: Source, options: ReadOptions) -> PointRows:
         )
     if options.columns is None:
         raise InputError(
-            f"{source.name} holds an array, whose third column is the label: say that it is z with {_NUMBERS}"
+            f"{source.name} holds an array, whose third column is read as the label: name it as z with {_NUMBERS}"
         )
     options.check_sites(source.name, header.shape[0])
     wanted = parse_columns(options.columns, wants_z=True)

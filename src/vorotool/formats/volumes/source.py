@@ -67,8 +67,7 @@ def refuse_axes(name: str, axes: Mapping[str, int]) -> None:
     if found:
         raise InputError(
             f"{name} has {' and '.join(found)}: a volume has one of each; save one of them alone (in ImageJ with "
-            f"Image > Duplicate; what is no such axis is renamed with Image > Properties), or take single pages with "
-            f"{_PAGES}"
+            f"Image > Duplicate; rename a wrong axis with Image > Properties), or read single pages with {_PAGES}"
         )
 
 

@@ -56,7 +56,9 @@ def _of_imagej(name: str, said: Mapping[str, Any], page: Any) -> StackAxes:
 
 def _whole(name: str, value: Any, key: str) -> int:
     if type(value) is not int or not 0 < value < _MOST_IMAGES:
-        raise InputError(f"{name} is damaged: its description says {key}={value!r:.40}, which is no number of images")
+        raise InputError(
+            f"{name} is damaged: its description states {key}={value!r:.40}, which is not a number of images"
+        )
     return value
 
 

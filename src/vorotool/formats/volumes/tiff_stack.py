@@ -53,7 +53,7 @@ class TiffStack:
         with opened_tiff(self.name, self.path) as file, decoding(self.name, "TIFF"):
             pages = list(_full_pages(file))
             if not pages:
-                raise InputError(f"{self.name} is damaged: it begins as a TIFF, but there is no image in it")
+                raise InputError(f"{self.name} is damaged: it begins as a TIFF, but holds no image")
             axes = stack_axes(self.name, file, len(pages))
             first = page_layout(self.name, size, pages[0])
             _check_values(first, pages[0])
@@ -148,9 +148,7 @@ def _full_pages(file: Any) -> Iterator[Any]:
 
 def _count_of(name: str, axes: StackAxes, pages: int) -> int:
     if axes.slices not in (None, pages):
-        raise InputError(
-            f"{name} has {pages} pages, but its description says that there are {axes.slices} slices: is it cut off?"
-        )
+        raise InputError(f"{name} has {pages} pages, but its description states {axes.slices} slices: is it cut off?")
     return pages
 
 
@@ -159,7 +157,7 @@ def _check_values(layout: TiffLayout, page: Any) -> None:
     name = layout.name
     if layout.samples != 1:
         raise InputError(
-            f"{name} has {layout.samples} values a pixel: a volume has one; save one channel, or a label image, alone"
+            f"{name} has {layout.samples} values per pixel: a volume has one; save one channel, or a label image, alone"
         )
     if not is_decoded_here(layout):
         compression = getattr(page.compression, "name", str(page.compression))
@@ -195,9 +193,7 @@ def _behind_each_other(layout: TiffLayout, slices: int, size: int) -> Sequence[T
     """Slices that only the first page describes, as ImageJ writes them beyond 4 GiB."""
     each = layout.height * layout.row_bytes
     if not layout.is_one_array:
-        raise InputError(
-            f"{layout.name} has 1 page, but its description says that there are {slices} slices: is it cut off?"
-        )
+        raise InputError(f"{layout.name} has 1 page, but its description states {slices} slices: is it cut off?")
     end = int(layout.offsets[0]) + slices * each
     if end > size:
         raise InputError(f"{layout.name} is cut off after {size} bytes: its {slices} slices end at byte {end}")

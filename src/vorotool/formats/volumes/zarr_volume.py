@@ -49,7 +49,7 @@ class ZarrVolume:
             axes = self._axes(array, path)
         _check_axes(self.name, axes, array.shape)
         if array.dtype.kind not in "biuf":
-            raise InputError(f"{self.name} holds {array.dtype}: a volume of numbers was expected")
+            raise InputError(f"{self.name} holds {array.dtype}: a volume of numbers is expected")
         return array
 
     def _axes(self, array: StoredArray, path: str) -> tuple[str, ...]:
@@ -74,7 +74,7 @@ class ZarrVolume:
             read_metadata(self.path)
         except InputError as error:
             raise InputError(f"{self.name} holds no Zarr array: {error.marked}") from None
-        raise InputError(f"{self.name} holds no Zarr array: a zarr.json or .zarray that describes one must be in it")
+        raise InputError(f"{self.name} holds no Zarr array: the folder of an array has a zarr.json or .zarray")
 
     @property
     def shape(self) -> tuple[int, int, int]:

@@ -197,7 +197,7 @@ def checked_bytes_codec(name: str, options: dict[str, Any], dtype: np.dtype[Any]
     if short == "shuffle":
         size = options.get("elementsize", 4)
         if type(size) is not int or not 1 <= size <= 256:
-            raise InputError(f"its shuffle has elements of {size!r:.40} bytes: a number from 1 to 256 was expected")
+            raise InputError(f"its shuffle has elements of {size!r:.40} bytes: expected a number from 1 to 256")
         return Shuffle(size)
     if short == "delta":
         values = [options.get(key) or options.get("dtype") or dtype.str for key in ("dtype", "astype")]
@@ -206,4 +206,4 @@ def checked_bytes_codec(name: str, options: dict[str, Any], dtype: np.dtype[Any]
             raise InputError(f"its delta is of {values[0]!r:.40}, but its values are {dtype.str}")
         return Delta(kinds[0], kinds[1])
     known = ", ".join([*BYTES_CODECS, "shuffle", "delta", "crc32c"])
-    raise InputError(f"its codec {name!r:.60} is not accepted: these are: {known}")
+    raise InputError(f"its codec {name!r:.60} is not supported: use one of {known}")

@@ -89,14 +89,14 @@ def read_json(file: Path) -> dict[str, Any]:
     with file.open("rb") as opened:
         text = opened.read(LARGEST_METADATA + 1)
     if len(text) > LARGEST_METADATA:
-        raise InputError(f"{file} has more than {LARGEST_METADATA} bytes: metadata of an array are far shorter")
+        raise InputError(f"{file} has more than {LARGEST_METADATA} bytes: the metadata of an array are far shorter")
     check_nesting(text, name=str(file))
     try:
         made = json.loads(text)
     except ValueError as error:
-        raise InputError(f"{file} is no JSON: {error}") from None
+        raise InputError(f"{file} is not JSON: {error}") from None
     if not isinstance(made, dict):
-        raise InputError(f"{file} holds no JSON object, which metadata are")
+        raise InputError(f"{file} holds no JSON object, which the metadata should be")
     return made
 
 
@@ -122,7 +122,7 @@ def _version_2(made: dict[str, Any]) -> ZarrMetadata:
     _check_axes(shape, chunks)
     code = made["dtype"]
     if not (isinstance(code, str) and _CODED_TYPE.fullmatch(code)):
-        raise InputError(f"it holds {code!r:.60}: an image of numbers was expected")
+        raise InputError(f"it holds {code!r:.60}: an image of numbers is expected")
     dtype = np.dtype(code)
     steps = [*(made.get("filters") or ()), *([made["compressor"]] if made.get("compressor") else ())]
     _check_count(steps)
@@ -135,24 +135,24 @@ def _version_2(made: dict[str, Any]) -> ZarrMetadata:
 
 def _version_3(made: dict[str, Any]) -> ZarrMetadata:
     if made["zarr_format"] != 3:
-        raise InputError(f"its format is {made['zarr_format']!r:.40}: 2 or 3 was expected")
+        raise InputError(f"its format is {made['zarr_format']!r:.40}: expected 2 or 3")
     for key, value in made.items():
         if key not in _KNOWN_KEYS and not (isinstance(value, dict) and value.get("must_understand") is False):
-            raise InputError(f"its metadata have {key!r:.60}, an extension that is not known")
+            raise InputError(f"its metadata have {key!r:.60}, an unknown extension")
     if made.get("storage_transformers"):
-        raise InputError("it has storage transformers, which are not known")
+        raise InputError("it has storage transformers, which are not supported")
     grid, grid_options = _named(made["chunk_grid"], "name")
     if grid != "regular":
-        raise InputError(f"its grid of chunks is {grid!r:.60}: regular was expected")
+        raise InputError(f"its grid of chunks is {grid!r:.60}: expected regular")
     shape, chunks = _sizes(made["shape"], 0), _sizes(grid_options["chunk_shape"], 1)
     _check_axes(shape, chunks)
     kind = made["data_type"]
     if not (isinstance(kind, str) and _NAMED_TYPE.fullmatch(kind)):
-        raise InputError(f"it holds {kind!r:.60}: an image of numbers was expected")
+        raise InputError(f"it holds {kind!r:.60}: an image of numbers is expected")
     dtype = np.dtype(kind)
     encoding, key_options = _named(made["chunk_key_encoding"], "name")
     if encoding not in ("default", "v2"):
-        raise InputError(f"its chunks are named by {encoding!r:.60}: default or v2 was expected")
+        raise InputError(f"its chunks are named by {encoding!r:.60}: expected default or v2")
     separator = _choice(key_options, "separator", ("/", ".") if encoding == "default" else (".", "/"))
     pipeline = _pipeline(made["codecs"], chunks, dtype, _fill_value(made["fill_value"], dtype))
     return ZarrMetadata(shape, pipeline, f"c{separator}" if encoding == "default" else "", separator)
@@ -161,7 +161,7 @@ def _version_3(made: dict[str, Any]) -> ZarrMetadata:
 def _pipeline(steps: Any, shape: tuple[int, ...], dtype: np.dtype[Any], fill: Any, depth: int = 0) -> Pipeline:
     """Codecs of format 3: of arrays, one that makes bytes of them, and of bytes."""
     if not isinstance(steps, list):
-        raise InputError(f"its codecs are {steps!r:.60}: a list was expected")
+        raise InputError(f"its codecs are {steps!r:.60}: expected a list")
     _check_count(steps)
     orders: list[tuple[int, ...]] = []
     shard: Shard | None = None
@@ -174,26 +174,26 @@ def _pipeline(steps: Any, shape: tuple[int, ...], dtype: np.dtype[Any], fill: An
             stored = dtype.newbyteorder(">" if _choice(options, "endian", ("little", "big")) == "big" else "<")
         elif name == "sharding_indexed" and stored is None and depth < 2:
             if orders:
-                raise InputError("its shards are transposed, which is not known: save it without")
+                raise InputError("its shards are transposed, which is not supported: save it without")
             stored, shard = dtype, _shard(options, shape, dtype, fill, depth)
         elif stored is not None:
             codecs.append(Checksum() if name == "crc32c" else checked_bytes_codec(name, options, dtype))
         else:
-            raise InputError(f"its codec {name!r:.60} is not known or not in its place: accepted are {_ACCEPTED}")
+            raise InputError(f"its codec {name!r:.60} is not supported, or is out of place: supported are {_ACCEPTED}")
     if stored is None:
-        raise InputError("its codecs make no bytes: bytes or sharding_indexed was expected")
+        raise InputError("its codecs produce no bytes: expected bytes or sharding_indexed")
     return Pipeline(shape, stored, fill, tuple(orders), shard, tuple(codecs))
 
 
 def _shard(options: dict[str, Any], shape: tuple[int, ...], dtype: np.dtype[Any], fill: Any, depth: int) -> Shard:
     inner = _sizes(options["chunk_shape"], 1)
     if len(inner) != len(shape) or any(whole % part for whole, part in zip(shape, inner, strict=True)):
-        raise InputError(f"its shards of shape {shape} are not made of whole chunks of shape {inner}")
+        raise InputError(f"its shards of shape {shape} are not multiples of the chunks of shape {inner}")
     counts = tuple(whole // part for whole, part in zip(shape, inner, strict=True))
     location = _choice(options, "index_location", ("end", "start"))
     index = _pipeline(options["index_codecs"], (*counts, 2), np.dtype(np.uint64), 2**64 - 1, depth=2)
     if any(not isinstance(codec, Checksum) for codec in index.codecs) or index.orders:
-        raise InputError("the index of its shards is compressed: only bytes and crc32c are known")
+        raise InputError("the index of its shards is compressed: only bytes and crc32c are supported")
     return Shard(counts, _pipeline(options["codecs"], inner, dtype, fill, depth + 1), index, location == "start")
 
 
@@ -205,21 +205,21 @@ def _named(step: Any, key: str) -> tuple[str, dict[str, Any]]:
         raise InputError(f"{step!r:.60} in its metadata has no {key}")
     options = step.get("configuration") or {} if key == "name" else step
     if not isinstance(options, dict):
-        raise InputError(f"the configuration of {step[key]!r:.60} is no JSON object")
+        raise InputError(f"the configuration of {step[key]!r:.60} is not a JSON object")
     return step[key], options
 
 
 def _sizes(values: Any, least: int) -> tuple[int, ...]:
     if not isinstance(values, list) or not all(type(value) is int and least <= value < 2**62 for value in values):
-        raise InputError(f"{values!r:.60} is no shape: whole numbers from {least} on were expected")
+        raise InputError(f"{values!r:.60} is not a shape: expected integers of at least {least}")
     if len(values) > _MOST_AXES:
-        raise InputError(f"its shape {values!r:.60} has {len(values)} axes: at most {_MOST_AXES} were expected")
+        raise InputError(f"its shape {values!r:.60} has {len(values)} axes: at most {_MOST_AXES} are supported")
     return tuple(values)
 
 
 def _check_count(steps: list[Any]) -> None:
     if len(steps) > _MOST_CODECS:
-        raise InputError(f"it has {len(steps)} codecs, one after the other: at most {_MOST_CODECS} were expected")
+        raise InputError(f"it has {len(steps)} codecs in sequence: at most {_MOST_CODECS} are supported")
 
 
 def _check_axes(shape: tuple[int, ...], chunks: tuple[int, ...]) -> None:
@@ -231,7 +231,7 @@ def _choice(options: dict[str, Any], key: str, choices: tuple[str, str]) -> str:
     """Value of an option, the first of its choices if it is not there."""
     value = options.get(key, choices[0])
     if value not in choices:
-        raise InputError(f"its {key} is {value!r:.40}: {choices[0]} or {choices[1]} was expected")
+        raise InputError(f"its {key} is {value!r:.40}: expected {choices[0]} or {choices[1]}")
     return str(value)
 
 
@@ -241,7 +241,7 @@ def _order(order: Any, axes: int) -> tuple[int, ...]:
     if isinstance(order, str):
         order = list(known.get(order, ()))
     if not isinstance(order, list) or sorted(order) != list(values):
-        raise InputError(f"its transpose has the order {order!r:.60}, which is none of {axes} axes")
+        raise InputError(f"its transpose has the order {order!r:.60}, which is not an order of {axes} axes")
     return tuple(order)
 
 

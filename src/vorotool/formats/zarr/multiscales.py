@@ -76,7 +76,7 @@ def largest_image(name: str, folder: str) -> Described | None:
         found = Described(path, axes, _scale(len(axes), changes), units)
     except (AttributeError, KeyError, TypeError, ValueError, IndexError):
         raise InputError(
-            f"{name}: its multiscales are no metadata of OME-Zarr 0.4 or 0.5; name an array in it"
+            f"{name}: its multiscales are not metadata of OME-Zarr 0.4 or 0.5; name an array in it"
         ) from None
     place = PurePosixPath(path)
     if place.is_absolute() or ".." in place.parts or not place.parts or "\\" in path or "\0" in path:

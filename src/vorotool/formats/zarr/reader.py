@@ -85,7 +85,7 @@ class StoredArray:
                 self._stored = self._listed()
             return None
         if not stat.S_ISREG(status.st_mode) or status.st_size > most:
-            raise ValueError(f"chunk {key} is no file of at most {most} bytes")
+            raise ValueError(f"chunk {key} is not a file of at most {most} bytes")
         return path.read_bytes()
 
     def _stored_within(self, region: tuple[slice, ...]) -> Iterator[tuple[int, ...]]:

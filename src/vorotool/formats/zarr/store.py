@@ -68,7 +68,7 @@ def check_store(
     name = os.fspath(path)
     if (kind := stream_kind(name)) is not None:
         place = "standard output" if name == STANDARD else f"{name}, {kind}"
-        raise UsageError(f"a Zarr store is a folder, which does not go to {place}: name it with {OUTPUT}")
+        raise UsageError(f"a Zarr store is a folder and cannot be written to {place}: name it with {OUTPUT}")
     with explained(name):
         target = followed(name)
         exists = target.exists()
@@ -92,7 +92,7 @@ def _may_be_replaced(target: Path) -> bool:
 
 
 def _other_error(name: str) -> OutputError:
-    return OutputError(f"{name!r} is there and is no Zarr array, which alone is replaced: choose another name")
+    return OutputError(f"{name!r} exists and is not a Zarr array, so it is not replaced: choose another name")
 
 
 @contextmanager

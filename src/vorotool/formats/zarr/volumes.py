@@ -84,10 +84,10 @@ def volume_folder(
 def check_levels(path: str | os.PathLike[str], levels: int) -> None:
     """Refuse coarser copies in what is not named as OME-Zarr, or fewer than none of them."""
     if levels < 0:
-        raise UsageError(f"invalid number of coarser copies {levels}: expected one from 0 on")
+        raise UsageError(f"invalid number of coarser copies {levels}: expected 0 or more")
     if levels and not Path(path).name.lower().endswith(OME_ENDING):
         end = option(f"-o NAME{OME_ENDING}", f"a path that ends in {OME_ENDING}")
-        raise UsageError(f"coarser copies are for OME-Zarr: use {end}, or leave them out")
+        raise UsageError(f"coarser copies apply to OME-Zarr only: use {end}, or leave them out")
 
 
 def usual_levels(shape: Shape) -> int:
