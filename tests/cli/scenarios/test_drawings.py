@@ -97,9 +97,9 @@ def test_notes(run, folder):
     done = run("draw", "a.svg", "-f", "svg")
     assert done.code == 0
     for words in (
-        "1 closed lines without a fill",
-        "1 elements that are not displayed",
-        "1 shapes without fill and stroke",
+        "1 closed line without a fill",
+        "1 hidden element",
+        "1 shape without fill and stroke",
     ):
         assert f"note: a.svg: {words}" in done.err
     assert run("draw", "a.svg", "-f", "svg", "-q").err == ""
