@@ -49,11 +49,10 @@ def cluster_results(
 ) -> Generator[tuple[int, Outcome], None, None]:
     """Do tasks on a Dask cluster, whose workers see the same files by the same paths."""
 
-    def submit(client: Any, numbered: tuple[int, Task]) -> Any:
-        number, task = numbered
-        return client.submit(_carry_out, process, _absolute(task), pure=False, key=f"vorotool-{task.tag}{number}")
+    def call(numbered: tuple[int, Task]) -> tuple[Any, ...]:
+        return f"vorotool-{numbered[1].tag}{numbered[0]}", _carry_out, process, _absolute(numbered[1])
 
-    for (number, task), failure, outcome in _done_on_cluster(tasks, submit, address, jobs):
+    for (number, task), failure, outcome in _done_on_cluster(tasks, call, address, jobs):
         if failure is not None:
             yield number, Outcome(code=1, message=str(failure))
         else:
@@ -65,11 +64,10 @@ def write_bands(
 ) -> Iterator[int]:
     """Compute bands on a Dask cluster, whose workers write them into a store that all see by the same path."""
 
-    def submit(client: Any, numbered: tuple[int, Band]) -> Any:
-        first, band = numbered
-        return client.submit(_write_band, str(folder), first, band, pure=False, key=f"{folder.name}-{first}")
+    def call(numbered: tuple[int, Band]) -> tuple[Any, ...]:
+        return f"{folder.name}-{numbered[0]}", _write_band, str(folder), *numbered
 
-    for (first, _), failure, _ in _done_on_cluster(bands, submit, address, jobs):
+    for (first, _), failure, _ in _done_on_cluster(bands, call, address, jobs):
         if failure is not None:
             raise failure
         yield first
@@ -78,9 +76,9 @@ def write_bands(
 
 
 def _done_on_cluster(
-    items: Iterator[T], submit: Callable[[Any, T], Any], address: str, jobs: int | None
+    items: Iterator[T], call: Callable[[T], tuple[Any, ...]], address: str, jobs: int | None
 ) -> Iterator[tuple[T, Exception | None, Any]]:
-    """Yield each item as it is done: with its result, or with what went wrong."""
+    """Yield each item as it is done, with its result or what went wrong; `call` has a name, a function, arguments."""
     going: dict[Any, T] = {}
     with ExitStack() as stack:
         client = stack.enter_context(_connected(address, jobs))
@@ -91,7 +89,8 @@ def _done_on_cluster(
         is_lost = False
 
         def start(item: T) -> Any:
-            future = submit(client, item)
+            name, *function = call(item)
+            future = client.submit(*function, pure=False, key=name)
             done.add(future)
             return future
 
@@ -158,41 +157,34 @@ def _connected(address: str, jobs: int | None) -> Iterator[Any]:
         raise UsageError("--cluster needs dask.distributed: pip install 'vorotool[distributed]'") from None
     for name in ("distributed", "distributed.client"):
         logging.getLogger(name).setLevel(logging.CRITICAL)  # what it would say is in the outcomes
-    if address != LOCAL:
-        _check_address(address)
     with ExitStack() as stack:
         cluster = stack.enter_context(_started(distributed, jobs)) if address == LOCAL else address
         try:
+            if address != LOCAL:
+                _check_address(address)
             client = distributed.Client(cluster, timeout=PATIENCE, set_as_default=False)
             stack.callback(_quietly, client.close, timeout=CLOSING)
             client.wait_for_workers(1, timeout=FIRST_WORKER)
         except TimeoutError:
             raise UsageError(f"--cluster {address}: nobody works there; start workers") from None
         except (OSError, ValueError) as error:
-            raise UsageError(f"--cluster {address}: no scheduler answers there ({error}); check the address") from None
+            raise UsageError(
+                f"--cluster {address}: no scheduler answers there ({error}); give HOST:PORT, or local to start one"
+            ) from None
         yield client
 
 
 def _check_address(address: str) -> None:
-    """Refuse at once what can be no address: a client that fails as it begins ends late, and not quietly."""
+    """Refuse at once what a client would wait for, or not end quietly with."""
     from distributed import Security
-    from distributed.comm.addressing import get_address_host_port, normalize_address, parse_address
+    from distributed.comm.addressing import get_address_host_port, normalize_address
 
-    try:
-        full = normalize_address(address)
-        scheme, _ = parse_address(full)
-        host, port = get_address_host_port(full, strict=True)
-        if not host or not 0 < port < 1 << 16:
-            raise ValueError("HOST must not be empty, and PORT from 1 to 65535")
-    except ValueError as error:
-        raise UsageError(
-            f"--cluster {address!r} is not the address of a scheduler ({error}): give HOST:PORT, or local to start a "
-            "cluster"
-        ) from None
-    if scheme in ("tls", "wss") and Security().get_connection_args("client").get("ssl_context") is None:
-        raise UsageError(
-            f"--cluster {address} needs certificates: name them in distributed.comm.tls of Dask's settings"
-        )
+    full = normalize_address(address)
+    host, port = get_address_host_port(full, strict=True)
+    if not host or not 0 < port < 1 << 16:
+        raise ValueError("HOST must not be empty, and PORT from 1 to 65535")
+    if full.startswith(("tls:", "wss:")) and Security().get_connection_args("client").get("ssl_context") is None:
+        raise ValueError("it needs certificates: name them in distributed.comm.tls of Dask's settings")
 
 
 @contextmanager
