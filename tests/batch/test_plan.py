@@ -21,18 +21,18 @@ def test_names_of_outputs():
 def test_two_inputs_with_one_output(tmp_path):
     tasks = [Task("x/a.png", (f"{tmp_path}/a.csv",)), Task("y/a.tif", (f"{tmp_path}/a.csv",))]
     with pytest.raises(UsageError, match=r"x/a\.png"):
-        check_outputs(tasks, tmp_path)
-    check_outputs(tasks[:1], tmp_path, others={"--table": None, "--stats": "-"})
+        check_outputs(tasks, tmp_path, {}, {})
+    check_outputs(tasks[:1], tmp_path, {"--stats": "-"}, {})
     with pytest.raises(UsageError, match=r"x/a\.png"):
-        check_outputs(tasks[:1], tmp_path, others={"--table": f"{tmp_path}/b/../a.csv"})
+        check_outputs(tasks[:1], tmp_path, {"--table": f"{tmp_path}/b/../a.csv"}, {})
 
 
 def test_capitals_are_no_difference_on_macos(tmp_path, monkeypatch):
     tasks = [Task("a.png", (f"{tmp_path}/a.csv",)), Task("A.tif", (f"{tmp_path}/A.csv",))]
-    check_outputs(tasks, tmp_path)
+    check_outputs(tasks, tmp_path, {}, {})
     monkeypatch.setattr("sys.platform", "darwin")
     with pytest.raises(UsageError, match="both"):
-        check_outputs(tasks, tmp_path)
+        check_outputs(tasks, tmp_path, {}, {})
 
 
 @pytest.mark.parametrize("link", [os.link, os.symlink])
@@ -41,9 +41,9 @@ def test_an_output_that_is_an_input(tmp_path, link):
     link(tmp_path / "a.csv", tmp_path / "b.csv")
     task = Task(str(tmp_path / "a.csv"), (str(tmp_path / "b.csv"),))
     with pytest.raises(UsageError, match=r"b\.csv"):
-        check_outputs([task], tmp_path)
+        check_outputs([task], tmp_path, {}, {})
     with pytest.raises(UsageError, match=r"--stats"):
-        check_outputs([Task(task.source, ())], tmp_path, others={"--stats": str(tmp_path / "b.csv")})
+        check_outputs([Task(task.source, ())], tmp_path, {"--stats": str(tmp_path / "b.csv")}, {})
 
 
 def test_outputs_stay_in_their_folder(tmp_path):
@@ -53,8 +53,8 @@ def test_outputs_stay_in_their_folder(tmp_path):
     (tmp_path / "out/file.csv").symlink_to(tmp_path / "else/file.csv")
     for name in ("sub/a.csv", "file.csv"):
         with pytest.raises(OutputError, match="outside"):
-            check_outputs([Task("a.png", (f"{tmp_path}/out/{name}",))], tmp_path / "out")
-    check_outputs([Task("a.png", (f"{tmp_path}/out/new/a.csv",))], tmp_path / "out")
+            check_outputs([Task("a.png", (f"{tmp_path}/out/{name}",))], tmp_path / "out", {}, {})
+    check_outputs([Task("a.png", (f"{tmp_path}/out/new/a.csv",))], tmp_path / "out", {}, {})
 
 
 @pytest.mark.parametrize(("count", "parts"), [(300, 7), (8, 8), (3, 5), (1, 1)])

@@ -20,7 +20,6 @@ from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.layer_names import file_of
 from vorotool.formats.io.sources import without_gz
-from vorotool.jobs.inputs import is_several
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.targets import Target, check_cluster, plan_targets
@@ -53,9 +52,10 @@ class Plan:
     notes: list[str]  # what is said before the work begins
 
 
-def plan_batch(recipe: Recipe, o: Options, *, is_alone: bool) -> Plan:
-    """Lay out a batch, or one input that is processed here and now."""
-    _check_options(o, is_alone=is_alone)
+def plan_batch(recipe: Recipe, o: Options, several: str) -> Plan:
+    """Lay out a batch; `several` says why there are several inputs, nothing of one that is processed here and now."""
+    _check_options(o, several)
+    is_alone = not several
     o, notes = _named_for_shard(o)
     table = _joint_table(recipe, o)
     if o.out_dir is None and o.output is None and table is not None:
@@ -84,34 +84,22 @@ def plan_batch(recipe: Recipe, o: Options, *, is_alone: bool) -> Plan:
     return Plan(o, tasks, targets, table, manifest, notes)
 
 
-def _check_options(o: Options, *, is_alone: bool) -> None:
+def _check_options(o: Options, several: str) -> None:
     """Refuse options that do not go together."""
-    if o.resume and (o.out_dir is None or is_alone):
+    if o.resume and (o.out_dir is None or not several):
         raise UsageError("--resume needs --out-dir DIR, which has the record of what was done, and files as inputs")
-    if is_alone:
+    if not several:
         return
-    inputs = _several(o)
     if o.output is not None:
-        raise UsageError(f"{inputs}, but -o names one output: name a folder for all with --out-dir")
+        raise UsageError(f"{several}, but -o names one output: name a folder for all with --out-dir")
     if o.out_dir is None and o.table is None and o.table_inputs is None:
-        raise UsageError(f"{inputs}: name a folder for their outputs with --out-dir")
+        raise UsageError(f"{several}: name a folder for their outputs with --out-dir")
     for name, path in o.files_of_inputs().items():
         if (kind := stream_kind(path)) is not None:
             what = "standard input" if path == STANDARD else kind
             raise UsageError(f"--{name} {path} is {what}, which not every input can read: name a file")
     if o.cluster not in (None, "local") and o.jobs is not None:
         raise UsageError("-j is for this machine: a cluster has the workers that it has")
-
-
-def _several(o: Options) -> str:
-    """Return why this is a batch, by what the user typed."""
-    if len(o.inputs) > 1:
-        return f"{len(o.inputs)} inputs are given"
-    if o.files_from is not None:
-        return f"--files-from {o.files_from} lists inputs"
-    if any(map(is_several, o.inputs)):
-        return f"{o.inputs[0]} stands for several inputs"
-    return "--page all makes each page an input" if o.page == ALL_PAGES else "--cluster is for several inputs"
 
 
 # ---- the inputs and their outputs --------------------------------------------------------------------------------
@@ -125,8 +113,9 @@ def _tasks(recipe: Recipe, o: Options, targets: list[Target], notes: list[str], 
         folder = o.out_dir or ""  # without one there are no targets
         endings = [target.path.removeprefix(str(Path(folder) / "input")) for target in targets]
         tasks = [Task(each.source, output_paths(each.name, endings, folder), each.path, each.page) for each in inputs]
-    others = {"--table": o.table, "--table-inputs": o.table_inputs, "--stats": o.stats}
-    check_outputs(tasks, None if is_alone else o.out_dir, others=others, read=o.files_read())
+    options = {"--table": o.table, "--table-inputs": o.table_inputs, "--stats": o.stats}
+    written = {option: path for option, path in options.items() if path is not None}
+    check_outputs(tasks, None if is_alone else o.out_dir, written, o.files_read())
     if o.shard is None:
         return tasks
     chosen = {each.source for each in share(inputs, *o.shard)}
@@ -246,28 +235,24 @@ def output_paths(name: str, endings: Sequence[str], folder: str | os.PathLike[st
 
 
 def check_outputs(
-    tasks: Sequence[Task],
-    folder: str | None,
-    *,
-    others: Mapping[str, str | None] | None = None,
-    read: Mapping[str, str] | None = None,
+    tasks: Sequence[Task], folder: str | None, options: Mapping[str, str], read: Mapping[str, str]
 ) -> None:
     """Refuse outputs that would replace an input or one another, or lie outside their folder, if they have one.
 
-    `others` are further files that are written, `read` files that are read with all inputs, by their options.
+    `options` are the files that options write, `read` those that are read with all inputs.
     """
     owners = _owners(tasks)
-    options = {option: path for option, path in (others or {}).items() if path is not None}
-    for option, path in options.items():
-        before = list(options.items())[: list(options).index(option)]
+    for number, (option, path) in enumerate(options.items()):
+        before = list(options.items())[:number]
         roles = [f"{each} {other}" for each, other in before if is_same_output(path, other)]
-        if (owner := _owner(path, owners, folder)) is not None:
-            roles.append(f"the output of {owner}")
+        roles += [f"the output of {owner}" for owner in _owners_of(path, owners, folder)]
         if roles:
             raise UsageError(f"{option} {path} is also {roles[0]}: choose another name")
-    _check_inputs(tasks, options, read or {}, "name" if folder is None else "--out-dir")
+        place = Path(os.path.realpath(path))
+        if place.name.endswith(RECORD_ENDING) and folder and place.parent == Path(os.path.realpath(folder)):
+            raise UsageError(f"{option} {path} is the name of a record that --resume reads: choose another name")
+    _check_inputs(tasks, options, read, "name" if folder is None else "--out-dir")
     if folder is not None:
-        _check_records(folder, options)
         check_inside((path for task in tasks for path in task.outputs), folder)
 
 
@@ -289,11 +274,12 @@ def _owners(tasks: Sequence[Task]) -> dict[str, str]:
     return owners
 
 
-def _owner(path: str, owners: Mapping[str, str], folder: str | None) -> str | None:
-    """Return the input whose output has a path."""
+def _owners_of(path: str, owners: Mapping[str, str], folder: str | None) -> list[str]:
+    """Return the inputs whose output has a path."""
     if folder is None:
-        return next((source for each, source in owners.items() if is_same_output(path, each)), None)
-    return owners.get(_comparable(str(Path(folder) / os.path.relpath(path, folder or "."))))
+        return [source for each, source in owners.items() if is_same_output(path, each)]
+    owner = owners.get(_comparable(str(Path(folder) / os.path.relpath(path, folder or "."))))
+    return [] if owner is None else [owner]
 
 
 def _comparable(path: str) -> str:
@@ -312,14 +298,6 @@ def _check_inputs(tasks: Sequence[Task], options: Mapping[str, str], read: Mappi
     for path, label, instead in outputs:
         if (role := sources.get(_identity(path))) is not None:
             raise UsageError(f"{label} is also the {role}, which is never replaced: choose another {instead}")
-
-
-def _check_records(folder: str, options: Mapping[str, str]) -> None:
-    """Refuse to write over the records of batches in the folder: `--resume` reads them."""
-    for option, path in options.items():
-        place = Path(os.path.realpath(path))
-        if place.name.endswith(RECORD_ENDING) and place.parent == Path(os.path.realpath(folder)):
-            raise UsageError(f"{option} {path} is the name of a record that --resume reads: choose another name")
 
 
 def _identity(path: str) -> tuple[int, int] | None:

@@ -38,9 +38,9 @@ NO_COUNTS = frozenset({"threads", "passes", "steps_per_pixel", "largest_label"})
 """Whole numbers in statistics that mean nothing when they are added."""
 
 
-def run_batch(recipe: Recipe, o: Options, *, is_alone: bool, bar: MakeBar) -> None:
-    """Process many inputs, or one that is alone, in this process and with the exit code that it gives on its own."""
-    plan = plan_batch(recipe, o, is_alone=is_alone)
+def run_batch(recipe: Recipe, o: Options, several: str, bar: MakeBar) -> None:
+    """Process several inputs, or one that is alone, in this process and with the exit code that it gives on its own."""
+    plan, is_alone = plan_batch(recipe, o, several), not several
     o, tasks = plan.options, plan.tasks
     if o.dry_run or (is_alone and not tasks):
         _print_plan(plan)

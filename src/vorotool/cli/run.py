@@ -28,13 +28,13 @@ def run_command(recipe: Recipe, o: Options) -> None:
     from_environment = [name for name in ("jobs", "cluster") if o.sources.get(name) == "environment"]
     check_streams([*(("the input", name) for name in o.inputs), *o.files_read().items()])
     o = with_spacing(_workers_chosen(o, from_environment))
-    is_many = _is_batch(o)
-    if not o.inputs and not is_many:
+    several = _several(o)
+    if not o.inputs and not several:
         raise UsageError("no input given: name a file, a folder, or - for standard input")
-    if is_many or o.is_shared:
+    if several or o.is_shared:
         from vorotool.batch.run import run_batch
 
-        run_batch(recipe, o, is_alone=not is_many, bar=progress_bar)
+        run_batch(recipe, o, several, progress_bar)
         return
     (path,) = o.inputs
     targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=path)
@@ -62,7 +62,7 @@ def progress_bar(label: str = "") -> Iterator[Report]:
 def _workers_chosen(o: Options, from_environment: Collection[str]) -> Options:
     """Drop workers of the environment where one input needs none, or the command line names others."""
     typed = changed(o, **dict.fromkeys(from_environment))
-    if not _is_batch(typed):
+    if not _several(typed):
         return typed
     if typed.jobs is not None and "cluster" in from_environment:
         return changed(o, cluster=None)
@@ -71,11 +71,17 @@ def _workers_chosen(o: Options, from_environment: Collection[str]) -> Options:
     return o
 
 
-def _is_batch(o: Options) -> bool:
-    """Return whether there are several inputs, or one whose outputs and record are in a folder."""
-    if len(o.inputs) > 1 or any(map(is_several, o.inputs)) or o.files_from is not None or o.page == ALL_PAGES:
-        return True
+def _several(o: Options) -> str:
+    """Return why this is a batch, by what the user typed; nothing for one input, whose outputs have no record."""
+    if len(o.inputs) > 1:
+        return f"{len(o.inputs)} inputs are given"
+    if o.files_from is not None:
+        return f"--files-from {o.files_from} lists inputs"
+    if any(map(is_several, o.inputs)):
+        return f"{o.inputs[0]} stands for several inputs"
+    if o.page == ALL_PAGES:
+        return "--page all makes each page an input"
     if o.output is not None or not o.inputs or stream_kind(o.inputs[0]) is not None:
-        return False
-    has_folder = o.out_dir is not None and (o.is_shared or o.keep_going or o.jobs is not None)
-    return has_folder or o.cluster is not None
+        return ""
+    has_record = o.out_dir is not None and (o.is_shared or o.keep_going or o.jobs is not None)
+    return "--cluster is for several inputs" if has_record or o.cluster is not None else ""
