@@ -36,7 +36,7 @@ def test_what_samples_do_not_change_is_of_the_exact_skeleton(run, what):
     done = run("skeleton-approx", SHAPES, "--step", "4", "--what", what)
     assert done.code == 2
     assert f"'{what}'" in done.err
-    assert "'-d'" in run("skeleton-approx", SHAPES, "--step", "4", "-d", "1").err
+    assert "no -d" in run("skeleton-approx", SHAPES, "--step", "4", "-d", "1").err
 
 
 def test_pruned_branches_and_a_centerline(run, folder):

@@ -46,7 +46,7 @@ def verify_extended(extended: ExtendedSkeleton, skeleton: Skeleton | None = None
     >>> verify_extended(ExtendedSkeleton(extended.path, extended.ends / 2))
     Traceback (most recent call last):
         ...
-    vorotool.errors.VerificationError: end 1 of branch 0 is led on to (3, 0.5), which is not on the boundary
+    vorotool.errors.VerificationError: end 1 of branch 0 is extended to (3, 0.5), which is not on the boundary
     """
     check_value(extended, "extended", "ExtendedSkeleton")
     path = extended.path

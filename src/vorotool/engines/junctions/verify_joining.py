@@ -39,7 +39,7 @@ def verify_joining(joined: Skeleton, skeleton: Skeleton) -> None:
     >>> verify_joining(skeleton, skeleton)
     Traceback (most recent call last):
         ...
-    vorotool.errors.VerificationError: branch 4 is 1.0 long, but the junctions that it joins are not one
+    vorotool.errors.VerificationError: branch 4 is 1.0 long, but the junctions that it joins are not merged
     """
     check_value(joined, "joined", "Skeleton")
     check_value(skeleton, "skeleton", "Skeleton")

@@ -51,7 +51,7 @@ def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
     >>> verify_pruning(replace(pruned, radius=pruned.radius + 1), skeleton)
     Traceback (most recent call last):
         ...
-    vorotool.errors.VerificationError: arc 0 of the pruned skeleton is no part of an arc between sites 4 and 7
+    vorotool.errors.VerificationError: arc 0 of the pruned skeleton is not a part of an arc between sites 4 and 7
     """
     check_value(pruned, "pruned", "Skeleton")
     check_value(skeleton, "skeleton", "Skeleton")
