@@ -1,6 +1,5 @@
 """What each format carries: each is written and read, and the table of that in the documents is what was found."""
 
-import warnings
 from fractions import Fraction
 from pathlib import Path
 
@@ -47,10 +46,13 @@ def values():
 def made_elsewhere(fmt, path):
     """Write what vorotool reads alone."""
     if fmt == "kml":
-        places = geopandas.GeoDataFrame(ATTRIBUTES, geometry=shapely.points(VERTICES[:2]), crs="EPSG:4326")
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            places.to_file(path, driver="KML")
+        places = []
+        for (x, y), *row in zip(VERTICES[:2], *ATTRIBUTES.values(), strict=True):
+            pairs = list(zip(ATTRIBUTES, row, strict=True))[1:]
+            fields = "".join(f'<Data name="{name}"><value>{each}</value></Data>' for name, each in pairs)
+            point = f"<Point><coordinates>{x},{y}</coordinates></Point>"
+            places.append(f"<Placemark><name>{row[0]}</name><ExtendedData>{fields}</ExtendedData>{point}</Placemark>")
+        path.write_text(f'<kml xmlns="http://www.opengis.net/kml/2.2"><Document>{"".join(places)}</Document></kml>')
     elif fmt == "gpx":
         names = geopandas.GeoDataFrame({"name": ["a", "b"]}, geometry=shapely.points(VERTICES[:2]), crs="EPSG:4326")
         names.to_file(path, driver="GPX", layer="waypoints")
@@ -100,7 +102,8 @@ def vector_row(fmt, folder):
 
 def carried(read):
     """Whether attributes come back: with their types, as text, or not."""
-    found = {name: read.properties.get(name) for name in ATTRIBUTES}
+    columns = {name.lower(): column for name, column in read.properties.items()}  # KML has a Name
+    found = {name: columns.get(name) for name in ATTRIBUTES}
     if any(values is None for values in found.values()):
         return "no"
     first = {name: [type(value) for value in values] for name, values in found.items()}

@@ -78,7 +78,8 @@ MANY = (
         complete="folders"),
     Option("--files-from FILE|-", f"{BATCHES} draw", "Read the names of further inputs, one a line.", complete="any"),
     Option("-0 --null", f"{BATCHES} draw", "Names of --files-from end with NUL bytes."),
-    Option("-j --jobs N", f"{BATCHES} draw", "Worker processes; 0 uses all cores.", "int:0:1024", env="JOBS"),
+    Option("-j --jobs N", f"{BATCHES} draw", "Worker processes, with one thread each; 0: one per core; default: "
+        "one, which uses all cores.", "int:0:1024", env="JOBS"),
     Option("--keep-going", f"{BATCHES} draw", "Continue with the other inputs when one fails."),
     Option("--dry-run", f"{BATCHES} draw", "Print the plan as JSON lines, and write nothing."),
     Option("--resume", f"{BATCHES} draw", "Skip inputs that are done."),
