@@ -159,7 +159,7 @@ def test_what_stands_for_several(folder):
 
 def test_nothing_is_said_in_words(folder):
     (folder / "empty").mkdir()
-    for name, words in (("empty", "empty holds no file that is read here (csv)"), ("x*", "no file matches x*")):
+    for name, words in (("empty", "empty holds no file in a supported format (csv)"), ("x*", "no file matches x*")):
         with pytest.raises(InputError) as caught:
             expanded(name)
         assert words in str(caught.value)
@@ -172,7 +172,7 @@ def test_what_is_no_file_is_left_out_and_said(folder):
     with socket.socket(socket.AF_UNIX) as bound:
         bound.bind("a/2.csv")
     (folder / "a/3.csv").symlink_to("/dev/null")
-    words = ["a/0.csv is a pipe: left out", "a/2.csv is a socket: left out", "a/3.csv is a device: left out"]
+    words = ["a/0.csv is a pipe: skipped", "a/2.csv is a socket: skipped", "a/3.csv is a device: skipped"]
     for name in ("a", "a/*.csv"):
         notes = []
         assert expanded(name, note=notes.append) == [("a/1.csv", "1.csv")]

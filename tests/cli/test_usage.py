@@ -43,7 +43,7 @@ PROPAGATION = ("tessellate", "dots.csv", "-o", "a.tif", "--method", "propagation
         (["tessellate", "dots.csv", "-o", "a.png", "--threads", "-1"], ["-1"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--size", "9" * 5000 + "x1"], ["expected width and height"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--max-distance", "1e999999999"], ["expected a decimal"]),
-        (["tessellate", "mask.pbm", "-o", "a.png", "--connectivity", "4", "--seeds", "pixels"], ["for components"]),
+        (["tessellate", "mask.pbm", "-o", "a.png", "--connectivity", "4", "--seeds", "pixels"], ["to components"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--dtype", "uint32"], ["--dtype"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--chunk", "64x64"], ["--chunk"]),
         (["tessellate", "dots.csv", "-f", "zarr"], ["a Zarr store is a folder"]),

@@ -110,7 +110,7 @@ def _failure(future: Any, result: Any) -> Exception | None:
     error = result[1] if future.status == "error" else "the scheduler does not answer any more"
     if isinstance(error, VorotoolError | OSError):
         return error
-    return VorotoolError(f"the cluster gave it up: {error}")
+    return VorotoolError(f"the cluster abandoned this input: {error}")
 
 
 # ---- in a worker -------------------------------------------------------------------------------------------------
@@ -166,7 +166,7 @@ def _connected(address: str, jobs: int | None) -> Iterator[Any]:
             stack.callback(_quietly, client.close, timeout=CLOSING)
             client.wait_for_workers(1, timeout=FIRST_WORKER)
         except TimeoutError:
-            raise UsageError(f"--cluster {address}: nobody works there; start workers") from None
+            raise UsageError(f"--cluster {address}: the cluster has no workers; start some") from None
         except (OSError, ValueError) as error:
             raise UsageError(
                 f"--cluster {address}: no scheduler answers there ({error}); give HOST:PORT, or local to start one"

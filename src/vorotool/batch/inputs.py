@@ -87,11 +87,11 @@ def _check_file(name: str) -> None:
     if not name:
         raise UsageError("the name of an input is empty: name a file, or a folder")
     if name == STANDARD:
-        raise UsageError("- is standard input, which is one input: name files, or give their list to --files-from")
+        raise UsageError("- is standard input, a single input: name files, or give their list to --files-from")
     if (kind := stream_kind(file_of(name))) is not None:
         raise UsageError(
-            f"{name} is {kind}, which this process alone can read: give it as the only input with -o, or write what "
-            "comes through it to a file first"
+            f"{name} is {kind}, which only this process can read: give it as the only input with -o, or save its data "
+            "to a file first"
         )
 
 
@@ -110,7 +110,9 @@ def read_names(path: str, *, null: bool = False) -> list[str]:
     if not null and b"\0" in data:
         raise InputError(f"the list {path} holds NUL bytes: if names end with them, give -0, too")
     if null and b"\0" not in data and b"\n" in data:
-        raise InputError(f"the list {path} holds no NUL bytes, by which -0 ends names: leave -0 out for names on lines")
+        raise InputError(
+            f"the list {path} holds no NUL bytes, which end names with -0: leave -0 out if each line is a name"
+        )
     return [os.fsdecode(name) for name in names if name]
 
 
@@ -138,8 +140,8 @@ def _inside(folder: str, extensions: frozenset[str], search: Search) -> list[Inp
     files = search.files(known)
     if not files:
         raise InputError(
-            f"{folder} holds no file that is read here ({', '.join(sorted(extensions))}){search.reasons()}; for others "
-            f"use a pattern, {folder}/*"
+            f"{folder} holds no file in a supported format ({', '.join(sorted(extensions))}){search.reasons()}; for "
+            f"others use a pattern, {folder}/*"
         )
     return [Input(str(file), str(file.relative_to(folder))) for file in files]
 
@@ -179,13 +181,13 @@ class Search:
 
     def notes(self) -> list[str]:
         """Return a line for each kind that was left out, with a count and the first names."""
-        lines = [f"{stream}: left out" for stream in self._streams]
+        lines = [f"{stream}: skipped" for stream in self._streams]
         if count := len(self._links):
             kind = "link to a folder" if count == 1 else "links to folders"
             lines.append(f"{count} {kind} not followed (use --follow): {_listed(self._links)}")
         if count := len(self.unknown):
             kind = "file" if count == 1 else "files"
-            lines.append(f"{count} {kind} left out, not in a format that is read here: {_listed(self.unknown)}")
+            lines.append(f"{count} {kind} skipped, not in a supported format: {_listed(self.unknown)}")
         return lines
 
     def reasons(self) -> str:

@@ -99,7 +99,7 @@ def _check_options(o: Options, several: str) -> None:
             what = "standard input" if path == STANDARD else kind
             raise UsageError(f"--{name} {path} is {what}, which not every input can read: name a file")
     if o.cluster not in (None, "local") and o.jobs is not None:
-        raise UsageError("-j is for this machine: a cluster has the workers that it has")
+        raise UsageError("-j sets worker processes on this machine, not on a cluster: leave it out")
 
 
 # ---- the inputs and their outputs --------------------------------------------------------------------------------
@@ -131,7 +131,7 @@ def _inputs(recipe: Recipe, o: Options, note: Callable[[str], None]) -> list[Inp
     known = NAMES_WITH[geometry].keys() - (TABLE_NAMES if geometry == "polygons" else set())
     names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
     if not names:
-        raise UsageError(f"no input given: --files-from {o.files_from} holds no names; write one on each line")
+        raise UsageError(f"no input given: --files-from {o.files_from} holds no names; write one per line")
     inputs = expand_inputs(names, extensions=known, without=o.out_dir, follow=o.follow, note=note)
     return pages_of(inputs) if o.page == ALL_PAGES else inputs
 
@@ -262,14 +262,14 @@ def _owners(tasks: Sequence[Task]) -> dict[str, str]:
     sources: set[str] = set()
     for task in tasks:
         if task.source in sources:
-            raise UsageError(f"{task.source} is given twice: leave one out")
+            raise UsageError(f"{task.source} is named twice: leave one out")
         sources.add(task.source)
         for path in dict.fromkeys(task.outputs):  # results may be layers of one file
             owner = owners.setdefault(_comparable(path), task.source)
             if owner != task.source:
                 raise UsageError(
                     f"{owner} and {task.source} would both be written to {path}: rename one, or name the folder above "
-                    "both, whose folders are mirrored"
+                    "both, to keep their subfolders"
                 )
     return owners
 

@@ -90,8 +90,8 @@ def _check_units(done: Sequence[tuple[Task, Outcome]]) -> None:
     if len(sources) > 1:
         (one, first), (other, second) = list(sources.items())[:2]
         raise InputError(
-            f"--table would hold lengths in {one} ({first}) and in {other} ({second}): write a table for each, or give "
-            "one --pixel-size for all"
+            f"--table would hold lengths in {one} ({first}) and in {other} ({second}): write one table per unit, or "
+            "give one --pixel-size for all"
         )
 
 

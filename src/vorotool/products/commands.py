@@ -146,13 +146,13 @@ Example:
   vorotool distance two-shapes.json segments.wkt
 
 A and B hold points, lines and polygons in any mixture (GeoJSON, WKT, CSV, JSON, Triangle .poly, SVG, DXF and files of
-maps), or are masks or label images {_IMAGES}, whose objects have outlines; - is standard input for one of them. All of
-each is one shape, polygons are filled. The Hausdorff distance is the largest distance from a place of one to the
-nearest place of the other, not from vertices only. Each row has the places; GeoJSON and WKT have lines between them,
+maps), or are masks or label images {_IMAGES}, whose objects have outlines; - is standard input for one of them. Each
+file is one shape; polygons are filled. The Hausdorff distance is the largest distance from a point of one shape to the
+nearest point of the other, not from vertices only. Each row has both points; GeoJSON and WKT have lines between them,
 and pictures show them.""",
     ),
     "draw": Command(
-        "Draw label images, skeletons, Voronoi maps and shapes again.",
+        "Draw label images, skeletons, Voronoi maps and shapes.",
         "jobs.drawing:DrawnInput",
         None,
         """Draw a label image, in which neighboring regions never share a color, a skeleton, a Voronoi map, or shapes.
@@ -169,8 +169,8 @@ centerlines and alpha shapes; - is standard input.""",
 }
 """Commands by name."""
 OTHERS = {
-    "info": "Show how a file is read: its format, its content, and the commands that take it.",
+    "info": "Show how a file is read: its format, its content, and the commands that accept it.",
     "sample": "Write a small file to try commands on.",
-    "completion": "Print the script by which bash, zsh or fish complete arguments.",
+    "completion": "Print the completion script for bash, zsh or fish.",
 }
 """Commands that have a module of their own."""

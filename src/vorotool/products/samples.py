@@ -14,7 +14,7 @@ SAMPLES = {
     "two-shapes.json": "two polygons, one with a hole",
     "logo.svg": "a drawing in curves, 90 x 40 mm (read with the extra cad)",
     "segments.wkt": "four line segments",
-    "houses.geojson": "72 houses in four blocks, in metres",
+    "houses.geojson": "72 houses in four blocks, in meters",
     "streets.geojson": "the two streets between the houses",
     "great-lakes.geojson": "three lakes in longitude and latitude (Natural Earth, public domain)",
 }

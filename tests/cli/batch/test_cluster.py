@@ -170,7 +170,9 @@ def test_what_bands_give_and_a_failing_cluster(run, dots, cluster, monkeypatch):
         worker.kill()
         worker.wait()
     monkeypatch.setattr("vorotool.batch.cluster.FIRST_WORKER", 0.2)
-    wait_until(lambda: "nobody works there" in run(*command, "-o", f"there {name}.zarr", "--cluster", address).err)
+    wait_until(
+        lambda: "the cluster has no workers" in run(*command, "-o", f"there {name}.zarr", "--cluster", address).err
+    )
     assert contents(dots / f"there {name}.zarr") == contents(dots / f"here {name}.zarr")
     assert not list(dots.glob(".*"))
 

@@ -126,7 +126,7 @@ def test_a_page_that_fails(run, stack):
             "stack.tif has 3 pages: choose one with --page 0 to --page 2, or --page all, or read them as a volume with "
             "tessellate --volume",
         ),
-        ("- --page all --out-dir out", 2, "- is standard input, which is one input"),
+        ("- --page all --out-dir out", 2, "- is standard input"),
     ],
 )
 def test_what_is_refused(run, stack, options, code, words):

@@ -35,7 +35,7 @@ def read(folder):
 def test_what_is_read_is_never_replaced(run, folder, read, line):
     done = run(*line.split())
     assert done.code == 2, done.err
-    assert "choose another" in done.err or "given twice" in done.err
+    assert "choose another" in done.err or "named twice" in done.err
     assert {name: (folder / name).read_bytes() for name in read} == read
 
 

@@ -124,7 +124,7 @@ def test_outputs_of_a_batch_are_named_after_layers(run, towns):
     assert run("voronoi", "m.gpkg:lakes", "--out-dir", "one", "-q").code == 0
     assert [path.name for path in (towns / "one").iterdir()] == ["m.lakes.geojson"]
     done = run("voronoi", "m.gpkg:lakes", "m.gpkg:lakes", "--out-dir", "out")
-    assert (done.code, done.err) == (2, "error: m.gpkg:lakes is given twice: leave one out\n")
+    assert (done.code, done.err) == (2, "error: m.gpkg:lakes is named twice: leave one out\n")
 
 
 def test_several_results_are_layers_of_one_geopackage(run, towns):

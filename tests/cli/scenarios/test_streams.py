@@ -105,7 +105,7 @@ REFUSED = [
     ("V tessellate - --overlay /dev/stdin --what color -o y.png", 2, "--overlay /dev/stdin"),
     ("V delaunay - --what cells --clip /dev/fd/0", 2, "are one stream, which is read once"),
     ("V tessellate --files-from - - --out-dir x", 2, "--files-from -"),
-    ("mkfifo x; V tessellate x dots.csv --table y.csv", 2, "x is a pipe, which this process alone can read"),
+    ("mkfifo x; V tessellate x dots.csv --table y.csv", 2, "x is a pipe, which only this process can read"),
     (f"{TABLE} -o - --stats /dev/stdout", 2, "--stats /dev/stdout"),
     (f"{TABLE} -o /dev/fd/1 --stats -", 2, "/dev/fd/1"),
     ("mkfifo x; V tessellate dots.csv -o x --stats x", 2, "--stats"),
@@ -121,7 +121,7 @@ REFUSED = [
 ]
 
 REFUSED_OF_A_SHELL = [
-    ("V tessellate <(cat dots.csv) <(cat dots.csv) --out-dir x", 2, "which this process alone can read"),
+    ("V tessellate <(cat dots.csv) <(cat dots.csv) --out-dir x", 2, "which only this process can read"),
     ("V delaunay dots.csv mask.pbm --what cells --clip <(cat) --out-dir x", 2, "not every input can read"),
     ("V tessellate dots.csv -q -o /dev/stdout >&-", 4, "/dev/stdout"),
     ("V tessellate dots.csv -q -o y.png --stats /dev/stderr 2>&-", 4, ""),
@@ -162,7 +162,7 @@ def test_pipes_in_a_folder_are_left_out(run, folder):
     (folder / "inputs").mkdir()
     (folder / "dots.csv").rename(folder / "inputs/dots.csv")
     os.mkfifo(folder / "inputs/pipe.csv")
-    note = "note: inputs/pipe.csv is a pipe: left out\n"
+    note = "note: inputs/pipe.csv is a pipe: skipped\n"
     done = run("tessellate", "inputs", "--out-dir", "out", "-f", "npy")
     assert (done.code, done.err) == (0, f"{note}1/1 inputs/dots.csv: done\n")
     done = run("tessellate", "inputs/*", "--out-dir", "out", "-f", "npy", "--dry-run")

@@ -158,7 +158,7 @@ def test_formats_that_there_are_not():
     mesh = delaunay([[0, 0], [1, 1]])
     with pytest.raises(UsageError, match="'ele'"):
         written(mesh, "ele")
-    with pytest.raises(UsageError, match="'faces' is nothing"):
+    with pytest.raises(UsageError, match="what='faces' is not"):
         written(mesh, "csv", "faces")
     with pytest.raises(UsageError, match=r"'html'"):
         written(mesh, "html")
@@ -172,7 +172,7 @@ def test_library_writes_meshes(tmp_path):
     assert (tmp_path / "a.ele").read_text() == "1 3 0\n1 1 2 3\n"
     vorotool.write(mesh, tmp_path / "a", fmt="obj", what="triangles")
     assert (tmp_path / "a").read_text().endswith("f 1 2 3\n")
-    with pytest.raises(UsageError, match="what='edges' is nothing that a Table is written as: leave it out"):
+    with pytest.raises(UsageError, match="what='edges' is not a result of a Table"):
         vorotool.write(vorotool.edge_table(mesh), tmp_path / "b.csv", what="edges")
     with pytest.raises(UsageError, match="cannot be written"):
         vorotool.write(mesh, tmp_path / "b.xyz")

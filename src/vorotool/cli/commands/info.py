@@ -28,7 +28,7 @@ command = click.Command(
         *(option("info", row) for row in options_of("info").values()),
     ],
     callback=_run,
-    help="""Show how a file is read: its format, content, size and place, and the commands that take it.
+    help="""Show how a file is read: its format, content, size and place, and the commands that accept it.
 
 \b
 Example:

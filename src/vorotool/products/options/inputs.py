@@ -11,9 +11,9 @@ INPUT = (
     Option("--columns X,Y[,LABEL]", f"{SITES} voronoi distance info", "Columns of a point list, by name or number "
         "(from 1)."),
     Option("--input-format FORMAT", f"{ALL} info", "Format of the input, where it is unclear.", complete="inputs"),
-    Option("--input-layer NAME", ALL, "Layer of an input that has several; FILE:LAYER, such as map.gpkg:roads, names "
-        "that of any file."),
-    Option("--input-crs CRS", f"{COMPUTING} info", "Coordinate reference system of an input that names none, such as "
+    Option("--input-layer NAME", ALL, "Layer of an input that has several; FILE:LAYER, such as map.gpkg:roads, works "
+        "for every file."),
+    Option("--input-crs CRS", f"{COMPUTING} info", "Coordinate reference system of an input that states none, such as "
         "EPSG:3857; nothing is reprojected.", "names.crs"),
     Option("--crs CRS", COMPUTING, "Coordinate reference system to work and write in: inputs in another one are "
         "reprojected.", "names.crs"),
@@ -29,7 +29,7 @@ INPUT = (
     Option("--pixel-size SIZE|auto", "draw", "Side of a pixel, or unit of the coordinates, such as 0.325um, for "
         "--scale-bar and --scale 1:N; auto takes what the input states.", "lengths.pixel_size"),
     Option("--spacing SX,SY[,SZ]|auto", f"tessellate delaunay {SHAPES}", "Sides of a pixel, or of a voxel, such as "
-        "0.325,0.5um: distances, lengths and results are in their unit; auto takes what the image says.",
+        "0.325,0.5um: distances, lengths and results are in their unit; auto takes what the image states.",
         "lengths.spacing"),
     Option("--seeds", SITES, "What the seeds of an image are; default: components of a mask (0, and 1 or 255 or all "
         "bits), else labels.", "choice:pixels components labels centroids"),
@@ -39,20 +39,20 @@ INPUT = (
         "default 26.", "choice:8 4 26 6"),
     Option("--connectivity", f"{_OTHERS} {SHAPES}", "Connectivity of the components of an image; default 8.",
         "choice:8 4"),
-    Option("--threshold T|otsu", BATCHES, "Foreground is what is brighter than this.", "numbers.threshold"),
-    Option("--invert", BATCHES, "Exchange foreground and background."),
-    Option("--min-area AREA", BATCHES, "Leave out objects of a mask smaller than AREA: pixels or 5um2, in volumes "
-        "voxels or 5um3.", "lengths.area"),
+    Option("--threshold T|otsu", BATCHES, "Pixels brighter than this are foreground.", "numbers.threshold"),
+    Option("--invert", BATCHES, "Swap foreground and background."),
+    Option("--min-area AREA", BATCHES, "Drop objects of a mask smaller than AREA: pixels or 5um2, in volumes voxels or "
+        "5um3.", "lengths.area"),
     Option("--fill-holes [AREA]", BATCHES, "Fill the holes of the objects of a mask first: all, or those of at most "
         "AREA.", "lengths.holes", False),
     Option("--outline", SHAPES, "Outline of the objects of an image: around pixels (default), or half-way between the "
         "centers of pixels.", "choice:crack contour"),
-    Option("--border", "skeleton-exact", "What objects do at the border of an image: they end there (closed, default), "
-        "or go on, so that the skeleton runs to the border and does not fork.", "choice:closed open"),
-    Option("--simplify TOLERANCE", SHAPES, "Remove vertices first, where outlines move by no more than this; what "
-        "touches still does.", "lengths.length"),
+    Option("--border", "skeleton-exact", "Whether objects end at the border of an image (closed, default) or continue "
+        "beyond it (open), so that the skeleton runs to the border and does not fork.", "choice:closed open"),
+    Option("--simplify TOLERANCE", SHAPES, "Remove vertices of outlines first, which then move by at most this; "
+        "outlines that touch still touch.", "lengths.length"),
     Option("--join-tolerance D", SHAPES, "Largest gap between ends of lines of a DXF input that are joined; default "
-        "0.005 mm, or 1/100000 of the extent where the unit is not known.", "lengths.length_or_zero",
+        "0.005 mm, or 1/100000 of the extent if the unit is unknown.", "lengths.length_or_zero",
         acts_on="?may_be_drawn"),
 )
 # fmt: on
@@ -61,9 +61,7 @@ _BOUNDS = (
     ", in the units of the input or with a unit, such as 0,0,20,10mm; default: the image, or the bounds and a tenth "
     "around them."
 )
-_PAGE = (
-    "Rectangle that pictures show, and the page of SVG to scale; default: all there is, or the page of an SVG input."
-)
+_PAGE = "Rectangle that pictures show, and the page of SVG to scale; default: everything, or the page of an SVG input."
 _CELLS = "cells table statistics measures layer:cells layer:diagram"
 # Rows stay rows: one argument a line would hide the table.
 # fmt: off
@@ -77,8 +75,8 @@ FRAME = (
     Option("--cell-size SIDE", "tessellate", "Side of a pixel in the units of points, lines or polygons on a map, or "
         "with a unit; --window, --max-distance and distances are in the units of the map, too.",
         "lengths.exact_length"),
-    Option("--like RASTER", "tessellate", "Frame and pixels of this image, of which only the header is read: results "
-        "overlay it pixel by pixel, on its map, if it has one.", "names.image", complete="inputs:image"),
+    Option("--like RASTER", "tessellate", "Use the frame and the pixels of this image, whose header alone is read: "
+        "results overlay it pixel by pixel, also on a map.", "names.image", complete="inputs:image"),
     Option("--frame X,Y,W,H", "delaunay", f"Rectangle that cells are clipped to{_BOUNDS}", "lengths.rectangle",
         acts_on=f"{_CELLS} .page"),
     Option("--frame X,Y,W,H", "voronoi", f"Rectangle that cells are clipped to{_BOUNDS}", "lengths.rectangle"),

@@ -11,9 +11,9 @@ SEVERAL = (
 """How several results are written, as help says it."""
 
 _FLATTEN = (
-    "Largest distance of lines from the curves that they stand for, where a format ({flattened}){more} has no curves, "
-    "and in inputs with curves. Default auto: 1/2000 of the radius for arcs, for other curves 1/2000 of their extent "
-    "or 1/100 of their clearance."
+    "Largest distance of polylines from the curves that they replace, where a format ({flattened}){more} has no "
+    "curves, and in inputs with curves. Default auto: 1/2000 of the radius for arcs, for other curves 1/2000 of their "
+    "extent or 1/100 of their clearance."
 )
 
 # Rows stay rows: one argument a line would hide the table.
@@ -47,7 +47,7 @@ OUTPUT = (
         "...); for rows about several (edges, neighbors) as COLUMN_a, COLUMN_b.", "names.columns", name="with_columns",
         repeats="joined", acts_on=".parts"),
     Option("--no-properties", BATCHES, "Do not copy further columns or properties of the input."),
-    Option("--safe-csv", BATCHES, "Put ' before texts in CSV and TSV that a spreadsheet would take for formulas; "
+    Option("--safe-csv", BATCHES, "Put ' before texts in CSV and TSV that a spreadsheet would read as formulas; "
         "numbers stay."),
     Option("--no-clobber", ALL, "Refuse to replace an existing file."),
     Option("--overwrite", ALL, "Replace a GeoPackage that holds other layers, which are lost."),
@@ -58,7 +58,7 @@ OUTPUT = (
 # fmt: off
 CHECKS = (
     Option("--verify", COMPUTING, "Run an independent checker on the result; exit 1 if it is wrong."),
-    Option("--strict", COMPUTING, "Refuse what would be repaired or snapped."),
+    Option("--strict", COMPUTING, "Refuse input that would be repaired or snapped."),
     Option("--stats FILE|-", ALL, "Write counts, sizes, seconds and warnings as JSON.", complete="files:json"),
     Option("--threads N", f"{ALL} info", "Threads; 0 uses all.", "int:0:1024", 0, env="THREADS"),
     Option("--max-pixels N", f"{ALL} info", "Maximum number of pixels held in memory.", "int:1:", 2**31,
@@ -76,23 +76,23 @@ _TABLE_FILES = "files:csv tsv json"
 MANY = (
     Option("--out-dir DIR", f"{BATCHES} draw", "Folder for outputs named after the inputs.", "names.folder",
         complete="folders"),
-    Option("--files-from FILE|-", f"{BATCHES} draw", "Read the names of further inputs, one a line.", complete="any"),
+    Option("--files-from FILE|-", f"{BATCHES} draw", "Read the names of further inputs, one per line.", complete="any"),
     Option("-0 --null", f"{BATCHES} draw", "Names of --files-from end with NUL bytes."),
     Option("-j --jobs N", f"{BATCHES} draw", "Worker processes, with one thread each; 0: one per core; default: "
         "one, which uses all cores.", "int:0:1024", env="JOBS"),
     Option("--keep-going", f"{BATCHES} draw", "Continue with the other inputs when one fails."),
     Option("--dry-run", f"{BATCHES} draw", "Print the plan as JSON lines, and write nothing."),
     Option("--resume", f"{BATCHES} draw", "Skip inputs that are done."),
-    Option("--shard I/N", f"{BATCHES} draw", "Take every N-th input in the order of names, from the I-th.",
+    Option("--shard I/N", f"{BATCHES} draw", "Process every N-th input in the order of names, from the I-th.",
         "numbers.shard"),
     Option("--follow", f"{BATCHES} draw info", "Follow links to folders that are found in folders."),
     Option("--table FILE", BATCHES, "Write the tables of all inputs as one (CSV, TSV, JSON): the rows of --what if "
         "that is a table, else of table.", complete=_TABLE_FILES),
-    Option("--table-inputs FILE", BATCHES, "Write a row an input, also of those without objects: its status, and the "
-        "number of its rows.", complete=_TABLE_FILES),
+    Option("--table-inputs FILE", BATCHES, "Write one row per input, also for inputs without objects: its status and "
+        "its number of rows.", complete=_TABLE_FILES),
     Option("--fields REGEX", BATCHES, "Add columns to --table and --table-inputs: the named groups, (?P<name>...), "
         "found in each path."),
-    Option("--cluster ADDRESS|local", f"{BATCHES} draw", "Work on a Dask cluster.", env="CLUSTER",
+    Option("--cluster ADDRESS|local", f"{BATCHES} draw", "Run on a Dask cluster.", env="CLUSTER",
         complete="words:local"),
 )
 # fmt: on

@@ -24,7 +24,7 @@ PICTURES = (
         "pixels.", "names.image", complete="inputs:image", acts_on=".picture"),
     Option("--width PIXELS", ALL, "Pixels across a picture that is not the size of an image; default 1000.",
         "int:16:2147483647", acts_on=".sized"),
-    Option("--scale S|1:N", _OF_LINES, "Draw SVG to scale: S millimetres a unit of the input, or 1:N in its unit.",
+    Option("--scale S|1:N", _OF_LINES, "Draw SVG to scale: S millimeters per unit of the input, or 1:N in its unit.",
         "names.scale", acts_on=".svg"),
     Option("--unit", _OF_LINES, "Unit of the input, for SVG to scale; default: what it names. Without --scale, 1:1.",
         "choice:nm um mm cm dm m km in ft yd", name="drawing_unit", acts_on=".svg"),
@@ -49,6 +49,6 @@ PICTURES = (
     _animate("alphashape", "shapes whose r grows to that of the shape"),
     _animate("skeleton-exact", "offset curves whose distances grow to those of -d"),
     Option("--frames N", _MOVING, "Frames of an animation; default 40.", "int:2:10000", acts_on=".animation"),
-    Option("--fps N", _MOVING, "Frames a second; default 10.", "float:0.1:100", acts_on=".animation"),
+    Option("--fps N", _MOVING, "Frames per second; default 10.", "float:0.1:100", acts_on=".animation"),
 )
 # fmt: on

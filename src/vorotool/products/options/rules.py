@@ -27,24 +27,25 @@ class Rule(NamedTuple):
 EXCLUDING = (
     Rule(ALL, "size", "window", "both are the frame"),
     # ---- pictures
-    Rule(ALL, "scale drawing_unit", "width overlay aspect .png-picture", "a picture to scale is SVG, and has its size"),
+    Rule(ALL, "scale drawing_unit", "width overlay aspect .png-picture", "a picture to scale is an SVG, whose size "
+        "follows from the scale"),
     Rule(ALL, "aspect extent width y_up", "overlay", "a picture over an image has its size, and y downwards"),
-    Rule(ALL, "background", "overlay", "the image is the background"),
-    Rule(ALL, "?scale_in_millimetres", "drawing_unit", "--scale S is millimetres a unit"),
+    Rule(ALL, "background", "overlay", "the image itself is the background"),
+    Rule(ALL, "?scale_in_millimetres", "drawing_unit", "--scale S is in millimeters per unit"),
     Rule("skeleton-exact", "thickness.png", "width overlay layers colors line_widths label_by aspect extent",
         "a picture of thickness has the pixels of the image, and colors of its own"),
     # ---- tessellations
     Rule("tessellate", "method=propagation", "max_distance spacing what:distance what:distance2 .animation "
-        "?has_bands_on_cluster", "the paper's propagation gives the labels of square pixels alone"),
-    Rule("tessellate", "like", "size window cell_size spacing", "the raster gives the frame and its pixels"),
+        "?has_bands_on_cluster", "the paper's propagation computes labels of square pixels only"),
+    Rule("tessellate", "like", "size window cell_size spacing", "the raster sets the frame and its pixels"),
     Rule("tessellate", "cell_size", "spacing", "the cells are squares in the units of the map"),
     Rule("tessellate", "cell_size", "size", "--size is in pixels", "give --window X,Y,W,H in the units of the map"),
     Rule("tessellate", "?is_of_volumes", "method=propagation passes tiled like overlay y_up animate frames fps "
-        "connectivity=8 connectivity=4", "the option is for images"),
-    Rule("tessellate", "?is_of_volumes", "cell_size input_layer input_crs crs", "the option is for maps"),
-    Rule("tessellate", "?is_of_volumes", "page", "all pages are the volume"),
+        "connectivity=8 connectivity=4", "the option applies to images"),
+    Rule("tessellate", "?is_of_volumes", "cell_size input_layer input_crs crs", "the option applies to maps"),
+    Rule("tessellate", "?is_of_volumes", "page", "all pages form the volume"),
     Rule("tessellate", "?is_of_volumes", "?has_pixel_size", "voxels have three sides", "give --spacing SX,SY,SZ"),
-    Rule(SITES, "connectivity", "seeds=pixels seeds=labels", "--connectivity is for components"),
+    Rule(SITES, "connectivity", "seeds=pixels seeds=labels", "--connectivity applies to components"),
     # ---- triangulations and alpha shapes
     Rule("delaunay", "what:compare", "method=digital-valid", "the comparison is about the digital rule",
         "use --method digital"),
@@ -53,36 +54,38 @@ EXCLUDING = (
     Rule("delaunay", "what:compare", "spacing", "differences are explained by the sides of square pixels"),
     Rule("delaunay", "?is_digital", "layer:cells layer:diagram graph what:cells what:table what:statistics "
         "what:measures edges.edge triangles.ele",
-        "the digital rule finds edges and triangles that need be no triangulation",
+        "the digital rule finds edges and triangles that may not form a triangulation",
         "use --method exact or digital-valid"),
-    Rule("alphashape", "regions", "r alpha", "--regions is for the automatic choice of r"),
+    Rule("alphashape", "regions", "r alpha", "--regions applies to the automatic choice of r"),
     Rule("alphashape", "what:hull", "hole_threshold region_threshold", "the hull has no thresholds"),
     Rule("alphashape", "rule=printed", "verify ?is_automatic what:curves what:persistence .html",
-        "the printed rule is the letter of the paper, for one -r", "use --rule corrected"),
+        "the printed rule follows the text of the paper, for a single -r", "use --rule corrected"),
     Rule("alphashape", "method=digital", "?is_automatic what:polygons what:general what:hull what:points what:table "
         "what:curves what:persistence .html .animation hole_threshold region_threshold verify",
-        "the digital rule finds edges and triangles that need be no triangulation",
+        "the digital rule finds edges and triangles that may not form a triangulation",
         "use --method exact or digital-valid"),
     # ---- skeletons and Voronoi maps
-    Rule("skeleton-approx", "step", "tolerance", "either says how finely edges are sampled"),
-    Rule("skeleton-approx", "tolerance", "sampling=paper", "the paper's samples have one step everywhere"),
+    Rule("skeleton-approx", "step", "tolerance", "each sets how finely edges are sampled"),
+    Rule("skeleton-approx", "tolerance", "sampling=paper", "the paper's sampling has a constant step"),
     Rule(SKELETONS, "side=exterior", "what:shape what:centerline along=centerline what:discs what:thickness",
-        "shapes, centerlines, discs and thickness are inside polygons", "use --side interior or both"),
+        "shapes, centerlines, discs and thickness lie inside polygons", "use --side interior or both"),
     Rule(SKELETONS, "ends=middle+what:skeleton", "side=exterior side=both", "ends are extended only inside polygons"),
-    Rule(SKELETONS, "smooth ends=middle", "skeleton.graphml skeleton.html", "smoothed or extended lines are no graph"),
+    Rule(SKELETONS, "smooth ends=middle", "skeleton.graphml skeleton.html", "smoothed or extended lines are not a "
+        "graph"),
     Rule(SKELETONS, "join_junctions", "skeleton.html", "the page shows all prunings"),
-    Rule("skeleton-exact", "what:necks what:parts", "side=exterior side=both", "necks are inside polygons",
+    Rule("skeleton-exact", "what:necks what:parts", "side=exterior side=both", "necks lie inside polygons",
         "use --side interior"),
     Rule("skeleton-exact", "what:necks what:parts what:shape what:thickness", "gap", "a gap leaves the corners out"),
-    Rule("skeleton-exact", "only:offset,discs,necks,parts,thickness", "prune", "the result is of the shapes"),
-    Rule("skeleton-exact", "only:offset,discs", "gap", "the result is of the shapes"),
-    Rule("skeleton-exact", "only:offset", "side=exterior side=both", "offset curves are of the shapes"),
+    Rule("skeleton-exact", "only:offset,discs,necks,parts,thickness", "prune", "the result depends on the shapes only"),
+    Rule("skeleton-exact", "only:offset,discs", "gap", "the result depends on the shapes only"),
+    Rule("skeleton-exact", "only:offset", "side=exterior side=both", "offset curves depend on the shapes only"),
     Rule("skeleton-exact", "border=open", "side=exterior side=both features=together gap simplify frame what:diagram "
         "what:elements what:offset what:shape what:discs what:thickness what:necks what:parts",
-        "an open border is for what is inside each object as it is",
+        "an open border applies to the interior of each unchanged object",
         "use --what skeleton, branches, table, centerline, points or transects alone"),
     Rule("voronoi", "by", "no_properties", "features are joined by a column"),
-    Rule("voronoi", "only:discs", "max_distance enclosures by", "discs are between all that there is"),
+    Rule("voronoi", "only:discs", "max_distance enclosures by", "discs avoid all features, and stay in the frame or "
+        "the clip"),
 )
 # fmt: on
 """Of each rule, no condition of the first kind may hold with one of the second."""
@@ -99,7 +102,7 @@ NEEDING = (
     Rule(SKELETONS, "what:points what:transects", "every"),
     Rule("skeleton-approx", "inputs", "step tolerance"),
     Rule("skeleton-exact", "what:offset", "distance"),
-    Rule("skeleton-exact", "complete", "gap", "without a gap nothing is missing"),
+    Rule("skeleton-exact", "complete", "gap", "without a gap no corner is missing"),
     Rule(BATCHES, "null", "files_from", "NUL bytes end the names of that list"),
     Rule(BATCHES, "fields", "table table_inputs", "they have its columns"),
 )
