@@ -39,8 +39,8 @@ class EnclosedFaces:
         shared = shared_out(cells)
         border = shapely.boundary(shared)
         corners = shapely.multipoints(shapely.get_coordinates([border, *lines]))
-        met = [shapely.snap(each, corners, near) for each in (lines, border)]
-        self.readings = [_Faces(shared, *each, geometry, near) for each in ((lines, border), (met[0], met[1]))]
+        met, inner = (shapely.snap(each, corners, near) for each in (lines, border))
+        self.readings = [_Faces(shared, *each, geometry, near) for each in ((lines, border), (met, inner))]
         self.boundaries = shapely.boundary(np.concatenate([each.shapes for each in self.readings]))
 
     def least(self, places: Floats) -> Floats:
