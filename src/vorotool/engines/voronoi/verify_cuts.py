@@ -40,7 +40,10 @@ class EnclosedFaces:
         border = shapely.boundary(shared)
         corners = shapely.multipoints(shapely.get_coordinates([border, *lines]))
         met, inner = (shapely.snap(each, corners, near) for each in (lines, border))
-        self.readings = [_Faces(shared, *each, geometry, near) for each in ((lines, border), (met, inner))]
+        self.readings = [
+            _Faces(shared, lines, border, geometry, near),
+            _Faces(shared, met, inner, geometry, near),
+        ]
         self.boundaries = shapely.boundary(np.concatenate([each.shapes for each in self.readings]))
 
     def least(self, places: Floats) -> Floats:
