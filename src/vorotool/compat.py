@@ -276,7 +276,7 @@ def voronoi_polygons(
     import shapely
 
     if only_edges:
-        raise UsageError("only_edges is not known: vorotool.voronoi(points).edges has the borders of cells")
+        raise UsageError("only_edges is not supported: use vorotool.voronoi(points).edges for the borders of cells")
     return peers.voronoi_polygons(shapely.get_coordinates(geometry), extend_to=extend_to)
 
 

@@ -1,4 +1,4 @@
-"""Errors that a user can act on, each with the exit code of the command line; and what is said beside them."""
+"""Errors that a user can act on, with their exit codes, and the messages of errors, warnings and notes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _OPTION = re.compile(f"{_TYPED}([^{_TYPED}-{_END}]*){_PARAMETER}([^{_TYPED}-{_EN
 
 
 def option(typed: str, parameter: str | None = None) -> str:
-    """Name an option in a message: the command line reads it as it is typed there, Python as the parameter it is.
+    """Name an option in a message, as it is typed on the command line and as a parameter of Python.
 
     The text has both readings until it is shown, so that it can be put together with other text, kept, and sent to
     another process. Errors and warnings show the parameter; `VorotoolError.typed` and `Message.typed` what is typed.
@@ -83,7 +83,7 @@ class Kind(Enum):
 
 
 class Message(str):
-    """A line for the user that knows what it is about: nothing is to be told from its words.
+    """A line for the user with its kind and its input, so that nothing depends on its wording.
 
     It is text, and equal to text, so that whoever takes lines takes these as well: the text in which options are
     parameters.
@@ -104,8 +104,8 @@ class Message(str):
 
     Examples
     --------
-    >>> said = Message("degrees.csv: lengths are in degrees", Kind.DEGREES, source="degrees.csv")
-    >>> said.kind is Kind.DEGREES, said.source, said == "degrees.csv: lengths are in degrees"
+    >>> line = Message("degrees.csv: lengths are in degrees", Kind.DEGREES, source="degrees.csv")
+    >>> line.kind is Kind.DEGREES, line.source, line == "degrees.csv: lengths are in degrees"
     (True, 'degrees.csv', True)
     """
 
@@ -126,15 +126,15 @@ class Message(str):
 
         Examples
         --------
-        >>> said = Message(f"nothing is left: {option('--invert', 'invert=True')} turns it")
-        >>> said, said.typed
+        >>> line = Message(f"nothing is left: {option('--invert', 'invert=True')} turns it")
+        >>> line, line.typed
         ('nothing is left: invert=True turns it', 'nothing is left: --invert turns it')
         """
         return Message(_typed(self.marked), self.kind, source=self.source)
 
     @classmethod
     def of(cls, text: str) -> Message:
-        """Give a line as a message; plain text is about nothing in particular, and names no input.
+        """Convert text to a message; plain text is of the general kind, and has no source.
 
         Examples
         --------
@@ -150,7 +150,7 @@ class VorotoolError(Exception):
     Parameters
     ----------
     text : str, optional
-        The words, which may have texts of `option`.
+        The message, in which `option` may name options.
 
     Attributes
     ----------
@@ -165,10 +165,10 @@ class VorotoolError(Exception):
     marked: str
 
     def __init__(self, text: str = "") -> None:
-        """Take the words."""
-        said = Message.of(text)
-        self.marked = said.marked
-        super().__init__(str(said))
+        """Store the message in both readings."""
+        message = Message.of(text)
+        self.marked = message.marked
+        super().__init__(str(message))
 
     @property
     def typed(self) -> Message:
@@ -182,7 +182,7 @@ class VerificationError(VorotoolError):
     Parameters
     ----------
     text : str, optional
-        The words, which may have texts of `option`.
+        The message, in which `option` may name options.
     """
 
 
@@ -192,19 +192,19 @@ class UsageError(VorotoolError, ValueError):
     Parameters
     ----------
     text : str, optional
-        The words, which may have texts of `option`.
+        The message, in which `option` may name options.
     """
 
     exit_code = 2
 
 
 class InputError(VorotoolError, ValueError):
-    """Error for unusable input; the message names the file, the place, the value and what to do (exit 3).
+    """Error for unusable input; the message names the file, the position, the value and what to do (exit 3).
 
     Parameters
     ----------
     text : str, optional
-        The words, which may have texts of `option`.
+        The message, in which `option` may name options.
     """
 
     exit_code = 3
@@ -216,7 +216,7 @@ class OutputError(VorotoolError, OSError):
     Parameters
     ----------
     text : str, optional
-        The words, which may have texts of `option`.
+        The message, in which `option` may name options.
     """
 
     exit_code = 4
@@ -228,19 +228,19 @@ class LimitError(VorotoolError):
     Parameters
     ----------
     text : str, optional
-        The words, which may have texts of `option`.
+        The message, in which `option` may name options.
     """
 
     exit_code = 5
 
 
 class BatchError(VorotoolError):
-    """A batch in which some inputs failed (exit 6).
+    """Error for a batch in which some inputs failed (exit 6).
 
     Parameters
     ----------
     text : str, optional
-        The words, which may have texts of `option`.
+        The message, in which `option` may name options.
     """
 
     exit_code = 6
@@ -252,11 +252,11 @@ class VorotoolWarning(UserWarning):
     Parameters
     ----------
     text : str, optional
-        The words, which may have texts of `option`.
+        The message, in which `option` may name options.
     """
 
     def __init__(self, text: str = "") -> None:
-        """Take the line."""
+        """Store the message."""
         super().__init__(Message.of(text))
 
     @property
@@ -266,17 +266,17 @@ class VorotoolWarning(UserWarning):
 
 
 class RepairWarning(VorotoolWarning):
-    """Polygons were repaired where they were placed.
+    """Warning that polygons were repaired before they were used.
 
     Parameters
     ----------
     text : str, optional
-        The words, which may have texts of `option`.
+        The message, in which `option` may name options.
     """
 
 
 def warn(message: VorotoolWarning | str, category: type[VorotoolWarning] = VorotoolWarning) -> None:
-    """Warn of something, at the line outside of this package that called it.
+    """Issue a warning at the line outside this package that called it.
 
     Parameters
     ----------
@@ -287,10 +287,10 @@ def warn(message: VorotoolWarning | str, category: type[VorotoolWarning] = Vorot
 
     Examples
     --------
-    >>> with warnings.catch_warnings(record=True) as said:
+    >>> with warnings.catch_warnings(record=True) as caught:
     ...     warnings.simplefilter("always")
     ...     warn("2 seeds were moved")
-    >>> str(said[0].message)
+    >>> str(caught[0].message)
     '2 seeds were moved'
     """
     level, frame = 2, sys._getframe(1)

@@ -85,7 +85,7 @@ def _checked(source: Any, name: str) -> NDArray[Any]:
     if array.ndim == 2 and shape[0] == 2:
         raise InputError(f"{said}: give {name}.T")
     if array.ndim == 2 and min(shape) > MOST_AXES:
-        raise InputError(f"{said}: an image? vorotool.seeds_from_raster({name}) gives its seeds")
+        raise InputError(f"{said}: for an image use vorotool.seeds_from_raster({name})")
     raise InputError(said)
 
 

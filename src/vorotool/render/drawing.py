@@ -163,8 +163,8 @@ def drawn_part(value: Any, what: str | None) -> Product:
     """Choose the result that the picture of a value shows."""
     drawn = {name: each for name, each in parts_of(value).items() if each.drawn_by}
     if not drawn:
-        raise UsageError(f"there is no picture of a {type(value).__name__}: write it as a table")
+        raise UsageError(f"a {type(value).__name__} has no picture: write it as a table")
     chosen = what or next(iter(drawn))
     if chosen not in drawn:
-        raise UsageError(f"what={what!r} is no picture of a {type(value).__name__}: use {' or '.join(drawn)}")
+        raise UsageError(f"what={what!r} is not a picture of a {type(value).__name__}: use {' or '.join(drawn)}")
     return drawn[chosen]

@@ -140,7 +140,7 @@ def _check_places(page: Page, data: Sides) -> None:
     with np.errstate(over="ignore", invalid="ignore"):
         corners = page.place(np.array(data).reshape(2, 2))
     if not np.isfinite(corners).all():
-        raise UsageError("the frame is too small beside the coordinates: use a larger one")
+        raise UsageError("the frame is too small for coordinates of this size: use a larger one")
 
 
 def styled_page(page: Page, looks: Looks, world: World, fmt: str = "svg") -> Page:
@@ -197,7 +197,7 @@ def _millimetres(looks: Looks, own: Fraction | None) -> float:
         own = METRES[looks.drawing_unit] * 1000
     if own is None:
         raise UsageError(
-            f"--scale 1:N needs the unit of the input, which names none: add --unit ({', '.join(DRAWING_UNITS)}), or "
-            "use --scale S, millimetres a unit"
+            f"--scale 1:N needs the unit of the input, which states none: add --unit ({', '.join(DRAWING_UNITS)}), or "
+            "use --scale S, millimeters per unit"
         )
     return float(own if looks.scale is None else own / Fraction(looks.scale.number))

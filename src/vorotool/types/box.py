@@ -84,7 +84,7 @@ class Box:
 
     @staticmethod
     def of_size(x: float, y: float, width: float, height: float) -> Box:
-        """Give the box with its smallest corner at (x, y), as ``--frame X,Y,W,H``.
+        """Return the box with its smallest corner at (x, y), as ``--frame X,Y,W,H``.
 
         Raises
         ------
@@ -102,7 +102,7 @@ class Box:
 
     @staticmethod
     def around(points: NDArray[np.float64], margin: float = 0.1) -> Box:
-        """Give the bounds of points, widened on all sides by a part of the longer one.
+        """Return the bounds of points, widened on all sides by a part of the longer one.
 
         Points at a single place get a unit square around it, no points that around the origin. Sides beyond the
         largest double are moved to it.
@@ -143,7 +143,7 @@ def default_frame(polygons: PolygonSet, max_distance: float | None = None) -> Ex
 
 
 def widened(frame: Extent) -> Extent:
-    """Give a frame three times as large around the same middle."""
+    """Return a frame three times as large around the same middle."""
     x, y, w, h = frame
     return (x - w, y - h, 3 * w, 3 * h)
 

@@ -90,34 +90,34 @@ class Mixture(NamedTuple):
 
 
 def of_points(xy: Floats) -> Corners:
-    """Give a point a row."""
+    """Return a point a row."""
     return Corners(xy, np.arange(len(xy), dtype=np.int32)[:, None])
 
 
 def of_segments(ends: Floats) -> Corners:
-    """Give a straight line a row, by (n, 2, 2) ends."""
+    """Return a straight line a row, by (n, 2, 2) ends."""
     return Corners(ends.reshape(-1, 2), np.arange(2 * len(ends), dtype=np.int32).reshape(-1, 2))
 
 
 def point_rows(columns: Mapping[str, Any], source: Any, xy: Floats) -> Rows:
-    """Give rows about the points of an input."""
+    """Return rows about the points of an input."""
     return Rows(columns, source.properties, source, np.arange(len(xy)), of_points(xy))
 
 
 def of_polygons(columns: Mapping[str, Any], polygons: PolygonSet, polygon: Indices, **more: Any) -> Rows:
-    """Give rows about polygons, or parts of them, which are named."""
+    """Return rows about polygons, or parts of them, which are named."""
     return Rows({**names_of(polygons, polygon), **columns}, None, polygons, polygon, **more)
 
 
 def of_shapes(shapes: PolygonSet, source: PolygonSet, item: Indices) -> Rows:
-    """Give a row a shape that was made of polygons, and has its columns as properties."""
+    """Return a row a shape that was made of polygons, and has its columns as properties."""
     named = {name: column for name, column in shapes.properties.items() if name in ("label", "part")}
     ids = {} if shapes.ids is None else {"id": list(shapes.ids)}
     return Rows({**named, **ids, **shapes.properties}, {}, source, item, shapes)
 
 
 def chosen(value: object, what: str | None, parts: Mapping[str, Callable[[], Rows]]) -> Rows:
-    """Give the rows of a part, by default of the first one."""
+    """Return the rows of a part, by default of the first one."""
     name = what or next(iter(parts))
     if name not in parts:
         raise UsageError(f"invalid what {what!r}: expected {', '.join(parts)} of a {type(value).__name__}")
@@ -134,7 +134,7 @@ def without_places(table: Table, *places: str) -> dict[str, Any]:
 
 
 def features_of(value: Any, what: str | None = None, *, flatten: Flatten = None) -> Rows | Mixture:
-    """Give the rows of a value with their geometry."""
+    """Return the rows of a value with their geometry."""
     if not hasattr(value, "_features"):
         raise UsageError(f"a {type(value).__name__} has no geometry")
     made: Rows | Mixture = value._features(what, checked_flatten(flatten))
@@ -142,7 +142,7 @@ def features_of(value: Any, what: str | None = None, *, flatten: Flatten = None)
 
 
 def rows_of(value: Any, what: str | None = None, *, flatten: Flatten = None) -> Rows:
-    """Give the rows of the table of a value: its own, else those that have its geometry."""
+    """Return the rows of the table of a value: its own, else those that have its geometry."""
     own: Rows | None = value._rows(what) if hasattr(value, "_rows") else None
     if own is not None:
         return own
@@ -153,11 +153,11 @@ def rows_of(value: Any, what: str | None = None, *, flatten: Flatten = None) -> 
 
 
 def matrix_of(value: Any, what: str | None) -> NDArray[Any]:
-    """Give the numbers of a part as one array."""
+    """Return the numbers of a part as one array."""
     made: NDArray[Any] = value._matrix(what)
     return made
 
 
 def parts_of(features: Rows | Mixture) -> Iterator[Rows]:
-    """Give rows of one kind each."""
+    """Return rows of one kind each."""
     yield from features.parts if isinstance(features, Mixture) else (features,)

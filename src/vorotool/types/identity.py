@@ -93,7 +93,7 @@ _WANTED: ContextVar[tuple[str, ...]] = ContextVar("wanted", default=())
 
 @contextmanager
 def columns_wanted(names: Sequence[str] | None) -> Iterator[None]:
-    """Give rows about parts of features, or about several, these columns of the input."""
+    """Return rows about parts of features, or about several, these columns of the input."""
     is_list = isinstance(names, list | tuple) and all(isinstance(name, str) for name in names)
     if names is not None and not is_list:
         raise UsageError(f"invalid with_columns {shown_number(names)}: expected a list of names")

@@ -121,7 +121,7 @@ class PixelGrid:
 
 
 def sides_of_grid(grid: PixelGrid) -> PixelSides | None:
-    """Give the sides of the pixels of a grid for exact distances, if they have a common step that is coarse enough."""
+    """Return the sides of the pixels of a grid for exact distances, if their common step is coarse enough."""
     height = grid.width if grid.is_square else grid.height
     for sides in ((height, grid.width), (rounded_side(height), rounded_side(grid.width))):
         try:
@@ -132,7 +132,7 @@ def sides_of_grid(grid: PixelGrid) -> PixelSides | None:
 
 
 def rounded_side(side: Fraction) -> Fraction:
-    """Give the shortest decimal number that is alike."""
+    """Return the shortest decimal number that is alike."""
     numbers = (Fraction(f"{float(side):.{digits}g}") for digits in range(1, 18))
     return next(number for number in numbers if abs(number - side) <= ALIKE * side)
 
@@ -144,7 +144,7 @@ def map_grid(
     crs: Any = None,
     keys: GeoKeys | None = None,
 ) -> PixelGrid:
-    """Give the grid of a map; sides are the lengths of what one column and one row go on."""
+    """Return the grid of a map; sides are the lengths of what one column and one row go on."""
     a, b, _, d, e, _ = transform
     width, height = (Fraction(abs(p) if q == 0 else sqrt(p * p + q * q)) for p, q in ((a, d), (e, b)))
     return PixelGrid(width, height, unit, "map", transform, crs, keys)

@@ -32,7 +32,7 @@ AREAS = frozenset({"area", "object_area"})
 def scaled(
     value: Any, factor: Fraction, origin: Place = None, *, unit: str | None = None, of_steps: bool = False
 ) -> Any:
-    """Give a result in units of which one is ``1 / factor`` of the old."""
+    """Return a result in units of which one is ``1 / factor`` of the old."""
     measures = {name: each for name, each in _declared(value).items() if each.meaning not in _UNSCALED}
     if not measures:
         raise UsageError(f"a {type(value).__name__} cannot be scaled")
@@ -65,7 +65,7 @@ def _scale(factor: Fraction, *, of_steps: bool) -> tuple[float, float]:
 
 
 def _scaled(part: Any, factor: Fraction, origin: Place, *, of_steps: bool) -> Any:
-    """Give a number, an array, a box, or a tuple x, y, width, height."""
+    """Return a number, an array, a box, or a tuple x, y, width, height."""
     times, over = _scale(factor, of_steps=of_steps)
     if isinstance(part, Box):
         sides = (side * times / over for side in part.sides)
@@ -89,7 +89,7 @@ def scaled_table(
     pixel: tuple[float, float] = (1.0, 1.0),
     of_steps: bool = False,
 ) -> Table:
-    """Give a table of tessellations, triangulations or alpha shapes in other units."""
+    """Return a table of tessellations, triangulations or alpha shapes in other units."""
     columns = table.stored()
     scale = {LENGTHS: _scale(factor, of_steps=of_steps), AREAS: _scale(factor * factor, of_steps=of_steps)}
     made = {name: _scaled_column(name, column, scale, properties) for name, column in columns.items()}

@@ -54,7 +54,7 @@ SQUARE = PixelSides()
 
 
 def pixel_sides(spacing: Any, axes: int = 2) -> PixelSides:
-    """Give the sides of a pixel from one number for all of them, or from one for each axis, as arrays are ordered."""
+    """Return the sides of a pixel from one number for all of them, or from one for each axis, as arrays are ordered."""
     if spacing is None:
         return PixelSides((1,) * axes)
     is_one = not isinstance(spacing, list | tuple) and np.ndim(spacing) == 0
@@ -80,11 +80,11 @@ def pixel_sides(spacing: Any, axes: int = 2) -> PixelSides:
 
 
 def distance_as_written(distance: Any, sides: PixelSides) -> Any:
-    """Give a distance in the unit of a spacing as the decimal number that it is written as, as the spacing is."""
+    """Return a distance in the unit of a spacing as the decimal number that it is written as, as the spacing is."""
     is_one = set(sides.units) == {1} and sides.step == 1
     return as_decimal(distance) if isinstance(distance, float) and isfinite(distance) and not is_one else distance
 
 
 def as_decimal(number: float | Fraction) -> Fraction:
-    """Give the shortest decimal number that a float is written as, exactly; a fraction as it is."""
+    """Return the shortest decimal number that a float is written as, exactly; a fraction as it is."""
     return number if isinstance(number, Fraction) else Fraction(repr(float(number)))

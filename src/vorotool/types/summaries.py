@@ -23,7 +23,7 @@ def unit_of_measure(name: str, unit: str) -> str | None:
 
 
 def summary_table(measures: Mapping[str, NDArray[np.float64]]) -> Table:
-    """Give one row a measure."""
+    """Return one row a measure."""
     rows = [_row(np.asarray(values, dtype=np.float64)) for values in measures.values()]
     names = ("mean", "sd", "cv", *_QUANTILES, "homogeneity", "disorder")
     columns = np.array(rows).reshape(len(rows), len(names)).T

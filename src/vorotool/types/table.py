@@ -157,7 +157,7 @@ class Table(dict[str, Any], Tabular):
         return made
 
     def stored(self) -> dict[str, Any]:
-        """Columns as they were given: what is looked up or computed is not so yet."""
+        """Columns as they were stored, before any are looked up or computed."""
         return {name: super(Table, self).__getitem__(name) for name in self}
 
     def with_properties(self, properties: Mapping[str, Any]) -> Table:

@@ -82,7 +82,7 @@ class Value(Record):
 
 
 def input_of(value: Any) -> Any:
-    """Give what a value was made of in the end, which has the columns and the reference system of the input."""
+    """Return what a value was made of in the end, which has the columns and the reference system of the input."""
     inner = value._made_of if isinstance(value, Value) else None
     return value if inner is None else input_of(inner)
 
@@ -109,7 +109,7 @@ class Tabular:
         return made
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Give the table as a data frame, which needs pandas.
+        """Return the table as a data frame, which needs pandas.
 
         Returns
         -------
@@ -146,7 +146,7 @@ class Geometric(_Places):
     """A value with one kind of geometry."""
 
     def to_shapely(self) -> NDArray[Any]:
-        """Give the geometry of each row, in order.
+        """Return the geometry of each row, in order.
 
         Returns
         -------
@@ -163,7 +163,7 @@ class Geometric(_Places):
         return made
 
     def to_geopandas(self) -> geopandas.GeoDataFrame:
-        """Give the geometry and the columns that go with it, which needs geopandas.
+        """Return the geometry and the columns that go with it, which needs geopandas.
 
         Returns
         -------
@@ -190,7 +190,7 @@ class WithParts(_Places):
     """A value of which each part has geometry of its own."""
 
     def to_shapely(self, *, what: str | None = None) -> NDArray[Any]:
-        """Give the geometry of each row of a part, in order.
+        """Return the geometry of each row of a part, in order.
 
         Parameters
         ----------
@@ -219,7 +219,7 @@ class WithParts(_Places):
         return made
 
     def to_geopandas(self, *, what: str | None = None) -> geopandas.GeoDataFrame:
-        """Give the geometry of a part and the columns that go with it, which needs geopandas.
+        """Return the geometry of a part and the columns that go with it, which needs geopandas.
 
         Parameters
         ----------
@@ -250,7 +250,7 @@ class Curved(_Places):
     """A value of curves, which are flattened where there are none."""
 
     def to_shapely(self, *, flatten: Flatten = None) -> NDArray[Any]:
-        """Give the geometry of each row, in order, with lines instead of curves.
+        """Return the geometry of each row, in order, with lines instead of curves.
 
         Parameters
         ----------
@@ -279,7 +279,7 @@ class Curved(_Places):
         return made
 
     def to_geopandas(self, *, flatten: Flatten = None) -> geopandas.GeoDataFrame:
-        """Give the geometry and the columns that go with it, which needs geopandas.
+        """Return the geometry and the columns that go with it, which needs geopandas.
 
         Parameters
         ----------
@@ -312,7 +312,7 @@ class Branched(_Places):
     """A value of arcs, which follow each other in branches."""
 
     def to_shapely(self, *, by: Literal["arc", "branch"] = "arc", flatten: Flatten = None) -> NDArray[Any]:
-        """Give each arc or branch as a line, in order.
+        """Return each arc or branch as a line, in order.
 
         Parameters
         ----------
@@ -343,7 +343,7 @@ class Branched(_Places):
         return made
 
     def to_geopandas(self, *, by: Literal["arc", "branch"] = "arc", flatten: Flatten = None) -> geopandas.GeoDataFrame:
-        """Give each arc or branch as a line with its columns, which needs geopandas.
+        """Return each arc or branch as a line with its columns, which needs geopandas.
 
         Parameters
         ----------
@@ -374,7 +374,7 @@ class Branched(_Places):
     def to_networkx(
         self, *, by: Literal["branch", "arc"] = "branch", flatten: Flatten = None
     ) -> networkx.MultiGraph[int]:
-        """Give the graph as one of networkx, which has to be installed.
+        """Return the graph as a networkx graph; networkx must be installed.
 
         Parameters
         ----------
@@ -411,7 +411,7 @@ class Graph:
     """A value that is a graph, or has one."""
 
     def to_networkx(self) -> networkx.Graph[int]:
-        """Give the graph as one of networkx, which has to be installed.
+        """Return the graph as a networkx graph; networkx must be installed.
 
         Returns
         -------
@@ -441,7 +441,7 @@ class Pictured:
     """A value that there is a picture of."""
 
     def plot(self, ax: Axes | None = None, **style: Any) -> Axes:
-        """Draw it by matplotlib, in the colors of our pictures and the coordinates of the data.
+        """Draw the value with matplotlib, in the colors of vorotool's pictures and in data coordinates.
 
         Parameters
         ----------
@@ -488,10 +488,10 @@ class Pixels(Pictured, Elements):
 
 
 def counted(number: int, noun: str, several: str | None = None) -> str:
-    """Give a number with its noun."""
+    """Return a number with its noun."""
     return f"{number} {noun if number == 1 else several or noun + 's'}"
 
 
 def placed(text: str, crs: object = None, unit: str | None = None) -> str:
-    """Give a summary with the coordinate reference system and the unit, if they are known."""
+    """Return a summary with the coordinate reference system and the unit, if they are known."""
     return ", ".join([text, *([crs_name(crs)] if crs is not None else []), *([unit] if unit else [])])

@@ -208,7 +208,7 @@ def test_progress_and_interruption():
 
 def test_limits(monkeypatch):
     monkeypatch.setattr(engine, "MOST_VERTICES", 3)
-    with pytest.raises(LimitError, match="there are 4 vertices, more than 3"):
+    with pytest.raises(LimitError, match="4 vertices, more than 3"):
         planar_graph(SQUARE)
 
 

@@ -89,7 +89,7 @@ def planar_graph(
     """
     given = as_polygons(polygons)
     if len(given.xy) > MOST_VERTICES:
-        raise LimitError(f"there are {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
+        raise LimitError(f"the input has {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
     placement = placed_vertices(given, threads=threads, progress=progress)
     return graph_of_placement(given, placement, strict=strict, progress=progress)
 

@@ -36,7 +36,7 @@ def cell_statistics(
     threads: int = 0,
     progress: Progress = None,
 ) -> CellStatistics:
-    """Measure the Voronoi cells of points, or the regions of a label image, and summarise the whole ones.
+    """Measure the Voronoi cells of points, or the regions of a label image, and summarize the whole ones.
 
     A cell is whole if nothing cuts it: its point is not on the hull, whose cells are unbounded, it does not touch the
     frame, and it lies inside the polygons of ``clip``. A region of a label image is whole if it does not touch the

@@ -68,7 +68,7 @@ def delaunay(points: SeedsLike, *, strict: bool = False, threads: int = 0, progr
     """
     given = as_points(points)
     if len(given) > MOST_POINTS:
-        raise LimitError(f"there are {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
+        raise LimitError(f"the input has {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
     threads = checked_threads(threads)
     core = _core.delaunay.DelaunayTriangulation(given.xy, threads, progress)
     arrays, known = core.arrays(threads, progress), known_of_points(given)

@@ -56,7 +56,7 @@ def digital_triangulation(
     threads: int = 0,
     progress: Progress = None,
 ) -> DigitalTriangulation:
-    """Extract edges and triangles from the digital tessellation by the paper's rule, to the letter.
+    """Extract edges and triangles from the digital tessellation, exactly by the rule of the paper.
 
     Edges link neighboring regions, those with 4-neighboring pixels ("by linking the neighboring seeds we obtain
     the correct Delaunay triangulation"). Triangles come from a pixel and two of its 4-neighbors that are

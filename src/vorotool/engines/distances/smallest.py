@@ -12,7 +12,7 @@ from vorotool.types.distances.distances import Distances, PlacePair
 
 
 def distance(a: Any, b: Any, *, boundary: bool = False, threads: int = 0, progress: Progress = None) -> Distances:
-    """Compute the smallest distance between two shapes, and the closest pair of places.
+    """Compute the smallest distance between two shapes, and the closest pair of points.
 
     Parameters
     ----------

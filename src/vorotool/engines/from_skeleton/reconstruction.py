@@ -35,7 +35,7 @@ _MET = 4
 
 
 def rebuild(skeleton: Skeleton, *, flatten: Flatten = None) -> PolygonSet:
-    """Rebuild polygons from the arcs inside them: what the discs of all points of the skeleton cover.
+    """Rebuild polygons from their interior skeleton, as the union of its discs.
 
     Edges are the common tangents of discs, vertices the common points of discs, both from places and radii of the
     skeleton alone; a vertex of the polygons that is met but for rounding is written as it was given. Where the skeleton

@@ -37,7 +37,7 @@ def necks(
     threads: int = 0,
     progress: Progress = None,
 ) -> Necks:
-    """Find the necks of polygons: the places of the skeleton where the clearance is least in both directions.
+    """Find the necks of polygons: the points of the skeleton where the clearance is least in both directions.
 
     Inside an arc of the skeleton, or at a node of two arcs, the clearance grows both ways; the disc there touches the
     boundary at two opposite places, and the cut from one to the other is the shortest anywhere near. Between parallel

@@ -174,7 +174,7 @@ def _pruned_part(
 
 
 def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progress = None) -> CriticalValues:
-    """Compute the smallest threshold that removes each place of a skeleton.
+    """Compute the smallest threshold that removes each point of a skeleton.
 
     Parameters
     ----------
@@ -214,7 +214,7 @@ def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progr
 
 
 def arc_profiles(skeleton: Skeleton) -> ArcProfiles:
-    """Compute the positions of the two nearest boundary places along each arc.
+    """Compute the two nearest boundary points along each arc.
 
     Parameters
     ----------

@@ -253,5 +253,5 @@ def warn_empty(polygons: PolygonSet, side: str) -> None:
 
 def warn_all_cut() -> None:
     """Say that there is no axis in the rectangle whose border is open."""
-    reason = "no place inside the open border lies between two parts of an outline"
+    reason = "no point inside the open border lies between two parts of an outline"
     warn(VorotoolWarning(Message(f"the interior skeleton is empty: {reason}", Kind.EMPTY_RESULT)))

@@ -82,7 +82,7 @@ def _graph(polygons: PolygonSet, threads: int, progress: Progress) -> PlanarGrap
     given = with_flat_shells_as_lines(polygons)
     check_magnitude(given.xy)
     if len(given.xy) > MOST_VERTICES:
-        raise LimitError(f"there are {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
+        raise LimitError(f"the input has {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
     return graph_of_sites(given, placed_vertices(given, threads=threads, progress=progress), progress=progress)
 
 

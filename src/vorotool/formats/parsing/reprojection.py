@@ -33,5 +33,5 @@ def _known(pyproj: Any, crs: Any) -> Any:
         return pyproj.CRS.from_user_input(crs_text(crs))
     except pyproj.exceptions.CRSError:
         raise UsageError(
-            f"the coordinate reference system {crs_name(crs)} is not known: check authority and code, as in EPSG:3857"
+            f"the coordinate reference system {crs_name(crs)} is unknown: check authority and code, as in EPSG:3857"
         ) from None

@@ -78,7 +78,7 @@ class Linearizer:
 
         vertices = self._line(node)
         if len(vertices) < 4 or (vertices[0, :2] != vertices[-1, :2]).any():
-            raise ValueError("a ring is not closed, or has no inside")
+            raise ValueError("a ring is not closed, or has no area")
         return shapely.linearrings(vertices)
 
     def _line(self, node: Node) -> NDArray[np.float64]:
@@ -89,7 +89,7 @@ class Linearizer:
                 raise ValueError("the parts of a compound curve do not begin where the ones before end")
             return np.concatenate([pieces[0], *(piece[1:] for piece in pieces[1:])])
         if node.kind not in LEAVES or node.kind == "POINT":
-            raise ValueError(f"a {node.kind} is no curve")
+            raise ValueError(f"a {node.kind} is not a curve")
         if node.kind != "CIRCULARSTRING":
             return node.points
         if len(node.points) < 3 or len(node.points) % 2 == 0:

@@ -115,7 +115,7 @@ def checked_layers(layers: Iterable[str], known: tuple[str, ...]) -> frozenset[s
     wanted = tuple(layers)
     for layer in wanted:
         if layer not in known:
-            raise UsageError(f"there is no layer {layer!r}: use {', '.join(known)}")
+            raise UsageError(f"the layer {layer!r} does not exist: use {', '.join(known)}")
     return frozenset(wanted)
 
 

@@ -64,7 +64,7 @@ class SlicePicture:
         if self.chosen is not None and not first <= self.chosen < first + count:
             last = first + count - 1
             which = f"slices {first} to {last}" if count > 1 else f"slice {first} alone"
-            raise UsageError(f"there is no --slice {self.chosen}: the volume has {which}")
+            raise UsageError(f"--slice {self.chosen} does not exist: the volume has {which}")
 
     @cached_property
     def sizes(self) -> tuple[int, int, int]:

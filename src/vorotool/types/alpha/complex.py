@@ -149,7 +149,7 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
         return self._fraction_from(rank, square)
 
     def _fraction_from(self, rank: int, square: Fraction) -> Fraction:
-        """Give a decimal at least as large as a radius that another one follows within the spacing of doubles."""
+        """Return a decimal at least as large as a radius that another one follows within the spacing of doubles."""
         bits = square.numerator.bit_length() - square.denominator.bit_length()
         digits = 17 - floor(bits / 2 * 0.30103)  # behind the point: at least 16 significant ones
         while True:
@@ -215,5 +215,5 @@ def checked_radius(r: Any) -> Radius:
 
 
 def _ceiling_root(value: Fraction) -> int:
-    """Give the least integer whose square is at least this positive number."""
+    """Return the least integer whose square is at least this positive number."""
     return isqrt(-(-value.numerator // value.denominator) - 1) + 1

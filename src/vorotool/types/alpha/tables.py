@@ -21,7 +21,7 @@ from vorotool.types.table import Lookup, Table
 
 
 def shape_edge_table(shape: AlphaShape, *, interior: bool = False) -> Table:
-    """Give one row an edge of a shape, in the order of the family."""
+    """Return one row an edge of a shape, in the order of the family."""
     family = shape.family
     classes = shape.edge_classes
     chosen = np.flatnonzero(classes).astype(np.int32) if interior else shape.edge_index
@@ -36,7 +36,7 @@ def shape_edge_table(shape: AlphaShape, *, interior: bool = False) -> Table:
 
 
 def family_table(family: AlphaComplex) -> Table:
-    """Give one row a Delaunay edge: the radii at which it enters, bounds a triangle, and goes inside."""
+    """Return one row a Delaunay edge: the radii at which it enters, bounds a triangle, and goes inside."""
     labels = family.mesh.label_array
     a, b = np.ascontiguousarray(family.edges.T)
     columns = {
@@ -50,7 +50,7 @@ def family_table(family: AlphaComplex) -> Table:
 
 
 def shape_point_table(shape: AlphaShape) -> Table:
-    """Give one row a point, in the order of the input."""
+    """Return one row a point, in the order of the input."""
     mesh = shape.family.mesh
     x, y = np.ascontiguousarray(mesh.points.T)
     label, *others = _point_columns(shape).items()
@@ -67,7 +67,7 @@ def _point_columns(shape: AlphaShape) -> dict[str, Any]:
 
 
 def region_table(shape: AlphaShape) -> Table:
-    """Give one row a region of a shape."""
+    """Return one row a region of a shape."""
     inside, count = shape.inside, shape.region_count
     of = shape.region[inside]
     corners = shape.family.mesh.triangles[inside]
@@ -104,7 +104,7 @@ def _named(names: tuple[str, ...], numbers: NDArray[np.uint8]) -> list[str]:
 
 
 def described_polygons(shape: AlphaShape) -> PolygonSet:
-    """Give the polygons of a shape with the area, the perimeter and the number of holes of each."""
+    """Return the polygons of a shape with the area, the perimeter and the number of holes of each."""
     described = {
         "area": shape.region_areas.tolist(),
         "perimeter": _perimeters(shape).tolist(),
@@ -114,7 +114,7 @@ def described_polygons(shape: AlphaShape) -> PolygonSet:
 
 
 def shape_rows(shape: AlphaShape, what: str | None) -> Rows:
-    """Give the rows of a part, by default of the regions."""
+    """Return the rows of a part, by default of the regions."""
     makers: dict[str | None, Callable[[AlphaShape], Table]] = {
         "edges": shape_edge_table,
         "complex": partial(shape_edge_table, interior=True),
@@ -124,7 +124,7 @@ def shape_rows(shape: AlphaShape, what: str | None) -> Rows:
 
 
 def shape_features(shape: AlphaShape, what: str | None) -> Rows | Mixture:
-    """Give the rows of a part with their geometry, by default of the polygons."""
+    """Return the rows of a part with their geometry, by default of the polygons."""
     if what == "general":
         return _general(shape)
     return chosen(
@@ -157,7 +157,7 @@ def _numbers(shape: AlphaShape) -> list[int]:
 
 
 def _general(shape: AlphaShape) -> Mixture:
-    """Give all of a shape: regions as polygons, singular edges as lines, isolated points."""
+    """Return all of a shape: regions as polygons, singular edges as lines, isolated points."""
     mesh, count = shape.family.mesh, shape.region_count
     polygons = described_polygons(shape)
     named = {"class": ["region"] * count, "region": _numbers(shape), **polygons.properties}

@@ -20,7 +20,7 @@ HAUSDORFF, FROM_A, FROM_B, SMALLEST = "hausdorff", "a to b", "b to a", "smallest
 
 @plain
 class PlacePair:
-    """A place of a shape, the nearest place of another shape, and their distance.
+    """Point of a shape, the nearest point of another shape, and their distance.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class Distances(Value, Tabular, Geometric, Pictured):
     from_b : PlacePair, optional
         The place of b that is farthest from a, and the place of a that is nearest to it.
     smallest : PlacePair, optional
-        The closest pair of places.
+        The closest pair of points.
     shapes : tuple of PolygonSet
         The shapes a and b.
     is_boundary : bool
@@ -102,7 +102,7 @@ class Distances(Value, Tabular, Geometric, Pictured):
 
     @property
     def places(self) -> NDArray[np.float64]:
-        """(n, 2, 2) the place on a and that on b of each row."""
+        """(n, 2, 2) the point on a and the point on b of each row."""
         return np.array([(each.on_a, each.on_b) for each in self.rows.values()]).reshape(-1, 2, 2)
 
     def table(self) -> Table:

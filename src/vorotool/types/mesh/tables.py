@@ -44,7 +44,7 @@ def edge_table(mesh: AnyTriangulation | ProximityGraph) -> Table:
 
 
 def end_columns(mesh: AnyTriangulation | ProximityGraph, edges: NDArray[np.int32]) -> dict[str, Lookup]:
-    """Give the labels and the places of the ends of edges."""
+    """Return the labels and the places of the ends of edges."""
     labels, (x, y), (a, b) = mesh.label_array, np.ascontiguousarray(mesh.points.T), edges.T
     ends = {"label_a": (labels, a), "label_b": (labels, b), "x_a": (x, a), "y_a": (y, a), "x_b": (x, b), "y_b": (y, b)}
     return {name: Lookup(values, end) for name, (values, end) in ends.items()}
@@ -118,7 +118,7 @@ def _point_columns(mesh: Triangulation) -> dict[str, Any]:
 
 
 def mesh_rows(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows:
-    """Give the rows of a part, by default of the edges."""
+    """Return the rows of a part, by default of the edges."""
     if what == "table" and isinstance(mesh, DigitalTriangulation):
         raise UsageError("a table of points needs a triangulation: write the edges or triangles of this result")
     makers: dict[str | None, Callable[[Any], Table]] = {"triangles": triangle_table, "table": point_table}
@@ -126,7 +126,7 @@ def mesh_rows(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows
 
 
 def mesh_features(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows:
-    """Give the rows of a part with their geometry, by default of the triangles."""
+    """Return the rows of a part with their geometry, by default of the triangles."""
     parts: dict[str, Callable[[], Rows]] = {"edges": lambda: _of_corners(mesh, edge_table(mesh), mesh.edges)}
     if not isinstance(mesh, ProximityGraph):
         parts = {

@@ -14,7 +14,7 @@ POINT, MULTIPOINT, COLLECTION = 0, 4, 7
 
 
 def single_points(geometry: Any) -> tuple[NDArray[np.object_], NDArray[np.int64]]:
-    """Give the points of geometry that are not empty, and the item that each comes from."""
+    """Return the points of geometry that are not empty, and the item that each comes from."""
     import shapely
 
     points, owners = np.array(geometry, dtype=object), np.arange(len(geometry))

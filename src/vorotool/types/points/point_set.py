@@ -143,7 +143,7 @@ def finite_rows(values: Any, axes: int) -> NDArray[np.float64]:
 
 
 def checked_labels(labels: Any, count: int) -> NDArray[np.int64]:
-    """Give the labels of so many points, each from 1 to 4294967295."""
+    """Return the labels of so many points, each from 1 to 4294967295."""
     array = whole_numbers(labels, "label of point", np.int64)
     if array.shape != (count,):
         raise InputError(f"labels must have shape ({count},), but have shape {array.shape}")

@@ -28,7 +28,7 @@ class RingArrays:
 
     @classmethod
     def of(cls, polygons: PolygonSet) -> RingArrays:
-        """Give those of a set."""
+        """Return those of a set."""
         return cls(polygons.xy, np.diff(polygons.ring_starts), polygons.ring_kind, np.diff(polygons.polygon_starts))
 
     @classmethod

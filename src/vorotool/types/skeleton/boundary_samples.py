@@ -71,7 +71,7 @@ class BoundarySamples:
 
 
 def sample_table(samples: BoundarySamples) -> Table:
-    """Give one row a seed."""
+    """Return one row a seed."""
     site, labels, xy = samples.site, samples.labels, samples.xy
     sites = samples.sites
     return part_table(

@@ -15,7 +15,7 @@ CRITERIA = ("angle", "chord", "scale", "length", "ratio")
 
 @record
 class CriticalValues(Value, Tabular):
-    """The smallest thresholds that remove the places of a skeleton.
+    """Smallest thresholds that remove each point of a skeleton.
 
     Along an arc values do not decrease from either end to the place that has most.
 

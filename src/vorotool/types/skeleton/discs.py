@@ -92,7 +92,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         return len(self.radius)
 
     def feet_of(self, disc: int) -> NDArray[np.float64]:
-        """Return the places where a disc touches the boundary, by the numbers of their sites."""
+        """Return the points where a disc touches the boundary, by the numbers of their sites."""
         return self.feet[self.foot_starts[disc] : self.foot_starts[disc + 1]]
 
     @cached_property

@@ -32,7 +32,7 @@ def moved_feet(skeleton: Skeleton, site: NDArray[np.integer], feet: Floats, *, b
 
 
 def projected(edge: Floats, place: Floats) -> Floats:
-    """Give the nearest place on each edge, which is an end of it exactly where nothing nearer is inside."""
+    """Return the nearest place on each edge, which is an end of it exactly where nothing nearer is inside."""
     a, b = edge[:, 0], edge[:, 1]
     way, from_a = b - a, place - a
     square = np.square(way).sum(axis=1)

@@ -45,7 +45,7 @@ class SkeletonGraph:
 
 
 def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | None = None) -> SkeletonGraph:
-    """Give the graph of a skeleton."""
+    """Return the graph of a skeleton."""
     if not is_choice(by, BY):
         raise UsageError(f"by is {shown_number(by)}: use {' or '.join(BY)}")
     points, start = skeleton.as_given.flattened(flatten)
@@ -66,7 +66,7 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
 
 
 def skeleton_features(skeleton: Skeleton, what: str | None, flatten: float | None) -> Rows:
-    """Give each branch as a line, or each arc."""
+    """Return each branch as a line, or each arc."""
     graph = skeleton_graph(skeleton, by="branch" if what in (None, "skeleton", "diagram") else what, flatten=flatten)
     geometry = Lines(graph.points, graph.start)
     return of_polygons(graph.columns, skeleton.polygons, graph.polygon, geometry=geometry, is_part=True)

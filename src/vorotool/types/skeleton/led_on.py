@@ -56,7 +56,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
             raise InputError(f"ends must have shape ({lines}, 2, 2), but have {self.ends.shape}")
 
     def __len__(self) -> int:
-        """Give the number of lines."""
+        """Return the number of lines."""
         return len(self.arc_starts) - 1
 
     @cached_property
@@ -107,13 +107,13 @@ class LedOn(Value, Tabular, Curved, Pictured):
 
     @cached_property
     def length(self) -> Floats:
-        """(k,) lengths, with what leads on."""
+        """(k,) lengths, extensions included."""
         lengths: Floats = self._summed(self.path.length) + self.extension_length.sum(axis=1)
         return lengths
 
     @cached_property
     def width_mean(self) -> Floats:
-        """(k,) twice the mean of the radius along each path, or at a single place, without what leads on."""
+        """(k,) twice the mean of the radius along each path, or at a single point, without extensions."""
         length, radius = self._summed(self.path.length), self.path.radius[self.end_nodes[:, 0]]
         mean = np.divide(self._summed(self.path.arc_radii[2]), length, out=radius, where=length > 0)
         return np.asarray(2 * mean)
@@ -131,7 +131,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
         return np.add.reduceat(values, self.arc_starts[:-1]) if len(self) else np.zeros(0)
 
     def flattened(self, tolerance: float | None = None) -> tuple[Floats, NDArray[np.int64]]:
-        """Whole lines as polylines, as of `Skeleton.flattened`; no vertex is where one is led on exactly straight."""
+        """Whole lines as polylines, as of `Skeleton.flattened`; no vertex is where an extension is exactly straight."""
         points, start = chained(*self.path.flattened(tolerance), self.arc_starts[:-1])
         first, last = self.extended
         whole = np.concatenate([self.ends[first, 0], points, self.ends[last, 1]])
@@ -157,7 +157,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
 
 
 def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
-    """Give one row an arc, line by line, with the straight lines that lead on."""
+    """Return one row an arc, line by line, with the straight lines that lead on."""
     given, nodes = lines.as_given, lines.end_nodes
     path = given.path
     first, last = lines.extended

@@ -21,7 +21,7 @@ SITE_KINDS = ("vertex", "edge")
 
 @record
 class Necks(Value, Tabular, Geometric, Pictured):
-    """Places of a skeleton where the clearance is least in both directions, polygon by polygon, by x and then by y.
+    """Points of a skeleton where the clearance is least in both directions, polygon by polygon, by x and then by y.
 
     The boundary is touched at two opposite places there, the feet: the cut goes straight from one to the other.
 

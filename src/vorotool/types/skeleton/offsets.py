@@ -91,7 +91,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
     origin: tuple[float, float] = (0.0, 0.0)
 
     def __len__(self) -> int:
-        """Give the number of shapes."""
+        """Return the number of shapes."""
         return len(self.distance)
 
     @cached_property

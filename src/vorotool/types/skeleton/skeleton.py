@@ -252,7 +252,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         return found
 
     def measures(self, arcs: NDArray[np.integer]) -> ArcMeasures:
-        """Return places, radii and lengths along some arcs, which may be repeated."""
+        """Return points, radii and lengths along some arcs, which may be repeated."""
         return ArcMeasures(*self._arc_arrays(arcs))
 
     def _arc_arrays(self, arcs: Any) -> tuple[NDArray[Any], ...]:

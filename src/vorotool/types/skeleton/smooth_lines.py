@@ -64,7 +64,7 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
     error: Floats = f.length("lines")
 
     def __len__(self) -> int:
-        """Give the number of lines."""
+        """Return the number of lines."""
         return len(self.error)
 
     @property

@@ -83,7 +83,7 @@ def arc_table(skeleton: Skeleton) -> Table:
 
 
 def skeleton_rows(skeleton: Skeleton, what: str | None) -> Rows:
-    """Give the rows of a part, by default of the arcs."""
+    """Return the rows of a part, by default of the arcs."""
     makers: dict[str | None, Callable[[Skeleton], Table]] = {
         "elements": element_table,
         "branches": branch_table,
@@ -318,7 +318,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
 
 
 def _mapping(columns: Any) -> dict[str, Any]:
-    """Give further columns by their names."""
+    """Return further columns by their names."""
     if columns is None:
         return {}
     if not isinstance(columns, Mapping | Table) or not all(isinstance(name, str) for name in columns):

@@ -26,7 +26,7 @@ _BEND_OF_TWO = 10
 
 
 def flattened_arcs(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indices]:
-    """Give each arc as a polyline, from its source to its target."""
+    """Return each arc as a polyline, from its source to its target."""
     arcs = cells.mixed_arcs
     least = least_focal_distances(arcs.source, arcs.control, arcs.target)
     ends = np.stack([arcs.source, arcs.target], axis=1)
@@ -51,7 +51,7 @@ def _in_pairs(cells: VoronoiMap) -> Indices:
 
 
 def cell_rings(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indices]:
-    """Give the vertices of all rings of cells, the first of each not repeated."""
+    """Return the vertices of all rings of cells, the first of each not repeated."""
     points, start = flattened_arcs(cells, tolerance)
     arc, is_back = np.abs(cells.ring_arcs.astype(np.int64)) - 1, cells.ring_arcs < 0
     sizes = np.diff(start)[arc] - 1
@@ -68,7 +68,7 @@ def cell_polygons(cells: VoronoiMap, tolerance: float | None) -> NDArray[Any]:
 
 
 def map_features(cells: VoronoiMap, what: str | None, tolerance: float | None) -> Rows:
-    """Give the rows of borders, or of cells; only without a part with all columns of their table, some of them slow."""
+    """Return the rows of borders, or of cells; only without a part with all columns of their table, some slow."""
     every = np.arange(len(cells))
     if what == "edges":
         return _borders(cells, tolerance)
@@ -88,7 +88,7 @@ _LEFT_OUT = "x0", "y0", "x1", "y1", "cx", "cy", "r0", "r1", "arc"
 
 
 def _borders(cells: VoronoiMap, tolerance: float | None) -> Rows:
-    """Give a row a piece of a border, in the order of the table."""
+    """Return a row a piece of a border, in the order of the table."""
     points, start = flattened_arcs(cells, tolerance)
     sizes, shown = np.diff(start), cells.is_border
     geometry = Lines(points[shown[owners(sizes)]], starts_of(sizes[shown]))

@@ -27,7 +27,7 @@ def kinds_of(cells: VoronoiMap) -> NDArray[np.int32]:
 
 
 def border_table(cells: VoronoiMap) -> Table:
-    """Give one row an arc between two cells."""
+    """Return one row an arc between two cells."""
     arc = np.flatnonzero(cells.is_border)
     low, high = np.sort(cells.sites[arc], axis=1).T
     source, target = np.ascontiguousarray(cells.arcs[arc].T)
@@ -65,7 +65,7 @@ def neighbor_pairs(cells: VoronoiMap) -> tuple[NDArray[np.int64], NDArray[np.flo
 
 
 def neighbor_table(cells: VoronoiMap) -> Table:
-    """Give one row a pair of cells that share a border; cells that meet in places only are none."""
+    """Return one row a pair of cells that share a border; cells that meet in places only are none."""
     pairs, length = neighbor_pairs(cells)
     low, high = cells.labels[pairs.T]
     distance = _when_asked(lambda: site_distances(cells, pairs), len(pairs))
@@ -74,7 +74,7 @@ def neighbor_table(cells: VoronoiMap) -> Table:
 
 
 def cell_table(cells: VoronoiMap) -> Table:
-    """Give one row a cell."""
+    """Return one row a cell."""
     pairs, _ = neighbor_pairs(cells)
     columns: dict[str, Any] = {"label": cells.labels}
     if cells.ids is not None:
@@ -91,7 +91,7 @@ def cell_table(cells: VoronoiMap) -> Table:
 
 
 def map_rows(cells: VoronoiMap, what: str | None) -> Rows | None:
-    """Give the rows of a part, by default of the cells; None if these are to have their geometry."""
+    """Return the rows of a part, by default of the cells; None if these are to have their geometry."""
     if what == "cells":
         return None
     if what in ("edges", "neighbors"):

@@ -35,7 +35,7 @@ Floats = NDArray[np.float64]
 
 @record
 class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
-    """Voronoi cells of sites in a frame: the places nearest to each site, at distance 0 inside its polygons.
+    """Voronoi cells of sites in a frame: the points nearest to each site, at distance 0 inside its polygons.
 
     Of sites that are equally near to a whole region the smallest has it. Cells are bounded by arcs, straight lines,
     parabolas or circular ones, which two cells share, or a cell and what belongs to none. Each arc leads from the
@@ -125,7 +125,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     index: Any = None
 
     def __len__(self) -> int:
-        """Give the number of cells, empty ones too."""
+        """Return the number of cells, empty ones too."""
         return len(self.cell_starts) - 1
 
     @cached_property
