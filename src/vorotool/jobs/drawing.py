@@ -121,7 +121,7 @@ class DrawnInput(Results):
         if fmt == "html":
             check_size(image.shape, "HTML")
         assert image.frame is not None  # LabelImage has filled it in
-        self.world = world_of(run, o.looks, frame=image.frame.box, size=size)
+        self.world = world_of(run, o, frame=image.frame.box, size=size)
 
     def _check_layers(self, value: Lined, fmt: str) -> None:
         run, o = self.run, self.options

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vorotool.jobs.checked_columns import check_column
 from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.input_unit import InputUnit, unit_of_crs
 from vorotool.numeric.length_units import ratio, unit_name
-from vorotool.render.looks import Looks, World
+from vorotool.products.registry import is_of
+from vorotool.render.looks import World
 from vorotool.types.values import input_of
 
 if TYPE_CHECKING:
@@ -19,9 +22,12 @@ if TYPE_CHECKING:
     from vorotool.jobs.options import Options
     from vorotool.jobs.run_log import Run
     from vorotool.jobs.units import PixelSize
+    from vorotool.render.canvas.layers import Page
     from vorotool.render.canvas.styles import ScaleBar
-    from vorotool.types.box import Box, Extent, Sides
+    from vorotool.types.box import Box, Sides
     from vorotool.types.mesh.digital_triangulation import AnyTriangulation
+    from vorotool.types.pixel_frame import Frame
+    from vorotool.types.pixel_grid import PixelGrid, Transform
     from vorotool.types.points.label_image import LabelImage
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.seed_set import SeedSet
@@ -32,8 +38,8 @@ STEEPEST = 89.0
 
 
 def world_of(
-    run: Run | None,
-    looks: Looks,
+    run: Run,
+    o: Options,
     *,
     crs: Any = None,
     unit: str | None = None,
@@ -42,100 +48,80 @@ def world_of(
     size: PixelSize | None = None,
     is_paper: bool = False,
 ) -> World:
-    """Tell where what is drawn lies; a frame is that of an image."""
-    is_angular = is_geographic(crs) and frame is None
+    """Return where what is drawn lies; a frame is that of an image."""
+    looks, is_angular, is_image = o.looks, is_geographic(crs) and frame is None, frame is not None
     aspect = aspect_at((bounds[1] + bounds[3]) / 2) if is_angular and bounds is not None else 1.0
     bar = None
-    if looks.has_scale_bar:
-        if is_angular or (size is not None and is_geographic(size.crs)):
-            if run is not None:
-                run.note("there is no scale bar: the length of a degree of longitude differs from place to place")
-        else:
-            bar = _scale_bar(crs, unit, size, is_image=frame is not None)
+    if looks.has_scale_bar and (is_angular or (size is not None and is_geographic(size.crs))):
+        run.note("there is no scale bar: the length of a degree of longitude differs from place to place")
+    elif looks.has_scale_bar:
+        bar = _scale_bar(crs, unit, size, is_image=is_image)
     scale = looks.scale
     wants_unit = is_paper if scale is None else scale.is_ratio and looks.drawing_unit is None
-    millimetres = _millimetres(crs, unit, size, run, is_image=frame is not None) if wants_unit else None
+    millimetres = _millimetres(crs, unit, size, run, is_image=is_image) if wants_unit else None
     is_paper &= looks.aspect is None and millimetres is not None
     return World(bar, millimetres, aspect, None if frame is None else frame.sides, is_paper=is_paper)
 
 
 def world_of_sites(run: Run, o: Options, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
-    """Tell where sites lie that are points, or objects of an image."""
-    from vorotool.types.points.seed_set import SeedSet
-
-    frame = None
-    if isinstance(sites, SeedSet) and sites.frame is not None:
-        sides = None if o.pixel_size is None else o.pixel_size.sides
-        frame = sites.frame.box if sides is None else sites.frame.box.stretched(sides.x, sides.y)
-    made = world_of(run, o.looks, crs=mesh.crs, bounds=_bounds_of(mesh.points), frame=frame, size=o.pixel_size)
+    """Return where sites lie that are points, or objects of an image."""
+    frame: Frame | None = getattr(sites, "frame", None) if is_of(sites, "SeedSet") else None
+    box = None if frame is None else frame.box
+    if box is not None and o.pixel_size is not None and o.pixel_size.sides is not None:
+        box = box.stretched(o.pixel_size.sides.x, o.pixel_size.sides.y)
+    made = world_of(run, o, crs=mesh.crs, bounds=_bounds_of(mesh.points), frame=box, size=o.pixel_size)
     asked = _asked(o)
     return made if asked is None else made._replace(frame=asked, page=asked)
 
 
 def world_of_polygons(
-    run: Run, o: Options, polygons: PolygonSet, *, size: PixelSize | None = None, is_cut: bool = True
-) -> World:
-    """Tell where polygons and lines lie, or outlines of an image; `is_cut` if ``--frame`` cuts what is drawn."""
-    made = _world_of_set(run, o.looks, polygons, size=size, is_paper=o.width is None)
-    asked = _asked(o)
-    return made if asked is None else made._replace(frame=None if is_cut else asked, page=asked)
-
-
-def _world_of_set(
-    run: Run | None,
-    looks: Looks,
+    run: Run,
+    o: Options,
     polygons: PolygonSet,
     *,
-    is_paper: bool,
     bounds: Sides | None = None,
     size: PixelSize | None = None,
+    is_cut: bool = True,
 ) -> World:
+    """Return where polygons and lines lie, or outlines of an image; `is_cut` if ``--frame`` cuts what is drawn."""
     made = world_of(
         run,
-        looks,
+        o,
         crs=polygons.crs,
         unit=polygons.unit,
         bounds=bounds or _bounds_of(polygons.xy),
         frame=polygons.frame,
         size=size,
-        is_paper=is_paper and polygons.is_drawing,
+        is_paper=o.width is None and polygons.is_drawing,
     )
-    return made if polygons.page is None else made._replace(page=polygons.page.sides)
+    if polygons.page is not None:
+        made = made._replace(page=polygons.page.sides)
+    asked = _asked(o)
+    return made if asked is None else made._replace(frame=None if is_cut else asked, page=asked)
 
 
 def _asked(o: Options) -> Sides | None:
-    """Return the sides of ``--frame``, if the command has it."""
-    frame: Extent | None = getattr(o, "frame", None)
-    if frame is None:
-        return None
+    """Return the sides of ``--frame``, if it is given."""
     from vorotool.types.box import Box
 
-    return Box.of_size(*frame).sides
+    return None if o.frame is None else Box.of_size(*o.frame).sides
 
 
-def world_of_value(value: Any, looks: Looks, *, is_paper: bool = False) -> World:
-    """Tell where a value of the library lies, and refuse a column that it has not."""
+def world_of_value(run: Run, o: Options, value: Any) -> World:
+    """Return where a value of the library lies, and refuse a column that it has not."""
     from vorotool.types.box import extent_sides
-    from vorotool.types.mesh.cells import CellSet
-    from vorotool.types.points.label_image import LabelImage
-    from vorotool.types.polygons.polygon_set import PolygonSet
-    from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
-    if isinstance(value, LabelImage):
-        check_column(looks.label_by, {} if value.seeds is None else value.seeds.properties, "label_by")
-        assert value.frame is not None  # LabelImage has filled it in
-        return world_of(None, looks, frame=value.frame.box, size=_size_of(value))
-    if isinstance(value, VoronoiMap):
-        check_column(looks.label_by, value.properties, "label_by")
-        bounds = extent_sides(value.frame)
-        made = _world_of_set(None, looks, value.polygons, is_paper=is_paper, bounds=bounds)
-        return made._replace(frame=None)
-    inner = input_of(value)
-    check_column(looks.label_by, inner.properties, "label_by")
-    if isinstance(inner, PolygonSet):
-        return _world_of_set(None, looks, inner, is_paper=is_paper)._replace(frame=None)
-    points = inner.sites if isinstance(inner, CellSet) else inner.points
-    return world_of(None, looks, crs=inner.crs, bounds=_bounds_of(points))
+    if is_of(value, "LabelImage"):
+        check_column(o.label_by, {} if value.seeds is None else value.seeds.properties, "label_by")
+        return world_of(run, o, frame=value.frame.box, size=_size_of(value))
+    is_map = is_of(value, "VoronoiMap")
+    inner = value if is_map else input_of(value)
+    check_column(o.label_by, inner.properties, "label_by")
+    if is_map or is_of(inner, "PolygonSet"):
+        bounds = extent_sides(value.frame) if is_map else None
+        return world_of_polygons(run, o, inner.polygons if is_map else inner, bounds=bounds)._replace(frame=None)
+    points = inner.sites if is_of(inner, "CellSet") else inner.points
+    return world_of(run, o, crs=inner.crs, bounds=_bounds_of(points))
 
 
 def _size_of(image: LabelImage) -> PixelSize | None:
@@ -177,14 +163,65 @@ def _scale_bar(crs: Any, unit: str | None, size: PixelSize | None, *, is_image: 
     return ScaleBar(1.0, "px" if is_image else unit or (found and found.text))
 
 
-def _millimetres(
-    crs: Any, unit: str | None, size: PixelSize | None, run: Run | None, *, is_image: bool
-) -> Fraction | None:
+def _millimetres(crs: Any, unit: str | None, size: PixelSize | None, run: Run, *, is_image: bool) -> Fraction | None:
     """How many millimetres 1 in the coordinates is, if that is known."""
     known = None if is_image else unit_of_crs(crs) if unit is None else InputUnit(unit)
     if size is not None and size.unit is not None:
         known = InputUnit(size.unit, size.factor)
-    elif is_image and run is not None:
+    elif is_image:
         known = run.pixel
     ratio_of = None if known is None else ratio(known.unit, "mm")
     return None if known is None or ratio_of is None else known.side * ratio_of
+
+
+# ---- world files beside PNGs of what lies on a map
+def write_world_file(
+    run: Run, size: PixelSize | None, page: Page | None, path: str, *, no_clobber: bool, inputs: Sequence[str]
+) -> None:
+    """Write the world file of a PNG whose pixels have places on a map; others have none."""
+    transform = _transform(run, size, page)
+    if transform is None:
+        return
+    from vorotool.formats.images.world_file import world_text
+    from vorotool.formats.io.atomic_output import open_output
+    from vorotool.formats.io.descriptors import stream_kind
+
+    if path == "-" or stream_kind(path) is not None:
+        return
+    with open_output(str(Path(path).with_suffix(".pgw")), no_clobber=no_clobber, inputs=inputs) as out:
+        out.write(world_text(transform))
+
+
+def _transform(run: Run, size: PixelSize | None, page: Page | None) -> Transform | None:
+    grid = run.grid if run.grid is not None and run.grid.transform is not None else None
+    if page is None:
+        return None if grid is None else grid.transform
+    if grid is None:
+        return _of_page(page, lambda xy: xy) if run.has_crs else None
+    return _of_page(page, _to_map(size, grid))
+
+
+def _to_map(size: PixelSize | None, grid: PixelGrid) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    """From coordinates of an image, as they are drawn, to the map."""
+    import numpy as np
+
+    if size is not None and size.origin is not None:
+        origin, factor = np.asarray(size.origin), float(size.factor)
+        return lambda xy: xy * factor + origin
+    assert grid.transform is not None
+    a, b, c, d, e, f = grid.transform
+    return lambda xy: (xy + 0.5) @ np.array([[a, d], [b, e]]) + (c, f)
+
+
+def _of_page(page: Page, to_map: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Transform | None:
+    """From columns and rows of corners of a page to the map."""
+    import numpy as np
+
+    left, low, right, high = page.bounds
+    if not (right > left and high > low):
+        return None
+    corner, opposite = page.place(np.array([[left, low], [right, high]]))
+    scale = (opposite - corner) / (right - left, high - low)
+    begin, across, down = to_map((np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]) - corner) / scale + (left, low))
+    (a, d), (b, e) = across - begin, down - begin
+    return (a, b, float(begin[0]), d, e, float(begin[1])) if a * e != b * d else None

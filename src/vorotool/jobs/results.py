@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from vorotool.errors import LimitError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
@@ -24,6 +25,12 @@ if TYPE_CHECKING:
     from vorotool.render.canvas.layers import Backdrop, Page
     from vorotool.render.drawing import Picture, Wanted
     from vorotool.render.looks import World
+
+FRAMES, FPS = 40, 10.0
+"""Of animations, where they are not chosen."""
+
+MOST_PIXELS = 1 << 28
+"""Of all frames together."""
 
 
 class Results:
@@ -97,11 +104,19 @@ class Results:
         drawing = self.drawing(target.what, "png")
         drawing.check(self.options.max_pixels)
         if target.fmt in ANIMATIONS:
-            from vorotool.jobs.animations import check_size
             from vorotool.render.drawing import Drawing
 
             assert isinstance(drawing, Drawing)
-            check_size(self.options, drawing.shape)
+            self.check_frames(drawing.shape)
+
+    def check_frames(self, shape: tuple[int, int]) -> None:
+        """Refuse an animation of more pixels than can be shown."""
+        count = self.options.frames or FRAMES
+        if count * shape[0] * shape[1] > MOST_PIXELS:
+            raise LimitError(
+                f"{count} frames of {shape[1]} x {shape[0]} pixels are too many, at most {MOST_PIXELS} pixels: use "
+                "fewer --frames, or a smaller --width"
+            )
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""
@@ -118,20 +133,32 @@ class Results:
             elif target.fmt == "html":
                 self.write_page(out)
             elif target.fmt in ANIMATIONS:
-                from vorotool.jobs.animations import parts_of_whole, write_frames
-
-                parts = parts_of_whole(self.options, has_nothing=self.begins_empty)
-                write_frames(out, self.run, self.options, target.fmt, parts, self.frames(target.what))
+                self._write_frames(out, target)
             else:
                 self.write_data(out, target)
         if target.fmt == "png":
-            from vorotool.jobs.georeference import write_world_file
+            from vorotool.jobs.picture_world import write_world_file
 
             write_world_file(self.run, self.options.unit, page, target.path, **rules)
 
     def is_picture(self, target: Target) -> bool:
         """Whether a PNG or an SVG is drawn."""
         return target.fmt in self.products[target.what].layers
+
+    def _write_frames(self, out: BinaryIO, target: Target) -> None:
+        """Draw a result that grows, each frame as a picture of its own."""
+        from vorotool.formats.images.animation_writer import write_animation
+
+        count, draw, progress = self.options.frames or FRAMES, self.frames(target.what), self.run.progress("animate")
+        steps, first = (max(count - 1, 1), 0) if self.begins_empty else (count, 1)
+
+        def frames() -> Iterator[NDArray[np.uint8]]:
+            for number in range(count):
+                yield draw(Fraction(number + first, steps))
+                if progress is not None:
+                    progress((number + 1) / count)
+
+        write_animation(out, frames(), fmt=target.fmt, fps=self.options.fps or FPS)
 
     def write_store(self, target: Target, rules: Mapping[str, Any]) -> None:
         """Write a result to a Zarr store."""

@@ -20,7 +20,6 @@ from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.engines.tessellation.tessellate import labelled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
-from vorotool.jobs import animations
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.contradictions import check_image_size
 from vorotool.jobs.input_lengths import lengths_of_image
@@ -185,7 +184,7 @@ class Products(Streamed):
 
             check_size(self.rows.frame.shape, fmt.upper())
         elif fmt in ANIMATIONS:
-            animations.check_size(self.options, self.rows.frame.shape)
+            self.check_frames(self.rows.frame.shape)
             self._exact_rows().check_distances()
         elif what == "labels" and fmt == "png":
             from vorotool.formats.images.label_images import check_png
@@ -310,7 +309,7 @@ class Products(Streamed):
         from vorotool.jobs.picture_world import world_of
 
         o, frame = self.options, self.rows.seeds.frame or self.rows.frame
-        made = world_of(self.run, o.looks, frame=frame.box, size=o.pixel_size)
+        made = world_of(self.run, o, frame=frame.box, size=o.pixel_size)
         if made.scale_bar is None or self.sides == SQUARE:
             return made
         return made._replace(scale_bar=made.scale_bar._replace(factor=float(self.sides.lengths[-1])))

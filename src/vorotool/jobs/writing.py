@@ -218,6 +218,51 @@ def to_geojson(
     return made
 
 
+def feature_collection(value: Any) -> dict[str, Any]:
+    """Give a value as a feature collection of GeoJSON: as `to_geojson` does, of triangulations the triangles."""
+    if any("geojson" in each.written for each in parts_of(value).values()):
+        return to_geojson(value, what="triangles" if is_of(value, "Triangulation", "DigitalTriangulation") else None)
+    return _features(value)
+
+
+def _features(value: Any) -> dict[str, Any]:
+    """Of what has no format of its own."""
+    import orjson
+    import shapely
+
+    from vorotool.convert.geometry import geometry_of_rows
+    from vorotool.numeric.crs import crs_text, member_of_text
+    from vorotool.types.features import Rows, features_of
+
+    features = features_of(value)
+    assert isinstance(features, Rows)  # alpha hulls have GeoJSON of their own
+    columns = {name: _json_values(column) for name, column in features.table().items()}
+    geometry = geometry_of_rows(features)
+    texts = zip(shapely.to_geojson(geometry), ~shapely.is_empty(geometry), strict=True)
+    shapes = [orjson.loads(text) if text is not None and is_there else None for text, is_there in texts]
+    rows = zip(*columns.values(), strict=True)
+    made: dict[str, Any] = {
+        "type": "FeatureCollection",
+        "features": [
+            {"type": "Feature", "properties": dict(zip(columns, row, strict=True)), "geometry": shape}
+            for row, shape in zip(rows, shapes, strict=True)
+        ],
+    }
+    crs = getattr(features.source, "crs", None)
+    if crs is None:
+        return made
+    return {**made, "crs": crs if isinstance(crs, dict) else member_of_text(crs_text(crs))}
+
+
+def _json_values(column: Any) -> list[Any]:
+    """A column as lists of JSON have it: None for what is no finite number."""
+    import numpy as np
+
+    if isinstance(column, np.ndarray) and column.dtype.kind == "f":
+        column = np.ma.masked_invalid(column)
+    return column.tolist() if isinstance(column, np.ndarray) else list(column)
+
+
 def _part(value: Any, fmt: str, what: str | None, flatten: float | None) -> Product:
     """Choose what is written; only curves are flattened."""
     if flatten is not None and not any(each.is_curved for each in parts_of(value).values()):
@@ -267,7 +312,7 @@ class _Value(Results):
     @cached_property
     def world(self) -> World:
         """Where it lies."""
-        return world_of_value(self._value, self.options.looks, is_paper=self.options.width is None)
+        return world_of_value(self.run, self.options, self._value)
 
     def check(self, target: Target) -> None:
         """Refuse layers that a picture has not, and a picture that is too large."""

@@ -167,7 +167,7 @@ _ALPHASHAPE = (
 )
 
 # ---- skeletons -----------------------------------------------------------------------------------
-_DISC_LAYERS = _pictures("polygons discs feet labels", "render.layers.discs:disc")
+_DISC_LAYERS = _pictures("polygons discs feet labels", "render.layers.polygons:disc")
 _DISC_PRODUCT = _product(
     "discs",
     "Discs",
@@ -190,15 +190,15 @@ _THICKNESS = Writer("formats.results.thickness:write_thickness", ("fmt", "thread
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels", "render.layers.skeleton:skeleton")
 _DIAGRAM = _ARCS._replace(drawn_by="render.layers.skeleton:diagram")
-_ALONG = _pictures("polygons skeleton transects points labels", "render.layers.points_along:point")
+_ALONG = _pictures("polygons skeleton transects points labels", "render.layers.skeleton:point")
 _STEPS = Made(job="jobs.skeletons.derived:Steps")
 _SKELETONS = (
     _product("skeleton", "Skeleton", _CURVES, _ARCS, "polygons skeleton", own=_SKELETON, has_page=True, is_curved=True),
     _product("diagram", "", _CURVES, _DIAGRAM, "polygons elements points skeleton", own=_SKELETON, is_curved=True),
     _product("elements", "Skeleton", _TABLES, _ARCS, "polygons elements points"),
     _product("centerline", "Centerlines ExtendedSkeleton SmoothLines", f"geojson {_TABLES} wkt",
-        _ARCS._replace(drawn_by="render.layers.lines_along:line"), "polygons skeleton", is_curved=True),
-    _product("offset", "Offsets", _CURVES, _pictures("polygons offset labels", "render.layers.offsets:offset"),
+        _ARCS._replace(drawn_by="render.layers.skeleton:line"), "polygons skeleton", is_curved=True),
+    _product("offset", "Offsets", _CURVES, _pictures("polygons offset labels", "render.layers.polygons:offset"),
         "polygons offset", own=_OFFSETS, is_curved=True, moves=True,
         made_by=Made(job="jobs.skeletons.derived:OffsetCurves")),
     _product("shape", "PolygonSet", "json geojson wkt poly", _pictures("shape labels", "render.layers.polygons:shape"),
@@ -215,10 +215,10 @@ _SKELETONS = (
 )
 _OF_WHOLE_AXIS = (
     _product("necks", "Necks", f"{_TABLES} geojson wkt",
-        _pictures("polygons skeleton necks labels", "render.layers.necks:neck"), "polygons necks",
+        _pictures("polygons skeleton necks labels", "render.layers.skeleton:neck"), "polygons necks",
         made_by=Made("engines.necks.necks:necks", "whole", "engines.necks.verify_necks:verify_necks", "necks")),
     _product("parts", "Parts", "geojson csv tsv npz json wkt poly",
-        _pictures("parts skeleton cuts labels", "render.layers.necks:part"), "parts",
+        _pictures("parts skeleton cuts labels", "render.layers.skeleton:part"), "parts",
         made_by=Made(job="jobs.skeletons.derived:CutParts"), own=_POLYGON_FILES),
 )
 """Only of exact skeletons."""
@@ -240,7 +240,7 @@ _VORONOI = (
 
 
 # ---- distance ------------------------------------------------------------------------------------
-_APART_LAYERS = _pictures("first second distances", "render.layers.distances:distance")
+_APART_LAYERS = _pictures("first second distances", "render.layers.polygons:distance")
 _DISTANCE = tuple(
     _product(what, types, f"{_TABLES} geojson wkt", _APART_LAYERS, "first second distances")
     for what, types in (("distances", "Distances"), ("hausdorff", ""), ("smallest", ""))

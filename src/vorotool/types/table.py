@@ -153,7 +153,7 @@ class Table(dict[str, Any], Tabular):
 
     def _repr_html_(self) -> str:
         """The first rows, as notebooks show them."""
-        made: str = resolved("jobs.showing:table_html")(self)
+        made: str = resolved("render.showing:table_html")(self)
         return made
 
     def stored(self) -> dict[str, Any]:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _GEOMETRY = "convert.geometry:geometry_of"
 _FRAMES = "convert.frames"
-_SHOWING = "jobs.showing"
+_SHOWING = "render.showing"
 
 
 _MADE_OF = ("path", "skeleton", "shape", "necks", "family", "mesh", "polygons")
@@ -138,7 +138,7 @@ class _Places:
     @property
     def __geo_interface__(self) -> dict[str, Any]:
         """A feature collection of GeoJSON, as many libraries take it."""
-        made: dict[str, Any] = resolved(f"{_SHOWING}:feature_collection")(self)
+        made: dict[str, Any] = resolved("jobs.writing:feature_collection")(self)
         return made
 
 

@@ -9,7 +9,7 @@ from vorotool.products.formats import ANIMATIONS, FORMATS
 from vorotool.products.registry import DERIVED, PRODUCTS, all_layers, formats_of, layers_of
 from vorotool.render.label_images import png as label_png
 from vorotool.render.label_images import svg as label_svg
-from vorotool.render.layers import alpha, discs, mesh, necks, offsets, points_along, polygons, skeleton
+from vorotool.render.layers import alpha, mesh, polygons, skeleton
 
 DATA = Path(__file__).parents[3] / "data"
 INPUTS = {
@@ -60,9 +60,14 @@ def test_layers_are_those_that_are_drawn():
     assert all_layers("alphashape") == alpha.LAYERS
     own = {what: product.layers.get("svg") for what, product in PRODUCTS["skeleton-exact"].items()}
     assert own["skeleton"] == tuple(layer for layer in skeleton.LAYERS if layer != "exact")
-    along = dict.fromkeys(["points", "transects"], points_along.LAYERS)
-    cut = {"necks": necks.LAYERS, "parts": necks.PART_LAYERS, "discs": discs.LAYERS, "thickness": None}
-    shapes = {"offset": offsets.LAYERS, "shape": polygons.SHAPE_LAYERS}
+    along = dict.fromkeys(["points", "transects"], skeleton.ALONG_LAYERS)
+    cut = {
+        "necks": skeleton.NECK_LAYERS,
+        "parts": skeleton.PART_LAYERS,
+        "discs": polygons.DISC_LAYERS,
+        "thickness": None,
+    }
+    shapes = {"offset": polygons.OFFSET_LAYERS, "shape": polygons.SHAPE_LAYERS}
     assert {what: own[what] for what in DERIVED} == {**shapes, **along, **cut}
 
 

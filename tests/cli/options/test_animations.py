@@ -8,7 +8,7 @@ import pytest
 from PIL import Image, ImageSequence
 
 import vorotool
-from vorotool.jobs.animations import MOST_PIXELS
+from vorotool.jobs.results import MOST_PIXELS
 
 SHAPES = "[[[0, 0], [40, 0], [40, 30], [0, 30]], [[50, 0], [60, 0], [55, 9]]]"
 

@@ -226,7 +226,7 @@ class VolumeProducts(Streamed):
         from vorotool.types.pixel_frame import Frame
 
         height, width = self._views.shape
-        return world_of(self.run, self.options.looks, frame=Frame(0, 0, width, height).box, size=self._size)
+        return world_of(self.run, self.options, frame=Frame(0, 0, width, height).box, size=self._size)
 
     def verify(self, progress: Progress) -> None:
         """Check the labels of every slab against an independent nearest-seed search."""

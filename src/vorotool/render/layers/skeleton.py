@@ -1,4 +1,4 @@
-"""The layers of a skeleton's picture."""
+"""The layers of pictures of skeletons, and of what lies along them or follows from them."""
 
 from __future__ import annotations
 
@@ -9,18 +9,32 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of, name_size
+from vorotool import _core
+from vorotool.render.canvas.cubic_curves import CubicCurves
+from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Polygons, Texts, bounds_of, name_size
 from vorotool.render.canvas.names import without_empty
-from vorotool.render.canvas.palettes import INK, RESULT, SEED, WHITE
+from vorotool.render.canvas.palettes import EDGE as CELL_EDGE
+from vorotool.render.canvas.palettes import FAINT, INK, RESULT, SEED, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
-from vorotool.render.layers.polygons import feature_names, polygon_layers
+from vorotool.render.layers.polygons import feature_names, names_of_features, polygon_layers, polygon_page
 from vorotool.types.axis import is_up
+from vorotool.types.skeleton.centerline import Centerlines
+from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.necks import Necks
+from vorotool.types.skeleton.parts import Parts
+from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.types.skeleton.smooth_lines import SmoothLines
 from vorotool.types.skeleton.tables import site_labels
 
 LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
 """From below."""
+ALONG_LAYERS = ("polygons", "skeleton", "transects", "points", "labels")
+NECK_LAYERS = ("polygons", "skeleton", "necks", "labels")
+PART_LAYERS = ("parts", "skeleton", "cuts", "labels")
 
+_WIDEST_CUT = 2.0
+"""Px."""
 WIDEST = 1.5
 """Lines, in px."""
 
@@ -125,3 +139,125 @@ def _arcs(skeleton: Skeleton, name: str, color: str, width: float) -> Curves:
     # single places on the frame are what is left of arcs that went on beyond
     shown = (skeleton.length > 0) | ~skeleton.touches_frame[skeleton.arcs[:, 0]]
     return Curves(name, points, skeleton.arcs[shown], control[shown], color, width)
+
+
+# ---- lines along skeletons: centerlines, skeletons with their ends, smooth lines
+def line_layers(
+    lines: LedOn | SmoothLines,
+    page: Page,
+    layers: Iterable[str],
+    *,
+    points: NDArray[np.float64] | None = None,
+    exact: Skeleton | None = None,
+) -> list[Layer]:
+    """Make layers of lines along skeletons: those of the skeleton, but "skeleton" are the lines."""
+    near_to = lines.lines if isinstance(lines, SmoothLines) else lines
+    name = "centerline" if isinstance(near_to, Centerlines) else "skeleton"
+    made = skeleton_layers(lines.path, page, layers, name=name, points=points, exact=exact)
+
+    def shown(layer: Layer) -> Layer:
+        if not isinstance(layer, Curves) or layer.name != name:
+            return layer
+        return _smooth(layer, lines) if isinstance(lines, SmoothLines) else _led_on(layer, lines)
+
+    return [shown(layer) for layer in made]
+
+
+def line_page(lines: LedOn | SmoothLines, *, width: int = 1000) -> Page:
+    """The page of a picture: that of the skeleton."""
+    return skeleton_page(lines.path, width=width)
+
+
+def _led_on(curves: Curves, lines: LedOn) -> Curves:
+    """With the straight lines that lead to the boundary."""
+    first, last = lines.extended
+    nodes = np.concatenate([lines.end_nodes[first, 0], lines.end_nodes[last, 1]])
+    ends = np.concatenate([lines.ends[first, 0], lines.ends[last, 1]])
+    pairs = np.stack([nodes, len(curves.points) + np.arange(len(ends))], axis=1)
+    return replace(
+        curves,
+        points=np.concatenate([curves.points, ends]),
+        pairs=np.concatenate([curves.pairs, pairs]).astype(np.int32),
+        control=np.concatenate([curves.control, np.full(len(ends), -1, dtype=np.int32)]),
+    )
+
+
+def _smooth(layer: Curves, smoothed: SmoothLines) -> CubicCurves:
+    """With the name, color and width of another layer."""
+    control = smoothed.control.reshape(-1, 2)
+    first = 4 * np.arange(len(smoothed.control), dtype=np.int32)
+    # the end of a curve is the begin of the next one on the same line
+    goes_on = np.ones(len(first), dtype=bool)
+    goes_on[smoothed.start[1:] - 1] = False
+    last = np.where(goes_on, first + 4, first + 3)
+    pairs = np.stack([first, last], axis=1).astype(np.int32)
+    return CubicCurves(layer.name, control, pairs, first + 1, layer.color, layer.width, second=first + 2)
+
+
+# ---- places along skeletons, necks, and the parts between them
+def point_layers(points: SkeletonPoints, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of places along a skeleton; discs and lines get finer where there are many."""
+    wanted = checked_layers(layers, ALONG_LAYERS)
+    spacing = page.spacing(max(len(points), 1))
+    below = [name for name in ("polygons", "skeleton") if name in wanted]
+    made = skeleton_layers(points.skeleton, page, below, color=FAINT)
+    if "transects" in wanted:
+        ends = points.transects().feet.reshape(-1, 2)
+        pairs = np.arange(len(ends), dtype=np.int32).reshape(-1, 2)
+        made.append(Lines("transects", ends, pairs, RESULT, min(max(spacing / 24, 0.2), 1.5)))
+    if "points" in wanted:
+        made.append(Points("points", points.xy, SEED, min(max(spacing / 16, 0.3), 3.0)))
+    if "labels" in wanted:
+        made += skeleton_layers(points.skeleton, page, ["labels"])
+    return made
+
+
+def point_page(points: SkeletonPoints, *, width: int = 1000) -> Page:
+    """The page of a picture: that of the skeleton."""
+    return skeleton_page(points.skeleton, width=width)
+
+
+def neck_layers(necks: Necks, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of necks: lines from foot to foot, which get finer where there are many."""
+    wanted = checked_layers(layers, NECK_LAYERS)
+    made = skeleton_layers(necks.skeleton, page, [n for n in ("polygons", "skeleton") if n in wanted], color=FAINT)
+    if "necks" in wanted:
+        made.append(_cuts(necks, page, "necks", RESULT))
+    return [*made, *skeleton_layers(necks.skeleton, page, ["labels"])] if "labels" in wanted else made
+
+
+def part_layers(parts: Parts, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of parts, in colors that differ on both sides of a cut."""
+    wanted = checked_layers(layers, PART_LAYERS)
+    made: list[Layer] = []
+    if "parts" in wanted:
+        a, b = np.ascontiguousarray(parts.between.T).astype(np.uint32)
+        colors = _core.graphs.color_graph(len(parts), a, b, None).astype(np.int64)
+        palette = [cell_color(c) for c in range(int(colors.max(initial=0)) + 1)]
+        width = min(max(page.spacing(max(len(parts.polygons.xy), 1)) / 16, 0.2), 1.0)
+        made += [
+            replace(layer, colors=palette, color_of=colors)
+            for layer in polygon_layers(parts.polygons, width, name="parts", edge=CELL_EDGE)
+            if isinstance(layer, Polygons)
+        ]
+    if "skeleton" in wanted:
+        made += skeleton_layers(parts.necks.skeleton, page, ["skeleton"], color=FAINT)
+    if "cuts" in wanted:
+        made.append(_cuts(parts.necks, page, "cuts", INK))
+    return [*made, names_of_features(parts.polygons, page)] if "labels" in wanted else made
+
+
+def _cuts(necks: Necks, page: Page, name: str, color: str) -> Lines:
+    pairs = np.arange(2 * len(necks), dtype=np.int32).reshape(-1, 2)
+    width = min(max(page.spacing(max(len(necks), 1)) / 16, 0.3), _WIDEST_CUT)
+    return Lines(name, necks.feet.reshape(-1, 2), pairs, color, width)
+
+
+def neck_page(necks: Necks, *, width: int = 1000) -> Page:
+    """The page of a picture: that of the skeleton."""
+    return skeleton_page(necks.skeleton, width=width)
+
+
+def part_page(parts: Parts, *, width: int = 1000) -> Page:
+    """The page of a picture: that of the pieces."""
+    return polygon_page(parts.polygons, width=width)

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import json
-from base64 import b64encode
 from math import isfinite
-from pathlib import Path
 from sys import float_info
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import LimitError
 from vorotool.numeric.numbers import nearest_double
 from vorotool.products.formats import AS_PICTURE
+from vorotool.render.pages.alpha_plot import CURVES
+from vorotool.render.pages.page_data import Extent, packed, write_page
 from vorotool.types.alpha.complex import AlphaComplex, Radius
 from vorotool.types.axis import is_up
 from vorotool.types.box import bounds
@@ -24,8 +22,6 @@ MOST_POINTS = 100_000
 """Some 30 MB of data: browsers draw so many in about a second."""
 
 PAGE = "alpha_page.html"
-_CURVES = ("area", "perimeter", "regions", "cavities", "edges")
-_PLACE = "/*DATA*/null"
 
 
 def check_html_size(family: AlphaComplex) -> None:
@@ -39,11 +35,20 @@ def check_html_size(family: AlphaComplex) -> None:
 def write_alpha_html(out: BinaryIO, family: AlphaComplex, curves: Table, *, r: Radius | None = None) -> None:
     """Write a page with a slider over r: the shape, the classes of its edges, and curves."""
     check_html_size(family)
-    page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
-    before, after = page.split(_PLACE)
-    up = is_up(family.mesh)
-    data = json.dumps(_data(family, curves, _first_radius(family, r), up), separators=(",", ":"), allow_nan=False)
-    out.write(f"{before}{data}{after}".encode())
+    points, mesh = family.points, family.mesh
+    low, high = bounds(points) if len(points) else (np.zeros(2), np.zeros(2))
+    extent = Extent(low, high, y_up=is_up(mesh))
+    whole = {"edges": family.edges, "triangles": mesh.triangles}
+    whole |= {name: getattr(family, name) for name in ("rank_min", "rank_mid", "rank_max", "triangle_rank")}
+    data = {
+        "r": _first_radius(family, r),
+        **extent.sides,
+        "xy": extent.places(points),
+        **{name: packed(values, "<i4") for name, values in whole.items()},
+        "spectrum": packed(family.spectrum, "<f8"),
+        "curves": {name: packed(curves[name], "<f8") for name in CURVES},
+    }
+    write_page(out, PAGE, data)
 
 
 def _first_radius(family: AlphaComplex, r: Radius | None) -> float:
@@ -54,34 +59,3 @@ def _first_radius(family: AlphaComplex, r: Radius | None) -> float:
         return float(finite[len(finite) // 2]) if len(finite) else largest
     chosen = nearest_double(r)
     return chosen if isfinite(chosen) else min(2 * largest, float_info.max)
-
-
-def _data(family: AlphaComplex, curves: Table, r: float, y_up: bool) -> dict[str, Any]:
-    """Arrays as the page decodes them; coordinates from the upper left corner, in parts of the larger side."""
-    with np.errstate(over="ignore"):
-        exponent = int(np.frexp(np.abs(family.points).max(initial=0.0))[1])
-    points = np.ldexp(family.points, -exponent)
-    low, high = bounds(points) if len(points) else np.zeros((2, 2))
-    span = high - low
-    size = float(span.max()) or 1.0
-    places = np.stack([points[:, 0] - low[0], (high[1] - points[:, 1]) if y_up else (points[:, 1] - low[1])], axis=1)
-    return {
-        "r": r,
-        "width": float(span[0]) / size or 1e-9,
-        "height": float(span[1]) / size or 1e-9,
-        "xy": _packed(places / size, "<f4"),
-        "edges": _packed(family.edges, "<i4"),
-        "triangles": _packed(family.mesh.triangles, "<i4"),
-        "rank_min": _packed(family.rank_min, "<i4"),
-        "rank_mid": _packed(family.rank_mid, "<i4"),
-        "rank_max": _packed(family.rank_max, "<i4"),
-        "triangle_rank": _packed(family.triangle_rank, "<i4"),
-        "spectrum": _packed(family.spectrum, "<f8"),
-        "curves": {
-            name: _packed(curves[name], "<f8") for name in ("area", "perimeter", "regions", "cavities", "edges")
-        },
-    }
-
-
-def _packed(values: NDArray[Any], dtype: DTypeLike) -> str:
-    return b64encode(np.ascontiguousarray(values, dtype=dtype).tobytes()).decode()

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import json
-from base64 import b64encode
 from collections.abc import Mapping, Sequence
-from math import isfinite
-from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import LimitError
 from vorotool.numeric.ragged import starts_of
 from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.palettes import cell_color
 from vorotool.render.label_images.crack_outline import crack_loops
+from vorotool.render.pages.page_data import Extent, json_value, packed, write_page
 from vorotool.types.axis import is_up
 from vorotool.types.mesh.cells import CellSet
 from vorotool.types.points.label_image import LabelImage
@@ -29,7 +26,6 @@ MOST_CELLS, MOST_VERTICES = 100_000, 3_000_000
 """Some 30 MB of data: browsers draw so many in about a second."""
 
 PAGE = "cells_page.html"
-_PLACE = "/*DATA*/null"
 
 _FINE = 2.0**-12
 """How far lines may be from curves: of the larger side of the frame."""
@@ -79,10 +75,25 @@ def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False, sides: PixelSi
 def write_cells_html(out: BinaryIO, shapes: Shapes, classes: ArrayLike, columns: Mapping[str, Sequence[Any]]) -> None:
     """Write a page on which the cell that is pointed at is named, with its values."""
     check_html_size(len(shapes.ids), len(shapes.xy))
-    page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
-    before, after = page.split(_PLACE)
-    text = json.dumps(_data(shapes, np.asarray(classes), columns), separators=(",", ":"), allow_nan=False)
-    out.write(f"{before}{text.replace('<', chr(92) + 'u003c')}{after}".encode())  # no text ends the script
+    classes, extent = np.asarray(classes), Extent(shapes.bounds[:2], shapes.bounds[2:], y_up=shapes.y_up)
+    data = {
+        **extent.sides,
+        "xy": extent.places(shapes.xy),
+        "rings": packed(shapes.rings, "<i4"),
+        "shapes": packed(shapes.shapes, "<i4"),
+        "classes": packed(classes, "<i4"),
+        **named_cells(shapes.ids, classes, columns),
+    }
+    write_page(out, PAGE, data)
+
+
+def named_cells(ids: Sequence[str], classes: NDArray[Any], columns: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
+    """Give the colors of cells, their ids and their values."""
+    return {
+        "colors": [cell_color(number) for number in range(int(classes.max(initial=0)) + 1)],
+        "ids": list(ids),
+        "columns": [{"name": name, "values": [json_value(each) for each in own]} for name, own in columns.items()],
+    }
 
 
 def write_labels_html(
@@ -111,39 +122,3 @@ def check_html_size(cells: int, vertices: int = 0) -> None:
     for count, most, what in ((cells, MOST_CELLS, "cells"), (vertices, MOST_VERTICES, "vertices of cells")):
         if count > most:
             raise LimitError(f"{count} {what} are too many for a page, at most {most}: use {AS_SVG} or png")
-
-
-def _data(shapes: Shapes, classes: NDArray[Any], columns: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
-    """Arrays as the page decodes them; coordinates from the upper left corner, in parts of the larger side."""
-    box = np.array(shapes.bounds, dtype=np.float64)
-    exponent = int(np.frexp(np.abs(box).max(initial=0.0))[1])
-    low, high = np.ldexp(box, -exponent).reshape(2, 2)
-    points, span = np.ldexp(shapes.xy, -exponent), high - low
-    size = float(span.max()) or 1.0
-    y = (high[1] - points[:, 1]) if shapes.y_up else (points[:, 1] - low[1])
-    return {
-        "width": float(span[0]) / size or 1e-9,
-        "height": float(span[1]) / size or 1e-9,
-        "xy": packed(np.stack([points[:, 0] - low[0], y], axis=1) / size, "<f4"),
-        "rings": packed(shapes.rings, "<i4"),
-        "shapes": packed(shapes.shapes, "<i4"),
-        "classes": packed(classes, "<i4"),
-        "colors": [cell_color(number) for number in range(int(classes.max(initial=0)) + 1)],
-        "ids": list(shapes.ids),
-        "columns": [{"name": name, "values": [json_value(each) for each in own]} for name, own in columns.items()],
-    }
-
-
-def json_value(value: Any) -> Any:
-    """Give a number or a text as JSON has them; what is missing or no number is None."""
-    if value is np.ma.masked:
-        return None
-    value = value.item() if isinstance(value, np.generic) else value
-    if isinstance(value, float):
-        return value if isfinite(value) else None
-    return value if value is None or isinstance(value, bool | int | str) else str(value)
-
-
-def packed(values: NDArray[Any], dtype: DTypeLike) -> str:
-    """Give the bytes of an array as text."""
-    return b64encode(np.ascontiguousarray(values, dtype=dtype).tobytes()).decode()

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import json
-from base64 import b64encode
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import LimitError
 from vorotool.products.formats import AS_PICTURE
+from vorotool.render.pages.page_data import Extent, packed, write_page
 from vorotool.types.axis import is_up
 from vorotool.types.box import bounds
 from vorotool.types.skeleton.critical_values import ArcProfiles, CriticalValues
@@ -22,7 +19,6 @@ MOST_ARCS = 100_000
 """Some 20 MB of data: browsers draw so many in about a second."""
 
 PAGE = "skeleton_page.html"
-_PLACE = "/*DATA*/null"
 
 
 def check_html_size(skeleton: Skeleton) -> None:
@@ -42,53 +38,39 @@ def write_skeleton_html(
 ) -> None:
     """Write a page with a slider over the threshold of each criterion."""
     check_html_size(skeleton)
-    page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
-    before, after = page.split(_PLACE)
-    data = _shapes(skeleton, is_up(skeleton))
+    data = _shapes(skeleton)
     data["shown"] = list(shown or (values[0].criterion, 0.0))
     data["profiles"] = {
-        "kind": _packed(profiles.kind, "<i1"),
-        "ends": _packed(profiles.ends, "<f8"),
-        "size": _packed(profiles.size, "<f8"),
+        "kind": packed(profiles.kind, "<i1"),
+        "ends": packed(profiles.ends, "<f8"),
+        "size": packed(profiles.size, "<f8"),
     }
     data["criteria"] = {
         own.criterion: {
-            "ends": _packed(own.ends, "<f8"),
-            "most": _packed(own.most, "<f8"),
-            "keptArc": _packed(own.kept_arc, "<i4"),
-            "keptPlace": _packed(own.kept_place, "<f8"),
+            "ends": packed(own.ends, "<f8"),
+            "most": packed(own.most, "<f8"),
+            "keptArc": packed(own.kept_arc, "<i4"),
+            "keptPlace": packed(own.kept_place, "<f8"),
         }
         for own in values
     }
-    text = json.dumps(data, separators=(",", ":"), allow_nan=False)
-    out.write(f"{before}{text}{after}".encode())
+    write_page(out, PAGE, data)
 
 
-def _shapes(skeleton: Skeleton, y_up: bool) -> dict[str, Any]:
-    """Arrays as the page decodes them; coordinates from the upper left corner, in parts of the larger side."""
+def _shapes(skeleton: Skeleton) -> dict[str, Any]:
+    """Arrays as the page decodes them."""
     polygons = skeleton.polygons
     shown = np.concatenate([polygons.xy, skeleton.vertices])
     low, high = bounds(shown) if len(shown) else (np.zeros(2), np.ones(2))
-    span = high - low
-    size = float(span.max()) or 1.0
-
-    def placed(xy: NDArray[np.float64]) -> str:
-        y = (high[1] - xy[:, 1]) if y_up else (xy[:, 1] - low[1])
-        return _packed(np.stack([xy[:, 0] - low[0], y], axis=1) / size, "<f4")
-
+    extent = Extent(low, high, y_up=is_up(skeleton))
     return {
-        "width": float(span[0]) / size or 1e-9,
-        "height": float(span[1]) / size or 1e-9,
-        "xy": placed(skeleton.vertices),
-        "radius": _packed(skeleton.radius, "<f8"),
-        "arcs": _packed(skeleton.arcs, "<i4"),
-        "control": placed(skeleton.control),
-        "length": _packed(skeleton.length, "<f8"),
-        "rings": placed(polygons.xy),
-        "ringStart": _packed(polygons.ring_starts, "<i4"),
-        "ringKind": _packed(polygons.ring_kind, "<i1"),
+        **extent.sides,
+        "xy": extent.places(skeleton.vertices),
+        "radius": packed(skeleton.radius, "<f8"),
+        "arcs": packed(skeleton.arcs, "<i4"),
+        "control": extent.places(skeleton.control),
+        "length": packed(skeleton.length, "<f8"),
+        "rings": extent.places(polygons.xy),
+        "ringStart": packed(polygons.ring_starts, "<i4"),
+        "ringKind": packed(polygons.ring_kind, "<i1"),
     }
-
-
-def _packed(values: NDArray[Any], dtype: DTypeLike) -> str:
-    return b64encode(np.ascontiguousarray(values, dtype=dtype).tobytes()).decode()

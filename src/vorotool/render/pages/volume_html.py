@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
@@ -12,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import LimitError, option
 from vorotool.numeric.ragged import starts_of
-from vorotool.render.canvas.palettes import cell_color
-from vorotool.render.pages.cells_html import MOST_CELLS, json_value, packed
+from vorotool.render.pages.cells_html import MOST_CELLS, named_cells
+from vorotool.render.pages.page_data import packed, write_page
 
 MOST_VOXELS = 1 << 26
 """Voxels of a page: 512 x 512 x 256 of them."""
@@ -22,7 +20,6 @@ MOST_RUNS = 3_000_000
 """Runs of voxels of one label: some 30 MB of data."""
 
 PAGE = "volume_page.html"
-_PLACE = "/*DATA*/null"
 
 
 class Runs(NamedTuple):
@@ -86,11 +83,6 @@ def write_volume_html(
         "ends": packed(runs.ends, "<i4"),
         "regions": packed(runs.regions, "<i4"),
         "classes": packed(np.append(0, classes), "<i4"),
-        "colors": [cell_color(number) for number in range(int(classes.max(initial=0)) + 1)],
-        "ids": [str(label) for label in known.tolist()],
-        "columns": [{"name": name, "values": [json_value(each) for each in own]} for name, own in columns.items()],
+        **named_cells([str(label) for label in known.tolist()], classes, columns),
     }
-    page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
-    before, after = page.split(_PLACE)
-    text = json.dumps(data, separators=(",", ":"), allow_nan=False)
-    out.write(f"{before}{text.replace('<', chr(92) + 'u003c')}{after}".encode())  # no text ends the script
+    write_page(out, PAGE, data)

@@ -1,4 +1,4 @@
-"""Values as notebooks and other programs show them: SVG, small pictures, HTML, axes of matplotlib, features."""
+"""Values as notebooks show them: SVG, small pictures, HTML, axes of matplotlib."""
 
 from __future__ import annotations
 
@@ -12,17 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.extras import needed
-from vorotool.convert.geometry import geometry_of_rows
 from vorotool.errors import UsageError
-from vorotool.jobs.writing import to_geojson
-from vorotool.numeric.crs import crs_text, is_geographic, member_of_text
-from vorotool.products.registry import is_of, parts_of
+from vorotool.numeric.crs import is_geographic
+from vorotool.products.registry import is_of
 from vorotool.render.drawing import Drawing, Wanted, drawing_of, drawn_part
 from vorotool.render.label_images.picture import LabelPicture
 from vorotool.types.axis import is_up
-from vorotool.types.features import Rows, features_of
-from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.raster import Raster
@@ -44,46 +39,6 @@ SIDE = 320
 
 ROWS = 10
 """Of a table, as it is shown."""
-
-
-# ---- features ------------------------------------------------------------------------------------
-def feature_collection(value: Any) -> dict[str, Any]:
-    """Give a value as a feature collection of GeoJSON: as `to_geojson` does, of triangulations the triangles."""
-    if any("geojson" in each.written for each in parts_of(value).values()):
-        return to_geojson(value, what="triangles" if isinstance(value, Triangulation | DigitalTriangulation) else None)
-    return _features(value)
-
-
-def _features(value: Any) -> dict[str, Any]:
-    """Of what has no format of its own."""
-    import orjson
-    import shapely
-
-    features = features_of(value)
-    assert isinstance(features, Rows)  # alpha hulls have GeoJSON of their own
-    columns = {name: _json_values(column) for name, column in features.table().items()}
-    geometry = geometry_of_rows(features)
-    texts = zip(shapely.to_geojson(geometry), ~shapely.is_empty(geometry), strict=True)
-    shapes = [orjson.loads(text) if text is not None and is_there else None for text, is_there in texts]
-    rows = zip(*columns.values(), strict=True)
-    made: dict[str, Any] = {
-        "type": "FeatureCollection",
-        "features": [
-            {"type": "Feature", "properties": dict(zip(columns, row, strict=True)), "geometry": shape}
-            for row, shape in zip(rows, shapes, strict=True)
-        ],
-    }
-    crs = getattr(features.source, "crs", None)
-    if crs is None:
-        return made
-    return {**made, "crs": crs if isinstance(crs, dict) else member_of_text(crs_text(crs))}
-
-
-def _json_values(column: Any) -> list[Any]:
-    """A column as lists of JSON have it: None for what is no finite number."""
-    if isinstance(column, np.ndarray) and column.dtype.kind == "f":
-        column = np.ma.masked_invalid(column)
-    return column.tolist() if isinstance(column, np.ndarray) else list(column)
 
 
 # ---- drawings ------------------------------------------------------------------------------------
