@@ -77,7 +77,7 @@ def _cells_of_raster(
 
     from vorotool.formats.images.image_header import image_header
     from vorotool.formats.io.sources import reading
-    from vorotool.jobs.cuts import in_one_crs
+    from vorotool.jobs.second_files import in_one_crs
     from vorotool.types.pixel_frame import Frame
     from vorotool.types.points.point_set import PointSet
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.jobs.input_lengths import sized
@@ -155,20 +154,6 @@ def placed_sites(
     from vorotool.types.mirroring import mirrored_seeds
 
     return o, mirrored_seeds(points)
-
-
-def clip_in_pixels(o: Options, clip: Sequence[Any]) -> Sequence[Any]:
-    """Give the polygons of ``--clip``, which are on the map where results are, in pixels, or in steps."""
-    size = o.pixel_size
-    if size is None or (size.origin is None and size.sides is None):
-        return clip
-    import numpy as np
-    import shapely
-
-    placed: Sequence[Any] = shapely.transform(
-        np.asarray(clip, dtype=object), lambda xy: (xy - np.asarray(size.origin or (0.0, 0.0))) / float(size.factor)
-    )
-    return placed
 
 
 def in_steps(o: Options, points: PointSet | SeedSet) -> PointSet:

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
 from vorotool.errors import Kind, Message
-from vorotool.formats.io.sources import reading
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, note_repeated_labels, read_sites
 from vorotool.jobs.options import Options
-from vorotool.jobs.pixel_sizes import clip_in_pixels, in_steps, placed_backdrop, placed_mesh, placed_sites
+from vorotool.jobs.pixel_sizes import in_steps, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.silent_losses import tell_empty_cells
@@ -36,7 +35,7 @@ class ReadPoints(NamedTuple):
     """What is triangulated, and what its cells are clipped to."""
 
     points: PointSet | SeedSet
-    clip: Sequence[Any] | None  # the polygons of `--clip`
+    clip: Sequence[Any] | None = None  # the polygons of `--clip`
 
 
 def products(run: Run, o: Options, given: JobInput) -> MeshProducts:
@@ -46,18 +45,28 @@ def products(run: Run, o: Options, given: JobInput) -> MeshProducts:
         properties = bool({"table", "cells", "measures"} & set(o.what)) or o.names_columns
         o, points = read_sites(run, o, given, properties=properties, is_digital=is_digital)
         o, points = placed_sites(run, o, given, points)
-        read = ReadPoints(points, None)
-    if o.clip is not None:
-        from vorotool.jobs.cuts import read_clip
-
-        with reading(o.clip), run.phase("read polygons"):
-            points, clip = read_clip(run, o, o.clip, points, given)
-            read = ReadPoints(points, clip_in_pixels(o, clip))
+    read = ReadPoints(points) if o.clip is None else _clipped(run, o, given, points)
     if not is_digital:
         return MeshProducts(run, o, given, read)
     from vorotool.jobs.digital_triangulation import DigitalProducts, RepairedProducts
 
     return (RepairedProducts if o.triangulated_by == "digital-valid" else DigitalProducts)(run, o, given, read)
+
+
+def _clipped(run: Run, o: Options, given: JobInput, points: PointSet | SeedSet) -> ReadPoints:
+    """Read the polygons of ``--clip``."""
+    from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
+    from vorotool.types.points.seed_set import SeedSet
+    from vorotool.types.polygons.conversion import to_shapely
+
+    if isinstance(points, SeedSet):
+        grid = points.grid
+        first = First(given.name, points, unit_of_image(o, grid), is_image=True, crs=None if grid is None else grid.crs)
+    else:
+        first = First(given.name, points, unit_of_vectors(o, points))
+    with run.phase("read polygons"):
+        points, clip = read_cut(run, o, "--clip", o.clip, first)
+    return ReadPoints(points, list(to_shapely(clip)))
 
 
 class MeshProducts(Results):

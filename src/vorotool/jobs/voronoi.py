@@ -3,31 +3,70 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
 from vorotool.jobs.checked_columns import check_columns
-from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.inputs import JobInput, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop
+from vorotool.jobs.refusals import refuse
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
 from vorotool.jobs.silent_losses import tell_empty_cells
+from vorotool.jobs.skeleton_input import outlined
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, unit_columns
-from vorotool.jobs.voronoi_input import read_cuts, read_sites
 from vorotool.numeric.progress import Progress
 from vorotool.products.formats import resolved
-from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 if TYPE_CHECKING:
+    from vorotool.convert.sites import Sites
+    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.discs import Discs
+
+
+class ReadSites(NamedTuple):
+    """What a map is made of."""
+
+    sites: Sites  # of the input; not yet joined
+    is_image: bool  # whether they are the objects of an image
+    options: Options  # with the size of pixels, and lengths and places, as the image has them
+    grid: PixelGrid | None = None  # what the image says of its pixels
+
+
+def _read_sites(run: Run, o: Options, given: JobInput) -> ReadSites:
+    """Read points, lines and polygons, each feature a site, or the objects of an image."""
+    from vorotool.convert.sites import as_sites
+    from vorotool.types.points.raster import Raster
+
+    with opened_input(o, given, "sites") as source:
+        o, value = read_opened(run, o, given, source, columns=o.columns)
+    if not isinstance(value, Raster):
+        refuse({**o.for_images, "simplify": o.simplify}, "is for images, but the input holds points, lines or polygons")
+        sites = as_sites(value)
+        if not len(sites.polygons):
+            report_no_geometry(run, o)
+        return ReadSites(sites, is_image=False, options=o)
+    refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
+    polygons, _, o, _, grid = outlined(run, o, given, value)
+    return ReadSites(as_sites(polygons), is_image=True, options=o, grid=grid)
+
+
+def _first(given: JobInput, read: ReadSites, sites: Sites) -> First:
+    """Return what second files go with."""
+    o, polygons = read.options, sites.polygons
+    unit = unit_of_image(o, read.grid) if read.is_image else unit_of_vectors(o, sites)
+    return First(given.name, polygons, unit, read.is_image, polygons.crs)
 
 
 class VoronoiProducts(Results):
@@ -35,17 +74,21 @@ class VoronoiProducts(Results):
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         with run.phase("read"):
-            read = read_sites(run, options, given)
-        cuts: dict[str, PolygonSet] = {}
-        if options.clip is not None or options.enclosures is not None:
-            with run.phase("read polygons"):
-                read, cuts = read_cuts(run, read, given)
+            read = _read_sites(run, options, given)
         super().__init__(run, read.options)
         self.is_image = read.is_image
+        sites = read.sites
+        cuts: dict[str, PolygonSet] = {}
+        for name, path in (("clip", options.clip), ("enclosures", options.enclosures)):
+            if path is not None:
+                with run.phase("read polygons"):
+                    first = _first(given, read, sites)
+                    polygons, cuts[name] = read_cut(run, self.options, f"--{name}", path, first)
+                sites = replace(sites, polygons=polygons)
         self.backdrop = placed_backdrop(run, self.options, given.backdrop)
-        self.features = read.sites.count
-        self._sites, self._clip = read.sites, cuts.get("clip")
-        self.cells = self._made(read.sites, cuts)
+        self.features = sites.count
+        self._sites, self._clip = sites, cuts.get("clip")
+        self.cells = self._made(sites, cuts)
         has_place = np.zeros(len(self.cells), dtype=bool)
         has_place[self.cells.polygon_site] = True  # of the others it was told when they were read
         tell_empty_cells(run, self.cells.labels, (self.cells.components == 0) & has_place)
