@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from math import prod
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -13,7 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.bands import Band
+from vorotool.engines.tessellation.frames import label_dtype
 from vorotool.errors import LimitError
+from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.options import AUTO_LEVELS, Options
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
@@ -130,6 +133,66 @@ class Streamed(Results):
                 for (first, _), part in zip(limits, stream.parts(limits), strict=True):
                     _write_chunks(array, first, part, threads=o.threads)
             add_levels(store, levels, threads=o.threads)
+
+
+class Tessellated(Streamed):
+    """Results of one tessellation of which any rows, or slices, can be computed."""
+
+    def __init__(self, run: Run, options: Options, sweep: Any, grid: Any) -> None:
+        super().__init__(run, options)
+        self.sweep, self.frame, self.seeds, self.grid = sweep, sweep.frame, sweep.seeds, grid
+        check_columns(options, self.seeds.properties)
+        self.dtype = label_dtype(self.seeds.largest_label, options.dtype)
+
+    def labels(self, first: int = 0, count: int | None = None) -> NDArray[Any]:
+        """Compute the labels of some rows or slices."""
+        with self.run.phase("tessellate"):
+            made: NDArray[Any] = self.sweep.labels(first, count, dtype=self.dtype)
+        return made
+
+    def stream(self, what: str) -> Stream:
+        """Give labels, the diagram or distances."""
+        part_of: PartOf = {"labels": self.labels, "diagram": self._diagram}.get(what) or getattr(
+            self.sweep, {"distance": "distances", "distance2": "squared_distances"}[what]
+        )
+        kinds = {"labels": self.dtype, "diagram": np.dtype(np.uint8), "distance": np.dtype(np.float32)}
+        dtype = kinds.get(what) or self.sweep.square_dtype
+        is_cut = what == "labels" and self.options.max_distance is not None
+        about = {"grid": self.grid, "nodata": 0 if is_cut else None, **self.about(what, dtype)}
+        return Stream(self.frame, part_of, dtype, partial(self.band, what, dtype), self.limits(), about)
+
+    def _diagram(self, first: int, count: int) -> NDArray[Any]:
+        """Compute some rows of the diagram, which the ones beside them have a part in."""
+        begin, end = max(first - 1, 0), min(first + count + 1, self.frame.shape[0])
+        return self.diagram_of(self.labels(begin, end - begin))[first - begin :][:count]
+
+    def diagram_of(self, labels: NDArray[Any]) -> NDArray[Any]:
+        """Mark pixels or voxels beside others of other labels."""
+        raise NotImplementedError
+
+    def band(self, what: Any, dtype: np.dtype[Any], first: int, count: int) -> Band:
+        """Give some rows or slices as what computes them anywhere."""
+        raise NotImplementedError
+
+    def limits(self) -> Limits:
+        """Give the parts in which it is streamed."""
+        raise NotImplementedError
+
+    def about(self, what: str, dtype: np.dtype[Any]) -> Mapping[str, Any]:
+        """Give further options of the writer of a result."""
+        return {}
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        seeds = self.seeds
+        return {
+            "seeds": len(seeds),
+            "labels": len(seeds.site_labels) if seeds.site_labels is not None else 0,
+            "largest_label": seeds.largest_label,
+            "duplicates": self.sweep.duplicates,
+            "snapped": seeds.snapped,
+            "largest_move": seeds.largest_move,
+        }
 
 
 def check_chunks(o: Options, stream: Stream) -> tuple[int, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property, partial
@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.bands import Band, SeedBand, SeedBands
-from vorotool.engines.tessellation.frames import band_limits, label_dtype, require_memory, squared_limit
+from vorotool.engines.tessellation.frames import band_limits, require_memory, squared_limit
 from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.engines.tessellation.tessellate import labelled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
-from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.contradictions import check_image_size
 from vorotool.jobs.input_lengths import lengths_of_image
 from vorotool.jobs.inputs import JobInput, asked_frame, frame_of, no_seeds, opened_input, read_opened, seeds_of_image
@@ -31,7 +30,7 @@ from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.silent_losses import tell_outside
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
-from vorotool.jobs.streams import STREAMED, PartOf, Stream, Streamed, check_chunks, scale_of_squares
+from vorotool.jobs.streams import STREAMED, Limits, Tessellated, check_chunks, scale_of_squares
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, table_in_units, unit_columns, unit_text
 from vorotool.numeric.progress import Progress
@@ -133,7 +132,7 @@ def _rows_of(run: Run, o: Options, seeds: SeedSet) -> Tessellator | PropagatedRo
     return rows
 
 
-class Products(Streamed):
+class Products(Tessellated):
     """Results of one tessellation."""
 
     begins_empty = True
@@ -146,21 +145,14 @@ class Products(Streamed):
         read: ReadSeeds,
         rows: Tessellator | PropagatedRows,
     ) -> None:
-        super().__init__(run, options)
-        self.read, self.rows = read, rows
+        super().__init__(run, options, rows, written_grid(options.pixel_size, read.grid))
         self.backdrop, self.sides = given.backdrop, sides_of(options)
-        check_columns(options, read.seeds.properties)
-        self.dtype = label_dtype(rows.seeds.largest_label, options.dtype)
 
     @cached_property
     def image(self) -> LabelImage:
         """The whole label image, in memory."""
-        require_memory(self.rows.frame, self.options.max_pixels)
-        return LabelImage(self._labels(), self.rows.frame, self.rows.seeds, sides=self.sides)
-
-    def _labels(self, first: int = 0, rows: int | None = None) -> NDArray[Any]:
-        with self.run.phase("tessellate"):
-            return self.rows.labels(first, rows, dtype=self.dtype)
+        require_memory(self.frame, self.options.max_pixels)
+        return LabelImage(self.labels(), self.frame, self.seeds, sides=self.sides)
 
     @cached_property
     def measures(self) -> RegionMeasures:
@@ -182,24 +174,24 @@ class Products(Streamed):
         if fmt in ("svg", "html"):
             from vorotool.render.label_images.svg import check_size
 
-            check_size(self.rows.frame.shape, fmt.upper())
+            check_size(self.frame.shape, fmt.upper())
         elif fmt in ANIMATIONS:
-            self.check_frames(self.rows.frame.shape)
+            self.check_frames(self.frame.shape)
             self._exact_rows().check_distances()
         elif what == "labels" and fmt == "png":
             from vorotool.formats.images.label_images import check_png
 
-            check_png(self.dtype, self.rows.seeds.largest_label)
+            check_png(self.dtype, self.seeds.largest_label)
         elif what == "distance2":
             _ = self._exact_rows().square_dtype
         if fmt == "zarr":
             check_chunks(self.options, self.stream(what))
         if what not in STREAMED or self.is_picture(target):
-            require_memory(self.rows.frame, self.options.max_pixels)
+            require_memory(self.frame, self.options.max_pixels)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result, and say what may surprise in it."""
-        seeds, rows = self.rows.seeds, self.rows
+        seeds, rows = self.seeds, self.sweep
         is_png = (target.what, target.fmt) == ("labels", "png")
         if is_png and seeds.largest_label < DARK_LABELS and sys.stderr.isatty():
             self.run.note(
@@ -217,46 +209,36 @@ class Products(Streamed):
         is_diagram = (target.what, target.fmt) == ("diagram", "png")
         return target.what == "color" or target.fmt == "svg" or (is_diagram and self.options.draws_diagram)
 
-    def stream(self, what: str) -> Stream:
-        """Labels, the diagram or distances, which need not be in memory."""
-        is_cut = what == "labels" and self.options.max_distance is not None
-        grid = written_grid(self.options.pixel_size, self.read.grid)
-        rows_of: PartOf
-        about: dict[str, Any] = {"grid": grid, "nodata": 0 if is_cut else None, "tiled": self.options.tiled}
-        if what == "labels":
-            rows_of, dtype, about["largest_label"] = self._labels, self.dtype, self.rows.seeds.largest_label
-        elif what == "diagram":
+    def about(self, what: str, dtype: np.dtype[Any]) -> Mapping[str, Any]:
+        """Give the largest value there can be, and how it is shown."""
+        largest = {"labels": self.seeds.largest_label, "diagram": 1, "distance": 0}.get(what)
+        made = {"tiled": self.options.tiled, "largest_label": np.iinfo(dtype).max if largest is None else largest}
+        if what == "diagram":
             from vorotool.render.canvas.palettes import LINE_ON_PAPER
 
-            rows_of, dtype = self._diagram, np.dtype(np.uint8)
-            about |= {"largest_label": 1, "palette": LINE_ON_PAPER, "bit_depth": 1}
-        elif what == "distance":
-            rows_of, dtype, about["largest_label"] = self._exact_rows().distances, np.dtype(np.float32), 0
-        else:
-            rows = self._exact_rows()
-            rows_of, dtype = rows.squared_distances, rows.square_dtype
-            about |= {"largest_label": int(np.iinfo(dtype).max), "scale": scale_of_squares(rows.step)}
-        frame = self.rows.frame
-        band: Any = partial(self._band, what, dtype)
-        return Stream(frame, rows_of, dtype, band, list(band_limits(frame)), about)
+            made |= {"palette": LINE_ON_PAPER, "bit_depth": 1}
+        return made if what != "distance2" else {**made, "scale": scale_of_squares(self._exact_rows().step)}
 
-    def _band(self, what: Any, dtype: np.dtype[Any], first: int, rows: int) -> Band:
+    def limits(self) -> Limits:
+        """Give bands of rows."""
+        return list(band_limits(self.frame))
+
+    def band(self, what: Any, dtype: np.dtype[Any], first: int, count: int) -> Band:
         """Give some rows as what computes them anywhere."""
-        frame = self.rows.frame
-        seeds = self._seed_bands.seeds_of(first, rows)
-        place = Frame(frame.x, frame.y + first, frame.width, rows)
+        frame = self.frame
+        place = Frame(frame.x, frame.y + first, frame.width, count)
+        seeds = self._seed_bands.seeds_of(first, count)
         return SeedBand(seeds, place, what, dtype, self.options.max_distance, self.sides)
 
     @cached_property
     def _seed_bands(self) -> SeedBands:
-        return SeedBands(self.rows.seeds, self.rows.frame)
+        return SeedBands(self.seeds, self.frame)
 
-    def _diagram(self, first: int, rows: int) -> NDArray[Any]:
+    def diagram_of(self, labels: NDArray[Any]) -> NDArray[Any]:
+        """Mark pixels beside others of other labels."""
         from vorotool.engines.label_images.regions import voronoi_diagram
 
-        above, below = min(1, first), min(1, self.rows.frame.height - first - rows)
-        labels = self._labels(first - above, rows + above + below)
-        return voronoi_diagram(labels, threads=self.options.threads)[above : above + rows]
+        return voronoi_diagram(labels, threads=self.options.threads)
 
     def written(self, what: str, fmt: str) -> Table:
         """Give a table of the whole image, in the units of files."""
@@ -264,10 +246,10 @@ class Products(Streamed):
         from vorotool.types.identity import ends_of_regions
 
         image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
-        size, seeds = self.options.pixel_size, self.rows.seeds
+        size, seeds = self.options.pixel_size, self.seeds
         if what == "neighbors":
             return ends_of_regions(table_in_units(size, neighbor_table(image, measures=measures)), seeds)
-        has_distances = isinstance(self.rows, Tessellator) and len(seeds)
+        has_distances = isinstance(self.sweep, Tessellator) and len(seeds)
         rows = self._exact_rows() if has_distances else None
         squares = None if rows is None else rows.squared_distances(dtype=rows.measured_dtype)
         table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
@@ -308,32 +290,27 @@ class Products(Streamed):
         """Where what is drawn lies: lengths are those across the picture."""
         from vorotool.jobs.picture_world import world_of
 
-        o, frame = self.options, self.rows.seeds.frame or self.rows.frame
+        o, frame = self.options, self.seeds.frame or self.frame
         made = world_of(self.run, o, frame=frame.box, size=o.pixel_size)
         if made.scale_bar is None or self.sides == SQUARE:
             return made
         return made._replace(scale_bar=made.scale_bar._replace(factor=float(self.sides.lengths[-1])))
 
     def _exact_rows(self) -> Tessellator:
-        assert isinstance(self.rows, Tessellator)  # the command refuses distances of the propagation
-        return self.rows
+        assert isinstance(self.sweep, Tessellator)  # the command refuses distances of the propagation
+        return self.sweep
 
     def verify(self, progress: Progress) -> None:
         """Check the labels of every band against an independent nearest-seed search."""
-        verify_rows(self.rows, threads=self.options.threads)
+        verify_rows(self.sweep, threads=self.options.threads)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        rows, seeds = self.rows, self.rows.seeds
+        rows, frame = self.sweep, self.frame
         counts: dict[str, Any] = {
-            "seeds": len(seeds),
-            "labels": len(seeds.site_labels) if seeds.site_labels is not None else 0,
-            "largest_label": seeds.largest_label,
-            "duplicates": rows.duplicates,
-            "snapped": seeds.snapped,
-            "largest_move": seeds.largest_move,
-            "steps_per_pixel": seeds.scale,
-            "frame": [rows.frame.x, rows.frame.y, rows.frame.width, rows.frame.height],
+            **super().stats(),
+            "steps_per_pixel": self.seeds.scale,
+            "frame": [frame.x, frame.y, frame.width, frame.height],
             "method": self.options.method,
             "threads": self.options.threads,
         }

@@ -429,7 +429,7 @@ REFUSED = [
     (
         "stack.tif --volume --max-pixels 692 --what color -o a.png",
         5,
-        "the volume has 11 x 9 x 7 = 693 voxels, more than",
+        "the frame has 11 x 9 x 7 = 693 voxels, more than",
     ),
     ("stack.tif --volume --max-pixels 500 --chunk 9x9x6 -o a.zarr", 5, "a layer of chunks has 11 x 9 x 6 voxels"),
     ("stack.tif --volume --max-sites 9 -o a.tif", 5, "--max-sites 9"),

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.label_images.regions import region_colors
-from vorotool.engines.tessellation.frames import label_dtype
+from vorotool.engines.tessellation.frames import require_memory
 from vorotool.engines.volumes.slabs import SeedSlab, SeedSlabs, with_neighbors
 from vorotool.engines.volumes.verify_volume import verify_label_volume
 from vorotool.engines.volumes.volume_frames import slab_limits
@@ -20,12 +20,11 @@ from vorotool.engines.volumes.volume_regions import VolumeRegions, regions_of_sw
 from vorotool.engines.volumes.volume_tables import neighbors_of_regions, table_of_regions
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import LimitError
-from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.streams import PartOf, Stream, Streamed, check_chunks
+from vorotool.jobs.streams import Limits, Tessellated, check_chunks
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize, unit_columns
 from vorotool.jobs.volumes.inputs import ReadVolume, read_volume_seeds
@@ -62,18 +61,16 @@ def products(run: Run, o: Options, given: JobInput) -> VolumeProducts:
     return VolumeProducts(run, o, read, sweep, has_page=given.has_page)
 
 
-class VolumeProducts(Streamed):
+class VolumeProducts(Tessellated):
     """Results of one tessellation."""
 
     def __init__(
         self, run: Run, options: Options, read: ReadVolume, sweep: VolumeSweep, *, has_page: bool = False
     ) -> None:
-        super().__init__(run, options)
-        self.read, self.sweep = read, sweep
+        super().__init__(run, options, sweep, read.grid)
+        self.read = read
         self._is_held = has_page or "color" in options.what
         self._with_distances = (has_page or "table" in options.what) and len(read.seeds) > 0
-        check_columns(options, read.seeds.properties)
-        self.dtype = label_dtype(read.seeds.largest_label, options.dtype)
 
     @cached_property
     def products(self) -> Mapping[str, Product]:
@@ -83,27 +80,16 @@ class VolumeProducts(Streamed):
     @cached_property
     def volume(self) -> LabelVolume:
         """The whole label volume, in memory."""
-        self._require_memory()
-        read, sweep = self.read, self.sweep
-        return LabelVolume(self._labels(0, sweep.frame.depth), sweep.frame, read.seeds, read.sides, read.grid)
-
-    def _require_memory(self) -> None:
-        frame, most = self.sweep.frame, self.options.max_pixels
-        if frame.voxels > most:
-            size = f"{frame.width} x {frame.height} x {frame.depth} = {frame.voxels}"
-            raise LimitError(f"the volume has {size} voxels, more than --max-pixels {most}")
-
-    def _labels(self, first: int, slices: int) -> NDArray[Any]:
-        with self.run.phase("tessellate"):
-            return self.sweep.labels(first, slices, dtype=self.dtype)
+        require_memory(self.frame, self.options.max_pixels)
+        return LabelVolume(self.labels(), self.frame, self.seeds, self.read.sides, self.grid)
 
     def _slabs(self) -> Iterator[tuple[int, NDArray[Any]]]:
         """The first slice of each slab, and its labels: of the volume where it is held."""
-        for first, slices in slab_limits(self.sweep.frame, len(self.sweep.seeds)):
+        for first, slices in slab_limits(self.frame, len(self.seeds)):
             if self._is_held:
                 yield first, self.volume.labels[first : first + slices]
             else:
-                yield first, self._labels(first, slices)
+                yield first, self.labels(first, slices)
 
     @cached_property
     def regions(self) -> VolumeRegions:
@@ -117,7 +103,7 @@ class VolumeProducts(Streamed):
 
     @cached_property
     def _views(self) -> SlicePicture:
-        return SlicePicture(self.sweep.frame, self.read.sides.units, self.options.slice)
+        return SlicePicture(self.frame, self.read.sides.units, self.options.slice)
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, before anything is."""
@@ -125,17 +111,17 @@ class VolumeProducts(Streamed):
 
         what, fmt = target.what, target.fmt
         if fmt == "html":
-            check_volume_page(self.sweep.frame.shape)
+            check_volume_page(self.frame.shape)
         elif what == "color":
             self._views.check(self.options.max_pixels)
         if what == "distance2" or self._with_distances:
             _ = self.sweep.square_dtype
         if what == "color" or fmt == "html":
-            self._require_memory()
+            require_memory(self.frame, self.options.max_pixels)
         elif fmt == "zarr":
             check_chunks(self.options, self.stream(what))
-        elif self.sweep.frame.width * self.sweep.frame.height > self.options.max_pixels:
-            size = f"{self.sweep.frame.width} x {self.sweep.frame.height}"
+        elif self.frame.width * self.frame.height > self.options.max_pixels:
+            size = f"{self.frame.width} x {self.frame.height}"
             raise LimitError(f"a slice has {size} voxels, more than --max-pixels {self.options.max_pixels}")
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
@@ -152,40 +138,23 @@ class VolumeProducts(Streamed):
         return f"{step}²" if unit is None else f"({step} {unit_name(unit)})²"
 
     # ---- what is streamed
-    def stream(self, what: str) -> Stream:
-        """Labels, the diagram or distances, which need not be in memory."""
-        sweep = self.sweep
-        made: dict[str, tuple[PartOf, Any]] = {
-            "labels": (self._labels, self.dtype),
-            "diagram": (self._diagram, np.uint8),
-            "distance": (sweep.distances, np.float32),
-            "distance2": (sweep.squared_distances, None),
-        }
-        slices_of, kind = made[what]
-        dtype = sweep.square_dtype if kind is None else np.dtype(kind)
-        is_cut = what == "labels" and self.options.max_distance is not None
-        limits, about = (
-            list(slab_limits(sweep.frame, len(sweep.seeds))),
-            {"grid": self.read.grid, "nodata": 0 if is_cut else None},
-        )
-        slab: Any = partial(self._slab, what, dtype)
-        return Stream(sweep.frame, slices_of, dtype, slab, limits, about)
+    def limits(self) -> Limits:
+        """Give slabs of slices."""
+        return list(slab_limits(self.frame, len(self.seeds)))
 
-    def _diagram(self, first: int, slices: int) -> NDArray[Any]:
-        begin, count = with_neighbors(self.sweep.frame, first, slices)
-        lines = volume_diagram(self._labels(begin, count), threads=self.options.threads)
-        return lines[first - begin : first - begin + slices]
+    def diagram_of(self, labels: NDArray[Any]) -> NDArray[Any]:
+        """Mark voxels beside others of other labels."""
+        return volume_diagram(labels, threads=self.options.threads)
 
-    def _slab(self, what: Any, dtype: np.dtype[Any], first: int, slices: int) -> SeedSlab:
+    def band(self, what: Any, dtype: np.dtype[Any], first: int, count: int) -> SeedSlab:
         """Give some slices as what computes them anywhere."""
-        read, frame = self.read, self.sweep.frame
-        own = with_neighbors(frame, first, slices) if what == "diagram" else (first, slices)
-        seeds = self._seed_slabs.seeds_of(*own)
-        return SeedSlab(seeds, frame, first, slices, what, dtype, read.sides, self.options.max_distance)
+        own = with_neighbors(self.frame, first, count) if what == "diagram" else (first, count)
+        seeds, o = self._seed_slabs.seeds_of(*own), self.options
+        return SeedSlab(seeds, self.frame, first, count, what, dtype, self.read.sides, o.max_distance)
 
     @cached_property
     def _seed_slabs(self) -> SeedSlabs:
-        return SeedSlabs(self.read.seeds, self.sweep.frame)
+        return SeedSlabs(self.seeds, self.frame)
 
     # ---- what is made of the whole
     @cached_property
@@ -196,7 +165,7 @@ class VolumeProducts(Streamed):
         """Give a table, whose lengths are in the unit of distances."""
         from vorotool.types.identity import ends_of_regions
 
-        return self._table if what == "table" else ends_of_regions(neighbors_of_regions(self.regions), self.read.seeds)
+        return self._table if what == "table" else ends_of_regions(neighbors_of_regions(self.regions), self.seeds)
 
     def write_page(self, out: BinaryIO) -> None:
         """Write a page that shows all slices."""
@@ -204,7 +173,7 @@ class VolumeProducts(Streamed):
         from vorotool.render.pages.volume_html import write_volume_html
 
         columns = columns_of(self._table, self.colors[0]) | unit_columns(self._size, len(self.colors[0]))
-        first, units = self.sweep.frame.z, self.read.sides.units
+        first, units = self.frame.z, self.read.sides.units
         write_volume_html(out, self.volume.labels, self.colors, columns, first=first, units=units)
 
     @property
@@ -218,7 +187,7 @@ class VolumeProducts(Streamed):
         from vorotool.render.label_images.picture import label_picture
 
         image = self._views.image(self.volume)
-        return label_picture(image, self.colors, self.products[what], self.wanted, sites=self.read.seeds)
+        return label_picture(image, self.colors, self.products[what], self.wanted, sites=self.seeds)
 
     @cached_property
     def world(self) -> World:
@@ -230,7 +199,7 @@ class VolumeProducts(Streamed):
 
     def verify(self, progress: Progress) -> None:
         """Check the labels of every slab against an independent nearest-seed search."""
-        sweep, read, frame = self.sweep, self.read, self.sweep.frame
+        sweep, read, frame = self.sweep, self.read, self.frame
         for first, slices in slab_limits(frame, len(sweep.seeds)):
             verify_label_volume(
                 sweep.labels(first, slices),
@@ -245,19 +214,14 @@ class VolumeProducts(Streamed):
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        sweep, seeds, frame = self.sweep, self.read.seeds, self.sweep.frame
+        frame = self.frame
         return {
-            "seeds": len(seeds),
-            "labels": len(seeds.site_labels) if seeds.site_labels is not None else 0,
-            "largest_label": seeds.largest_label,
-            "duplicates": sweep.duplicates,
-            "snapped": seeds.snapped,
-            "largest_move": seeds.largest_move,
-            "steps_per_voxel": seeds.scale,
+            **super().stats(),
+            "steps_per_voxel": self.seeds.scale,
             "frame": [frame.x, frame.y, frame.z, frame.width, frame.height, frame.depth],
             "voxels": frame.voxels,
             "unit_of_distance2": self._unit_of_squares,
             "method": "exact",
             "threads": self.options.threads,
-            "arithmetic": sweep.arithmetic,
+            "arithmetic": self.sweep.arithmetic,
         }
