@@ -31,6 +31,7 @@ from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.polygons.conversion import polygons_of_geometry
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
+from vorotool.types.values import counted
 
 _BY = option("--by", "by")
 EXPECTED = (
@@ -183,7 +184,9 @@ def _values(features: Sites, by: Any) -> list[Any]:
         raise InputError(f"invalid {_BY}: expected one value per feature, {features.count}, but got {len(values)}")
     missing = [k for k, value in enumerate(values) if _is_missing(value)]
     if missing:
-        raise InputError(f"invalid {_BY}: feature {missing[0]} has no value ({len(missing)} such features): fill it in")
+        raise InputError(
+            f"invalid {_BY}: feature {missing[0]} has no value ({counted(len(missing), 'such feature')}): fill it in"
+        )
     return values
 
 

@@ -13,8 +13,8 @@ from vorotool.formats.drawing import svg_document, xml_tree
 
 # ---- what is refused -----------------------------------------------------------------------------
 REFUSED = [
-    ('<text id="t">a</text>', r"text #t is text.* Object to Path"),
-    ('<image href="a.png"/>', "image is an embedded image"),
+    ('<text id="t">a</text>', r"text #t is not outlined.* Object to Path"),
+    ('<image href="a.png"/>', "image is not a shape"),
     ("<foreignObject/>", "not SVG"),
     ('<g clip-path="url(#c)"><rect width="1" height="1"/></g>', "g is clipped.*Path > Intersection"),
     ('<rect width="1" height="1" style="mask:url(#m)"/>', "has a mask"),

@@ -13,6 +13,7 @@ from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.numeric.sorted_sets import distinct
 from vorotool.types.polygons.planar_graph import REPAIRS
 from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.values import counted
 
 if TYPE_CHECKING:
     from vorotool.engines.arrangement.planar_graph import Placement
@@ -127,7 +128,7 @@ def _first_repair(polygons: PolygonSet, found: Found) -> str:
         "idle_segments": f"{where} is dangling, or a part of it is: a spike or an overlap",
         "empty_polygons": f"{polygons.place(edge).split(',')[0]} at {_position(polygons, edge)} has no area",
     }[name]
-    return f"{what} ({count} such repairs): correct it, or leave out {STRICT}"
+    return f"{what} ({counted(count, 'such place')}): correct it, or leave out {STRICT}"
 
 
 def _edge(polygons: PolygonSet, edge: int) -> str:

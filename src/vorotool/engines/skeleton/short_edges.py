@@ -11,6 +11,7 @@ from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import SiteTable
+from vorotool.types.values import counted
 
 
 @plain(eq=False)
@@ -43,5 +44,5 @@ class ShortEdges:
         raise InputError(
             f"{polygons.ring_place(ring)}, edge {int(sites.index[site]) + 1} from ({ax!r}, {ay!r}) to ({bx!r}, {by!r}) "
             f"is {self.length[first]:.6g} long, and a gap of {gap:g} at both ends leaves nothing of it "
-            f"({len(self)} such edges): use a gap below {self.length.min() / 2:.6g}"
+            f"({counted(len(self), 'such edge')}): use a gap below {self.length.min() / 2:.6g}"
         )

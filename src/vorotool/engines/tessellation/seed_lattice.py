@@ -17,6 +17,7 @@ from vorotool.numeric.row_index import index_of_rows
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SCALES, SeedSet
 from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.values import counted
 from vorotool.types.volumes.volume_seeds import FINEST_SCALE
 
 if TYPE_CHECKING:
@@ -162,7 +163,7 @@ def report_snapped(places: NDArray[np.float64], snapped: SnappedPlaces, *, stric
         row = int(np.flatnonzero(snapped.moved)[0])
         raise InputError(
             f"point {row + 1} is ({', '.join(map(str, places[row].tolist()))}): seeds lie on multiples of {step} "
-            f"{cell} ({count} such points); round them or leave out {STRICT}"
+            f"{cell} ({counted(count, 'such point')}); round them or leave out {STRICT}"
         )
     warn(
         f"{count} of {len(places)} seeds moved to the nearest {step} {cell}, by at most {snapped.largest_move:.2g} "

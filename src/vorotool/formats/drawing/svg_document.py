@@ -21,8 +21,8 @@ MOST_REPEATED = 2**17
 """Elements that are drawn, or pieces of curves, where some are used many times: a kilobyte could ask for billions."""
 _DEEPEST = 250
 _REFUSED = {
-    "text": "is text, not outlines: convert it to paths, in Inkscape with Path > Object to Path",
-    "image": "is an embedded image: remove it, and read the image as a separate file",
+    "text": "is not outlined: convert it to paths, in Inkscape with Path > Object to Path",
+    "image": "is not a shape: remove the image, and read it as a separate file",
     "foreignObject": "holds elements that are not SVG: remove them, or save the drawing as plain SVG",
 }
 _CLIPPED = {

@@ -30,7 +30,7 @@ def parse_json(source: Source) -> Any:
         return orjson.loads(source.data)
     except orjson.JSONDecodeError as error:
         raise InputError(
-            f"{source.name}, line {error.lineno}, column {error.colno}: the file is not valid JSON ({error.msg}); "
+            f"{source.name}, line {error.lineno}, column {error.colno}: the text is not valid JSON ({error.msg}); "
             "correct it"
         ) from None
 

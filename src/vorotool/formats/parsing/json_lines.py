@@ -50,8 +50,8 @@ def parse_lines(source: Source) -> Any:
             row = orjson.loads(text)
         except orjson.JSONDecodeError as error:
             raise InputError(
-                f"{source.name}, line {line + error.lineno - 1}, column {error.colno}: the line is not valid JSON "
-                f"({error.msg}); correct it, or remove the line"
+                f"{source.name}, line {line + error.lineno - 1}, column {error.colno}: the text is not valid JSON "
+                f"({error.msg}); correct it{', or remove the line' * bool(rows)}"
             ) from None
         if not isinstance(row, dict):
             raise InputError(

@@ -11,6 +11,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions
 from vorotool.numeric.coordinates import INEXACT, first_inexact
 from vorotool.types.points.point_set import PointSet
+from vorotool.types.values import counted
 
 _ADVICE = "save an (n, 2) or (n, 3) array of numbers with numpy.save"
 
@@ -41,7 +42,8 @@ def check_coordinates(name: str, table: NDArray[np.generic]) -> NDArray[np.float
     if bad.size:
         row = int(bad[0])
         raise InputError(
-            f"{name}, row {row + 1}: ({_shown(places[row])}) is not finite; correct or remove it ({bad.size} such rows)"
+            f"{name}, row {row + 1}: ({_shown(places[row])}) is not finite; correct or remove it "
+            f"({counted(bad.size, 'such row')})"
         )
     return places
 

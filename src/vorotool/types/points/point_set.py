@@ -137,7 +137,7 @@ def finite_rows(values: Any, axes: int) -> NDArray[np.float64]:
         row = int(bad[0])
         raise InputError(
             f"point {row + 1} is ({', '.join(map(str, rows[row].tolist()))}): coordinates must be finite; "
-            f"remove or repair it ({bad.size} such points)"
+            f"remove or repair it ({counted(bad.size, 'such point')})"
         )
     return rows
 

@@ -122,7 +122,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
             at = int(bad[0])
             raise InputError(
                 f"{self.place(at)} is ({self.xy[at, 0]}, {self.xy[at, 1]}): coordinates must be finite; "
-                f"remove or repair it ({bad.size} such vertices)"
+                f"remove or repair it ({counted(bad.size, 'such vertex', 'such vertices')})"
             )
 
     def __len__(self) -> int:
