@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.delaunay.cells import cell_colors
 from vorotool.errors import VorotoolWarning
-from vorotool.numeric.ragged import following, owners, within
+from vorotool.numeric.ragged import following, owners
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import CELLS, EDGE, INK, WHITE, cell_color
@@ -95,14 +95,7 @@ def mesh_page(
 def cell_polygons(cells: CellSet, colors: NDArray[np.unsignedinteger], page: Page) -> Polygons:
     """Fill cells; their outlines get finer where cells are small."""
     rings, polygons, of_cells = cells.nesting
-    cell = owners(np.diff(of_cells))
-    part = within(np.diff(of_cells)) + 1
-    labels = cells.label_array[cell]
-    several = np.diff(of_cells)[cell] > 1
-    ids = [
-        f"cell-{label}-{k}" if many else f"cell-{label}"
-        for label, k, many in zip(labels.tolist(), part.tolist(), several.tolist(), strict=True)
-    ]
+    counts = np.diff(of_cells)
     return Polygons(
         "cells",
         cells.coordinates,
@@ -110,11 +103,17 @@ def cell_polygons(cells: CellSet, colors: NDArray[np.unsignedinteger], page: Pag
         rings,
         polygons,
         [cell_color(c) for c in range(int(colors.max(initial=0)) + 1)],
-        np.asarray(colors)[cell],
-        ids,
+        np.asarray(colors)[owners(counts)],
+        cell_ids(cells.label_array, counts),
         EDGE,
         _line_width(len(cells), page),
     )
+
+
+def cell_ids(labels: NDArray[np.integer], counts: NDArray[np.integer]) -> list[str]:
+    """Name the polygons of cells: those of a cell of several are numbered."""
+    parts = [(label, count) for label, count in zip(labels.tolist(), counts.tolist(), strict=True) if count]
+    return [f"cell-{label}" + (f"-{k + 1}" if count > 1 else "") for label, count in parts for k in range(count)]
 
 
 def cell_lines(cells: CellSet, page: Page) -> Lines:

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.ragged import within
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts, name_size
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import EDGE, INK, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
+from vorotool.render.layers.mesh import cell_ids
 from vorotool.render.layers.polygons import polygon_layers
 from vorotool.types.axis import is_up
 from vorotool.types.box import extent_sides
@@ -69,13 +69,6 @@ def _curves(cells: VoronoiMap) -> Curves:
 def _filled(cells: VoronoiMap, curves: Curves, width: float) -> CurvedPolygons:
     arc, is_back = np.abs(cells.ring_arcs) - 1, cells.ring_arcs < 0
     colors = map_colors(cells)
-    cell = cells.cell_of_polygon
-    part = within(cells.components) + 1
-    several = cells.components[cell] > 1
-    ids = [
-        f"cell-{label}-{k}" if many else f"cell-{label}"
-        for label, k, many in zip((cell + 1).tolist(), part.tolist(), several.tolist(), strict=True)
-    ]
     return CurvedPolygons(
         "cells",
         curves.points,
@@ -83,8 +76,8 @@ def _filled(cells: VoronoiMap, curves: Curves, width: float) -> CurvedPolygons:
         cells.ring_starts,
         cells.polygon_starts,
         [cell_color(c) for c in range(int(colors.max(initial=0)) + 1)],
-        colors[cell],
-        ids,
+        colors[cells.cell_of_polygon],
+        cell_ids(np.arange(1, len(cells) + 1), cells.components),
         EDGE,
         width,
         curves=curves,
