@@ -189,7 +189,7 @@ def test_style_layers_and_parts_are_chosen():
     assert ax.collections[0].get_color()[0].tolist() == [1, 0, 0, 1]
     with pytest.raises(vorotool.UsageError, match="one layer"):
         axes_of(VALUES["PointSet"], layers=["points"])
-    with pytest.raises(vorotool.UsageError, match="is no picture"):
+    with pytest.raises(vorotool.UsageError, match="cells"):
         axes_of(mesh, what="cells")
 
 
