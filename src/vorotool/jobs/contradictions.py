@@ -7,7 +7,6 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from vorotool.errors import InputError
-from vorotool.formats.io.atomic_output import spoken
 from vorotool.jobs.input_lengths import unit_of_grid
 from vorotool.products.registry import PRODUCTS
 
@@ -20,8 +19,8 @@ if TYPE_CHECKING:
     from vorotool.types.pixel_grid import PixelGrid
     from vorotool.types.volumes.voxel_grid import VoxelGrid
 
-_WITH_SYSTEM = frozenset({"geojson", "jsonl", "gpkg", "fgb", "shp", "parquet"})
-"""Formats of maps that hold a coordinate reference system."""
+_WITH_SYSTEM = frozenset({"geojson", "jsonl", "json", "npz", "gpkg", "fgb", "shp", "parquet"})
+"""Formats that hold a coordinate reference system."""
 
 ALIKE = Fraction(1, 100)
 """Sides that differ by no more of their length are one: users round them."""
@@ -36,20 +35,16 @@ def check_image_size(run: Run, o: Options, name: str, grid: PixelGrid | None) ->
 
 
 def check_system(run: Run, o: Options, targets: Sequence[Target]) -> None:
-    """Warn of a size that scales coordinates whose reference system is written as it is."""
+    """Warn of a size that scales coordinates, which are no longer in their reference system then."""
     size = o.unit
     if size is None or size.is_auto or size.is_spacing or size.factor == 1 or not run.has_crs:
         return
-    for target in targets:
-        if target.fmt in _WITH_SYSTEM and "geojson" in PRODUCTS[o.command][target.what].written:
-            text = (
-                f"--pixel-size {_text(size)} scales the coordinates, but {spoken(target.path)} states the coordinate "
-                "reference system of the input"
-            )
-            instead = "leave out --pixel-size, or write a table (--what table)"
-            if o.strict:
-                raise InputError(f"{text}: {instead}")
-            run.warn(f"{text}: {instead}")
+    if any(target.fmt in _WITH_SYSTEM and "geojson" in PRODUCTS[o.command][target.what].written for target in targets):
+        text = f"--pixel-size {_text(size)} scales the coordinates: results state no coordinate reference system"
+        instead = "leave out --pixel-size for a map"
+        if o.strict:
+            raise InputError(f"{text}; {instead}")
+        run.warn(f"{text}; {instead}")
 
 
 def check_voxel_size(run: Run, o: Options, name: str, grid: VoxelGrid | None) -> None:

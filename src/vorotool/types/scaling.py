@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from fractions import Fraction
 from typing import Any
 
@@ -46,6 +46,8 @@ def scaled(
             parts[name] = _scaled(
                 part, factor * factor if each.meaning is Meaning.AREA else factor, moved, of_steps=of_steps
             )
+    if factor != 1 and origin is None and any(each.name == "crs" for each in fields(value)):
+        parts["crs"] = None  # the coordinates are others than those of the system
     if not isinstance(value, PolygonSet):
         return replace(value, **parts)
     made = replace(value, **parts, unit=unit)
