@@ -193,4 +193,4 @@ def test_messages_name_the_option_that_names_the_output(run, folder):
 
 def test_a_format_that_is_only_read(run):
     assert "error: .kml files can be read, but not written: use " in run("delaunay", "dots.csv", "-o", "a.kml").err
-    assert "error: the extension .xyz is not known: use " in run("delaunay", "dots.csv", "-o", "a.xyz").err
+    assert "error: unknown extension .xyz: use " in run("delaunay", "dots.csv", "-o", "a.xyz").err

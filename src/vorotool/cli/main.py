@@ -65,7 +65,7 @@ class LazyGroup(click.Group):
 
             meant = " or ".join(get_close_matches(name.lower().replace("_", "-"), COMMANDS))
             advice = f"did you mean {meant}?" if meant else f"use one of {', '.join(COMMANDS)}"
-            raise click.UsageError(f"there is no command {name!r}: {advice}", ctx)
+            raise click.UsageError(f"unknown command {name!r}: {advice}", ctx)
         return super().resolve_command(ctx, args)
 
     def list_commands(self, ctx: click.Context) -> list[str]:

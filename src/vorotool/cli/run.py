@@ -74,7 +74,7 @@ def _workers_chosen(o: Options, from_environment: Collection[str]) -> Options:
 def _several(o: Options) -> str:
     """Return why this is a batch, by what the user typed; nothing for one input, whose outputs have no record."""
     if len(o.inputs) > 1:
-        return f"{len(o.inputs)} inputs are given"
+        return f"there are {len(o.inputs)} inputs"
     if o.files_from is not None:
         return f"--files-from {o.files_from} lists inputs"
     if any(map(is_several, o.inputs)):
@@ -84,4 +84,4 @@ def _several(o: Options) -> str:
     if o.output is not None or not o.inputs or stream_kind(o.inputs[0]) is not None:
         return ""
     has_record = o.out_dir is not None and (o.is_shared or o.keep_going or o.jobs is not None)
-    return "--cluster is for several inputs" if has_record or o.cluster is not None else ""
+    return "--cluster works on several inputs" if has_record or o.cluster is not None else ""

@@ -93,7 +93,10 @@ class ShapeProducts(Results):
                 self.shape = self._shape(progress)
             if radius is None and not self.is_unjoined:
                 regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"
-                run.note(f"r = {radius_text(self.shape.r)}, the smallest whose shape is {regions} with every point")
+                run.note(
+                    f"r = {radius_text(self.shape.r)}, the smallest radius whose shape is {regions} covering every "
+                    "point"
+                )
 
     def _triangulation(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation | SeedSet:
         if isinstance(points, SeedSet) and points.is_empty_image:
@@ -182,7 +185,7 @@ class ShapeProducts(Results):
         }.get(target.what)
         if empty is not None and len(self.family.spectrum) and not self.is_unjoined and empty():
             words = {"table": "regions", "hull": "arcs in the hull"}.get(target.what, target.what)
-            warn(f"there are no {words} at r = {radius_text(self.shape.r)}: {self._beginning(target.what, words)}")
+            warn(f"the shape has no {words} at r = {radius_text(self.shape.r)}: {self._beginning(target.what, words)}")
 
     def _beginning(self, what: str, words: str) -> str:
         """Words for the radius at which there is something: regions begin with a triangle, shapes with an edge."""
@@ -194,7 +197,7 @@ class ShapeProducts(Results):
     def _standing_regions(self) -> str:
         found = self.persistence
         if found.suggested < 2:
-            return "1 region stands out" if found.suggested else "there are no regions"
+            return "1 region stands out" if found.suggested else "the shapes have no regions"
         until = radius_text(length_in_units(self.options.pixel_size, found.apart_until))
         return f"{found.suggested} regions stand out, apart below r = {until}"
 

@@ -75,9 +75,9 @@ def _check(run: Run, o: Options, name: str, has: str, stated: tuple[str, tuple[F
     text = f"{size.option} {_text(size)} contradicts {name}, which has {has}"
     if _are_alike(given[::-1], own):
         order = "SX,SY" if len(own) == 2 else "SX,SY,SZ"
-        text = f"{text}, as if its sides were in another order than {order}"
+        text = f"{text}, perhaps because its sides are not in the order {order}"
     if o.strict:
-        raise InputError(f"{text}: leave out {size.option}, or --strict")
+        raise InputError(f"{text}: leave out {size.option} or --strict")
     run.warn(text)
 
 

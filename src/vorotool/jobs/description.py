@@ -167,11 +167,9 @@ def _of_content(source: Opened, options: Options, note: Callable[[str], None]) -
             raise
     told = {"format": formats[0], **_told_of(value, note)}
     if not isinstance(value, Raster):
-        refuse({"page": options.page}, f"is for images, but the input holds {told['kind']}")
+        refuse({"page": options.page}, f"applies to images, but the input holds {told['kind']}")
     if _may_be_a_ring(value, formats[0]):
-        note(
-            "as a polygon, which a plain list of pairs may be as well, skeleton-approx, skeleton-exact and draw take it"
-        )
+        note("a plain list of pairs may also be a polygon: skeleton-approx, skeleton-exact and draw read it as one")
     return told
 
 

@@ -58,17 +58,15 @@ class DistanceProducts(Results):
         (one, a), (other, b) = first, second
         if a.crs is not None and b.crs is not None and not same_crs(a.crs, b.crs):
             raise InputError(
-                f"{one.name} is in {crs_name(a.crs)}, but {other.name} in {crs_name(b.crs)}: bring them into one "
-                f"coordinate reference system: --crs {crs_name(a.crs)} does"
+                f"{one.name} is in {crs_name(a.crs)}, but {other.name} in {crs_name(b.crs)}: reproject both to one "
+                f"system with --crs {crs_name(a.crs)}"
             )
         unit = unit_of_vectors(self.options, a)
         b = in_first_unit(self.run, self.options, (other.name, b), (one.name, unit), crs=a.crs)
         self.run.coordinates = coordinates_of(self.options, a)
         for which, mine, its in ((one, a, b), (other, b, a)):
             if mine.crs is None and its.crs is not None:
-                self.run.note(
-                    f"{which.name} names no coordinate reference system: it is taken to be in {crs_name(its.crs)}"
-                )
+                self.run.note(f"{which.name} states no coordinate reference system: {crs_name(its.crs)} is assumed")
         crs = b.crs if a.crs is None else a.crs
         return replace(a, crs=crs), replace(b, crs=crs)
 

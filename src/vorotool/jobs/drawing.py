@@ -107,9 +107,9 @@ class DrawnInput(Results):
 
         run, o = self.run, self.options
         of_lines = {"frame": o.frame, "scale": o.scale, "unit": o.drawing_unit, "aspect": o.aspect, "extent": o.extent}
-        refuse(of_lines, "is for shapes, but the input is a label image")
+        refuse(of_lines, "applies to shapes, but the input is a label image")
         if fmt == "png":
-            refuse({"width": o.width}, "is for SVG: the PNG of a label image has the size of the image")
+            refuse({"width": o.width}, "applies to SVG: the PNG of a label image has the size of the image")
         check_drawn_layers(o, fmt, "a label image", LABEL_LAYERS.get(fmt, ()))
         check_column(o.label_by, {})
         note_other_size(run, o, self._given, image.shape)
@@ -127,20 +127,20 @@ class DrawnInput(Results):
         run, o = self.run, self.options
         kind, product, _ = _described(value)
         if fmt == "html":
-            raise UsageError(f"a page is of cells or labels, but the input is {kind}: use -f svg or -f png")
+            raise UsageError(f"a page shows cells or labels, but the input is {kind}: use -f svg or -f png")
         check_drawn_layers(o, fmt, kind, product.layers[fmt])
-        refuse({"page": o.page}, f"is for images, but the input is {kind}")
+        refuse({"page": o.page}, f"applies to images, but the input is {kind}")
         if not len(value):
-            run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
+            run.warn(f"the picture is empty: the input ({kind}) has nothing to draw")
         polygons = value if isinstance(value, PolygonSet) else value.polygons
         run.has_crs = polygons.crs is not None
         check_column(o.label_by, (value if isinstance(value, VoronoiMap) else polygons).properties)
         if o.overlay is not None:
-            refuse({"frame": o.frame}, "is what a picture shows, but one over an image has its size")
+            refuse({"frame": o.frame}, "sets what a picture shows, but a picture over an image shows the image")
         size = _size(o)
         if size is not None and size.is_auto:
             if unit_of(value) is None:
-                raise UsageError("the input states no unit: give --pixel-size one, such as 0.325um")
+                raise UsageError("the input states no unit: give --pixel-size with a unit, such as 0.325um")
             size = None
         self.world = world_of_polygons(run, o, polygons, size=size, is_cut=False)
         self.backdrop = _placed(run, o, self._given, value)
@@ -161,13 +161,13 @@ def _read(run: Run, o: Options, given: JobInput) -> LabelImage | Lined:
     elif has_no_rows(source):
         holds, source = "polygons", replace(source, format="wkt")
     else:
-        raise InputError(f"{source.name} is empty: there is nothing to draw; check what was to write it")
+        raise InputError(f"{source.name} is empty, so there is nothing to draw; check the program that wrote it")
     if holds == "points":
         if not (_is_empty_collection(source) or is_table(source.document)):
             raise InputError(
-                f"{source.name} is not drawn: give a label image, the JSON of a skeleton, of offset curves or of a "
-                "Voronoi map, or polygons and lines (GeoJSON, WKT, JSON, .poly, SVG, DXF); other results are drawn by "
-                "the command that makes them, with -f svg"
+                f"{source.name} cannot be drawn: give a label image, the JSON of a skeleton, of offset curves or of a "
+                "Voronoi map, or polygons and lines (GeoJSON, WKT, JSON, .poly, SVG, DXF); draw other results with "
+                "the command that computes them and -f svg"
             )
         holds = "polygons"  # whose reader says more of tables
     options = ReadOptions(
@@ -209,7 +209,7 @@ def _objects(run: Run, image: LabelImage) -> LabelImage:
         return image
     if image.labels.dtype.itemsize > 1:  # in which labels are written, too
         value = int(image.labels.max())
-        run.note(f"{value} is the only value besides 0, and taken for a mask: each of its objects is drawn by itself")
+        run.note(f"{value} is the only value besides 0, and read as a mask: each of its objects is drawn separately")
     return LabelImage(objects, image.frame, grid=image.grid)
 
 
@@ -217,7 +217,7 @@ def _size(o: Options) -> PixelSize | None:
     """Return what lengths are measured by, or refuse it where no picture has any."""
     scale = o.looks.scale
     if o.pixel_size is not None and not o.looks.has_scale_bar and not (scale is not None and scale.is_ratio):
-        raise UsageError("--pixel-size is for lengths: add --scale-bar or --scale 1:N, or leave it out")
+        raise UsageError("--pixel-size applies to lengths: add --scale-bar or --scale 1:N, or leave it out")
     return o.pixel_size
 
 

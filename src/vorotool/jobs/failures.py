@@ -10,10 +10,10 @@ def explained(error: Exception) -> tuple[Message, int]:
     if isinstance(error, VorotoolError):
         return error.typed, error.exit_code
     if isinstance(error, MemoryError):
-        text = "there is not enough memory: use a smaller frame, or an output that is streamed"
+        text = "out of memory: use a smaller frame, or an output that is streamed, such as TIFF or Zarr"
         return Message(text), LimitError.exit_code
     import traceback
 
     traceback.print_exception(error)
-    text = f"a defect of vorotool, please report it with the lines above: {error}"
+    text = f"internal error in vorotool: {error}; please report it with the lines above"
     return Message(text), VorotoolError.exit_code

@@ -72,10 +72,10 @@ def sized(grid: PixelGrid | None, o: Options) -> PixelGrid:
     if is_spacing:
         instead = "give numbers and their unit, such as --spacing 0.325,0.5um"
     if grid is None:
-        raise InputError(f"the image carries no pixel size: {instead}")
+        raise InputError(f"the image states no pixel size: {instead}")
     if not grid.is_size:
         dots = f"{float(1 / grid.width):.10g}"
-        raise InputError(f"the image carries {dots} dots an inch, which is for print, and no pixel size: {instead}")
+        raise InputError(f"the image states {dots} dots per inch, which is for print, but no pixel size: {instead}")
     return grid
 
 
@@ -113,11 +113,13 @@ def side_of_pixel(grid: PixelGrid | None) -> InputUnit | None:
 def _size_of(asked: PixelSize, unit: InputUnit | None) -> PixelSize:
     """Return what ``auto`` stands for."""
     if asked.is_spacing:
-        raise UsageError("--spacing auto is for images, whose files may say it: give numbers, such as 0.325,0.5um")
+        raise UsageError(
+            "--spacing auto needs an image whose file states its pixel size: give numbers, such as 0.325,0.5um"
+        )
     if unit is None:
         raise UsageError(
-            "--pixel-size auto is for inputs whose files state a unit: give a number and its unit, such as 0.325um, or "
-            "1m for coordinates in meters"
+            "--pixel-size auto needs an input whose file states a unit: give a number and its unit, such as 0.325um, "
+            "or 1m for coordinates in meters"
         )
     return PixelSize(unit.side, unit.unit)
 
@@ -138,8 +140,8 @@ def _refused(o: Options, instead: str = "") -> Options:
     if size is not None and size.unit is None and not size.is_auto:
         from vorotool.numeric.length_units import METRES
 
-        refuse_lengths(o, f"{size.option} has none: give it one of {', '.join(METRES)}")
-    refuse_lengths(o, f"that of the input is not known: {instead or _USUAL}")
+        refuse_lengths(o, f"{size.option} has no unit: give it one of {', '.join(METRES)}")
+    refuse_lengths(o, f"the unit of the input is unknown: {instead or _USUAL}")
     return o
 
 
@@ -147,7 +149,7 @@ def _refused_degrees(o: Options, crs: Any, xy: Any = ()) -> Options:
     from vorotool.numeric.crs import crs_name
     from vorotool.numeric.degrees import projected_advice
 
-    advice = "gdalwarp -t_srs brings it into a projected system" if isinstance(xy, tuple) else projected_advice(xy)
+    advice = "reproject it, for example with gdalwarp -t_srs" if isinstance(xy, tuple) else projected_advice(xy)
     where = "" if crs is None else f" ({crs_name(crs)})"
     refuse_lengths(o, f"the input is in degrees{where}, whose length differs from place to place: {advice}")
     return o

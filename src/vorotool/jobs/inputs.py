@@ -94,7 +94,7 @@ def read_opened(
     value = read(source, run.note, to_crs=o.crs, y_up=o.y_up, **tolerances)
     if not is_of(value, "PointSet", "PolygonSet", "Sites", "Raster"):  # which is read where no geometry is asked for
         raise InputError(
-            f"{given.name} is a result of vorotool, of {type(value).__name__}: points or polygons were due"
+            f"{given.name} is a {type(value).__name__}, a result of vorotool, but points or polygons are expected"
         )
     if is_of(value, "Raster"):
         run.reads_image = True
@@ -103,7 +103,7 @@ def read_opened(
         check_image_size(run, o, given.name, value.grid)
         return lengths_of_image(o, value.grid), value
     if o.is_of_sites:
-        refuse(o.for_images, "is for images, but the input is a list of points")
+        refuse(o.for_images, "applies to images, but the input is a list of points")
     o = lengths_of_vectors(o, value)
     if o.pixel_size is not None and o.pixel_size.unit is not None:
         check_unit(run, o, given.name, unit_of(value))
@@ -147,8 +147,8 @@ def check_streams(named: Iterable[tuple[str, str]]) -> None:
             continue
         if identity in readers:
             raise UsageError(
-                f"{reader} {name} and {readers[identity]} are one stream, which is read once: name a file for one of "
-                "the two"
+                f"{reader} {name} and {readers[identity]} are the same stream, which can be read only once: name a "
+                "file for one of them"
             )
         readers[identity] = f"{reader} {name}"
 
@@ -172,7 +172,9 @@ def refuse_several(named: Mapping[str, str]) -> None:
     """Refuse folders and patterns where two files are compared."""
     for name, path in named.items():
         if is_several(path):
-            raise UsageError(f"{name} {path} stands for several files, but two are compared: name one file each")
+            raise UsageError(
+                f"{name} {path} stands for several files, but two files are compared: name one file for each"
+            )
 
 
 def read_sites(
@@ -185,8 +187,8 @@ def read_sites(
         if not len(value):
             report_no_geometry(run, o)
         return o, value
-    refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
-    refuse(o.of_frame, "is for lists of points, but the input is an image, which brings its own frame")
+    refuse({"columns": o.columns}, "applies to lists of points, but the input is an image")
+    refuse(o.of_frame, "applies to lists of points, but the input is an image, which brings its own frame")
     # The sites of objects are their centroids, but their regions are not those of the centroids.
     return o, seeds_of_image(run, o, value, None if o.seeds == "centroids" and not is_digital else o.seeds)
 
@@ -235,9 +237,9 @@ def asked_frame(o: Options) -> Frame | None:
 def report_no_seeds(run: Run, o: Options, frame: object) -> None:
     """Report an input without seeds: the frame is all 0, and has to be given."""
     if frame is None:
-        raise InputError("there are no seeds, and no frame: give at least one point, or --size or --window")
+        raise InputError("no seeds and no frame: give at least one point, or --size or --window")
     if {"distance", "distance2"} & set(o.what):
-        raise InputError("there are no seeds, so that there are no distances to them: give at least one point")
+        raise InputError("no seeds to measure distances to: give at least one point")
     report_no_geometry(run, o)
 
 
@@ -291,15 +293,15 @@ def note_other_size(run: Run, o: Options, given: JobInput, shape: Sequence[int])
         return
     height, width = given.backdrop.pixels.shape[:2]
     run.note(
-        f"{o.overlay} has {width} x {height} pixels, the input {shape[1]} x {shape[0]}: both begin in one corner, and "
-        "what lies beside the overlay is not drawn"
+        f"{o.overlay} has {width} x {height} pixels, the input {shape[1]} x {shape[0]}: their first corners coincide, "
+        "and parts outside the overlay are not drawn"
     )
 
 
 def note_repeated_labels(run: Run, points: PointSet | SeedSet, mesh: Triangulation) -> None:
     """Say that labels name groups of points, where they repeat."""
     if getattr(points, "labels", None) is not None and mesh.labels is None and len(mesh.points):
-        run.note("labels repeat: points are numbered from 1, and label is a column of its own")
+        run.note("labels repeat: points are numbered from 1, and label is an ordinary column")
 
 
 @contextmanager

@@ -127,8 +127,8 @@ def _note_system(run: Run, target: Target, crs: Any) -> None:
 
     if not is_geographic(crs):
         run.note(
-            f"{spoken(target.path)} is in {crs_name(crs)}, but GDAL takes JSON lines to be longitude and latitude: "
-            f"give it -a_srs {crs_name(crs)}, or write a GeoPackage"
+            f"{spoken(target.path)} is in {crs_name(crs)}, but GDAL reads JSON lines as longitude and latitude: give "
+            f"GDAL -a_srs {crs_name(crs)}, or write a GeoPackage"
         )
 
 

@@ -106,26 +106,27 @@ def _check_units(path: str, given: JobInput, crs: Any, unit: InputUnit | None, g
         stated = crs_name(crs) if crs is not None else None if unit is None else unit.text
         if stated is not None:
             raise InputError(
-                f"{given.name} is in {stated}, but {path} lies on no map, so that --like takes coordinates in its "
-                "pixels: place it with gdal_translate -a_srs CRS -a_ullr LEFT TOP RIGHT BOTTOM, or use --cell-size"
+                f"{given.name} is in {stated}, but {path} has no position on a map, so --like expects coordinates in "
+                "its pixels: georeference it with gdal_translate -a_srs CRS -a_ullr LEFT TOP RIGHT BOTTOM, or use "
+                "--cell-size"
             )
         return
     own = unit_of_grid(grid)
     if unit is not None and own is not None and ratio(unit.unit, own.unit) != 1:
-        raise InputError(f"{given.name} is in {unit.text}, but {path} in {own.text}: bring them into one unit")
+        raise InputError(f"{given.name} is in {unit.text}, but {path} in {own.text}: convert one of them")
 
 
 def _check_upright(path: str, given: JobInput, value: PointSet | PolygonSet, grid: PixelGrid) -> None:
     """Refuse a raster that is turned, mirrored, has pixels that are no squares, or y the other way."""
     if not grid.is_upright:
-        raise InputError(f"{path} is turned or mirrored on the map: gdalwarp {path} upright.tif makes one that is not")
+        raise InputError(f"{path} is rotated or mirrored on the map: straighten it with gdalwarp {path} upright.tif")
     if not grid.is_square:
         raise InputError(
-            f"{path} has pixels of {grid.size_text()}, which are no squares, but cells are: "
-            f"gdalwarp -tr SIDE SIDE {path} square.tif makes one with squares"
+            f"{path} has pixels of {grid.size_text()}, but cells are squares: resample it with gdalwarp -tr SIDE SIDE "
+            f"{path} square.tif"
         )
     if value.y_axis == DOWN and grid.is_north_up:
-        raise InputError(f"y goes down in {given.name}, but up in {path}: --y-up takes the numbers as they are")
+        raise InputError(f"y goes down in {given.name}, but up in {path}: --y-up uses the numbers as they are")
 
 
 def _size_of_cells(o: Options, side: Fraction, grid: PixelGrid) -> PixelSize:
@@ -163,6 +164,8 @@ def _seeds_of_features(o: Options, polygons: PolygonSet, frame: Frame) -> SeedSe
     if without:
         names = [str(int(number) + 1) for number in np.setdiff1d(features, seeds.site_labels.astype(np.int64) - 1)]
         shown = ", ".join([*names[:MOST_NAMED], *(["…"] if len(names) > MOST_NAMED else [])])
-        text = f"{without} of {len(features)} features have no cell, as they are small, covered or outside: {shown}"
+        text = (
+            f"{without} of {len(features)} features have no cell, because they are small, covered or outside: {shown}"
+        )
         warn(VorotoolWarning(Message(text, Kind.GENERAL)))
     return replace(seeds, properties={name: [column[k] for k in known] for name, column in polygons.properties.items()})

@@ -55,7 +55,7 @@ def _by_threshold(run: Run, o: Options, image: Raster) -> Foreground:
     bright = float((grey > whole_threshold(grey, found.threshold)).mean())
     if not o.invert and bright > MOSTLY:
         share = f"{bright:.0%} of the image"
-        run.note(f"{share} is brighter than that, and foreground: --invert takes what is dark, such as ink on paper")
+        run.note(f"{share} is brighter and becomes foreground: for dark objects, such as ink on paper, use --invert")
     return found
 
 
@@ -86,4 +86,4 @@ def report_cleaning(run: Run, o: Options, filled: int, removed: tuple[int, int],
         run.stats["small_objects"] = removed[0]
         if removed[0]:
             least = shown_number(ceil(o.min_area))
-            run.note(f"{removed[0]} of {removed[1]} objects have fewer than {least} {what}: left out")
+            run.note(f"{removed[0]} of {removed[1]} objects have fewer than {least} {what}: dropped")

@@ -53,7 +53,7 @@ def world_of(
     aspect = aspect_at((bounds[1] + bounds[3]) / 2) if is_angular and bounds is not None else 1.0
     bar = None
     if looks.has_scale_bar and (is_angular or (size is not None and is_geographic(size.crs))):
-        run.note("there is no scale bar: the length of a degree of longitude differs from place to place")
+        run.note("no scale bar is drawn: the length of a degree of longitude varies over the map")
     elif looks.has_scale_bar:
         bar = _scale_bar(crs, unit, size, is_image=is_image)
     scale = looks.scale

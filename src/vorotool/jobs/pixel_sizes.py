@@ -60,7 +60,7 @@ def size_of_file(grid: PixelGrid | None, o: Options) -> PixelSize:
     if not grid.is_square:
         instead = "give a number and its unit, such as --pixel-size 0.325um"
         measure = "use --spacing auto, or " if o.takes_spacing else ""
-        raise InputError(f"the image has pixels of {grid.size_text()}, which are no squares: {measure}{instead}")
+        raise InputError(f"the image has pixels of {grid.size_text()}, which are not squares: {measure}{instead}")
     return PixelSize(grid.width, grid.unit)
 
 
@@ -72,16 +72,16 @@ def _spacing_of(grid: PixelGrid) -> PixelSize:
     if sides is None:
         raise InputError(
             f"the image has pixels of {grid.size_text()}, whose sides have no common step that is coarse enough for "
-            "exact distances: give rounded ones, such as --spacing 0.325,0.5um"
+            "exact distances: give rounded sides, such as --spacing 0.325,0.5um"
         )
     return PixelSize(Fraction(1), grid.unit, is_spacing=True, sides=sides)
 
 
 def _note_of_size(given: JobInput, grid: PixelGrid, o: Options, what: str = "results") -> str:
     if grid.is_square:
-        return f"{given.name} carries a pixel size of {grid.size_text()}: --pixel-size auto uses it"
-    measure = "; --spacing auto measures in their sides" if o.takes_spacing else ""
-    return f"{given.name} has pixels of {grid.size_text()}, which are no squares: {what} are in pixels{measure}"
+        return f"{given.name} states a pixel size of {grid.size_text()}: --pixel-size auto uses it"
+    measure = "; --spacing auto measures with these sides" if o.takes_spacing else ""
+    return f"{given.name} has pixels of {grid.size_text()}, which are not squares: {what} are in pixels{measure}"
 
 
 def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: Options) -> PixelSize | None:
@@ -90,15 +90,15 @@ def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: Options) -> PixelSize
     is_spacing = asked is not None and asked.is_spacing
     if not grid.is_upright:
         raise InputError(
-            f"the image is turned or mirrored on the map, which vectors and tables cannot follow: {in_pixels}, and "
-            "gdalwarp in.tif upright.tif an image that is not"
+            f"the image is rotated or mirrored on the map, which vectors and tables cannot follow: {in_pixels}, or "
+            "straighten it with gdalwarp in.tif upright.tif"
         )
     if not grid.is_square and not is_spacing:
         if asked is not None:
             measure = "use --spacing auto; " if o.takes_spacing else ""
             raise InputError(
-                f"the image has pixels of {grid.size_text()}, which are no squares: {measure}{in_pixels}, and "
-                "gdalwarp -tr SIDE SIDE in.tif square.tif an image with squares"
+                f"the image has pixels of {grid.size_text()}, which are not squares: {measure}{in_pixels}, or "
+                "resample it with gdalwarp -tr SIDE SIDE in.tif square.tif"
             )
         run.note(_note_of_size(given, grid, o))
         return None

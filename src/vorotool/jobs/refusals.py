@@ -28,7 +28,7 @@ _KINDS = {
     ".digits": "formats of text, such as csv",
     ".parts": "tables and GeoJSON whose rows are parts of features or pairs (--what branches, points, edges, ...)",
     ".curves": "formats that have no curves, such as GeoJSON and WKT",
-    "?may_be_drawn": "drawings that are read",
+    "?may_be_drawn": "inputs that are drawings",
     ".ome-zarr": "OME-Zarr (-o NAME.ome.zarr)",
 }
 """Words for kinds of outputs."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from vorotool.errors import InputError, Kind, Message
 from vorotool.formats.io.sources import reading
 from vorotool.jobs.input_lengths import side_of_pixel, unit_of_grid
+from vorotool.types.values import counted
 
 if TYPE_CHECKING:
     import numpy as np
@@ -51,7 +52,7 @@ def side_of_backdrop(run: Run, o: Options, grid: PixelGrid | None) -> float:
     pixel = side_of_pixel(grid)
     found = None if pixel is None or (grid is not None and grid.transform is not None) else ratio(pixel.unit, unit.unit)
     if pixel is None or found is None:
-        run.note(f"{o.overlay} states no size of its pixels: they are taken to be the coordinates")
+        run.note(f"{o.overlay} states no pixel size: its pixels are assumed to be the coordinates")
         return 1.0
     return float(pixel.side * found / unit.side)
 
@@ -89,11 +90,11 @@ def in_first_unit(
     if own is None:
         if pixels or (unit is not None and crs is None):  # of systems `in_one_crs` speaks
             what = "pixels" if pixels else "those"
-            run.note(f"{path} states no unit: its coordinates are taken to be {what} of {source}")
+            run.note(f"{path} states no unit: its coordinates are assumed to be {what} of {source}")
         return value
     found = None if unit is None else ratio(own.unit, unit.unit)
     if unit is None or found is None:
-        text = f"{path} is in {own.text}, but the unit of {source} is not known: its numbers are taken as they are"
+        text = f"{path} is in {own.text}, but the unit of {source} is unknown: the numbers are used as they are"
         if o.strict:
             raise InputError(f"{text}; state it with --pixel-size, or leave out --strict")
         run.warn(text)
@@ -132,7 +133,7 @@ def read_cut(run: Run, o: Options, option: str, path: str, first: First) -> tupl
         is_of_map = size is not None and (size.origin is not None or size.sides is not None)
         if first.is_image:
             if first.crs is not None and value.crs is not None:
-                warp = "bring the polygons into that of the image: ogr2ogr -t_srs {} clip.gpkg {}"
+                warp = "reproject the polygons to the system of the image: ogr2ogr -t_srs {} clip.gpkg {}"
                 _require_same(path, value.crs, first.name, first.crs, warp)
             value = in_first_unit(run, o, (path, value), (first.name, first.unit), pixels=not is_of_map)
         else:
@@ -160,7 +161,7 @@ def _read(run: Run, o: Options, option: str, path: str) -> PolygonSet:
 
     value = read(path, geometry="polygons", threads=o.threads, note=note)
     if not isinstance(value, PolygonSet):
-        raise InputError(f"{path} is an image: give {option} a file of polygons")
+        raise InputError(f"{path} is an image, but {option} needs a file of polygons")
     if o.crs is not None and value.crs is not None:
         value = with_crs(value, path, ReadOptions(to_crs=crs_member(o.crs)))
     return value
@@ -172,9 +173,9 @@ def _polygons_among(run: Run, path: str, value: PolygonSet) -> NDArray[np.int64]
 
     lines = int(value.is_line.sum())
     if lines:
-        run.note(f"{path}: {lines} open lines are left out of --clip")
+        run.note(f"{path}: {counted(lines, 'open line')} of --clip skipped")
     if lines == len(value):
-        raise InputError(f"{path} holds no polygons: give --clip a file that does")
+        raise InputError(f"{path} holds no polygons, which --clip needs: name another file")
     return np.flatnonzero(~value.is_line)
 
 
@@ -189,13 +190,13 @@ def in_one_crs(run: Run, cut: tuple[str, PointSet | PolygonSet], data: tuple[str
         return value
     if value.crs is None or polygons.crs is None:
         unnamed, named, crs = (source, path, polygons.crs) if value.crs is None else (path, source, value.crs)
-        _check_they_meet(value, polygons, f"{unnamed} names no coordinate reference system", f"{named} is in", crs)
-        run.note(f"{unnamed} names no coordinate reference system: it is taken to be in {crs_name(crs)}, as {named} is")
+        _check_they_meet(value, polygons, f"{unnamed} states no coordinate reference system", f"{named} is in", crs)
+        run.note(f"{unnamed} states no coordinate reference system: {crs_name(crs)} is assumed, as in {named}")
         if value.crs is None:
             value = declared_in(value, source, crs)
             note_degrees(value, source, run.note)
         return value
-    advice = "bring them into one coordinate reference system: --crs {0}, or ogr2ogr -t_srs {0}, does"
+    advice = "reproject them to one system with --crs {0}, or ogr2ogr -t_srs {0}"
     _require_same(path, polygons.crs, source, value.crs, advice)
     return value
 
@@ -221,6 +222,6 @@ def _check_they_meet(
     (low_a, high_a), (low_b, high_b) = bounds(data.xy), bounds(polygons.xy)
     if (low_a > high_b).any() or (low_b > high_a).any():
         raise InputError(
-            f"{unnamed}, {named} {crs_name(crs)}, and they do not meet: bring them into one system that both name, "
-            "for example with ogr2ogr -t_srs, or with --input-crs for the input"
+            f"{unnamed}, {named} {crs_name(crs)}, and they do not meet: reproject them to one system that both state, "
+            "for example with ogr2ogr -t_srs, or name that of the input with --input-crs"
         )

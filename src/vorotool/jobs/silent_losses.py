@@ -23,7 +23,7 @@ def tell_empty_cells(run: Run, labels: NDArray[Any], is_empty: NDArray[np.bool_]
     run.stats["empty_sites"] = labels[is_empty][:SHOWN].tolist()
     if is_empty.all():
         many = f"all {len(labels)} cells are" if len(labels) > 1 else "the only cell is"
-        run.warn(Message(f"{many} empty: no site has a place in the frame or the clip", Kind.EMPTY_RESULT))
+        run.warn(Message(f"{many} empty: no site has points in the frame or the clip", Kind.EMPTY_RESULT))
     else:
         run.note(_text(labels, is_empty, "cells", "empty: {} of"))
 

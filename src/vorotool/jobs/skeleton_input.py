@@ -39,7 +39,7 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons:
     if isinstance(value, Raster):
         return outlined(run, o, given, value)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
-    refuse(o.for_images, "is for images, but the input is polygons or lines")
+    refuse(o.for_images, "applies to images, but the input is polygons or lines")
     if not len(value):
         report_no_geometry(run, o)
     return ReadPolygons(

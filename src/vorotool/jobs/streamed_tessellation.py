@@ -46,9 +46,9 @@ def rows_of_large(o: Options, source: Opened) -> ZarrRows | TiffRows | None:
     if o.cleans_masks:
         if height * width > max(o.max_pixels, LARGE):
             raise LimitError(
-                f"{o.cleans_masks} holds the whole image, whose {width} x {height} pixels are more than --max-pixels "
-                f"{o.max_pixels}: raise that if there is memory for it, or leave {o.cleans_masks} out, and the image "
-                "is read in bands"
+                f"{o.cleans_masks} needs the whole image in memory, but its {width} x {height} pixels are more than "
+                f"--max-pixels {o.max_pixels}: raise that if there is memory for it, or leave out {o.cleans_masks} to "
+                "read the image in bands"
             )
         return None
     on_cluster = o.cluster is not None and o.out_dir is None
@@ -61,7 +61,7 @@ class StreamedProducts(Streamed):
     def __init__(self, run: Run, options: Options, image: ZarrRows | TiffRows) -> None:
         refuse(
             options.of_frame,
-            "is for lists of points, but the input is an image, which brings its own",
+            "applies to lists of points, but the input is an image with its own frame",
         )
         super().__init__(run, options)
         self.grid = written_grid(options.pixel_size, image.grid)

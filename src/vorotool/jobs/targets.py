@@ -114,7 +114,10 @@ def check_targets(options: Options, targets: Sequence[Target], source: str) -> N
     for one, other in combinations(targets, 2):
         is_of_layers = one.fmt == other.fmt == "gpkg" and one.path == other.path
         if not is_of_layers and is_same_output(one.path, other.path):
-            raise UsageError(f"{one.path} and {other.path} are links to one file: {one.what} and {other.what} need two")
+            raise UsageError(
+                f"{one.path} and {other.path} are links to the same file, but {one.what} and {other.what} need a file "
+                "each"
+            )
     for target in targets:
         if target.fmt == "zarr":
             check_store(target.path, **rules)
@@ -144,7 +147,7 @@ def _formats_of_results(
     unused = [fmt for fmt in wanted if fmt not in fitting.values()]
     if len(wanted) > 1 and unused:
         taken = ", ".join(f"{fmt or 'nothing'} to {name}" for name, fmt in fitting.items())
-        raise UsageError(f"-f {listed} gives {taken}, and {unused[0]} to none of them: leave {unused[0]} out")
+        raise UsageError(f"-f {listed} assigns {taken}, but {unused[0]} to no result: leave out {unused[0]}")
     return {name: fmt or next(iter(wanted), None) for name, fmt in fitting.items()}
 
 
@@ -170,17 +173,13 @@ def _chosen(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, ex
         chosen = EXTENSIONS.get(extension)
         if chosen is None:
             is_read = extension.removeprefix(".") in NAMES_WITH[None]
-            fault = (
-                f"{extension} files can be read, but not written"
-                if is_read
-                else f"the extension {extension} is not known"
-            )
+            fault = f"{extension} files can be read, but not written" if is_read else f"unknown extension {extension}"
             raise UsageError(f"{fault}: use one of {', '.join(possible)}, or -f")
     chosen = chosen or possible[0]
     if chosen not in possible and what == "picture":
         raise UsageError(
-            f"draw makes pictures, which are not written as {chosen}: use one of {', '.join(possible)}, or -f {chosen} "
-            "with the command that computes the result"
+            f"draw writes pictures, but {chosen} is not a format of pictures: use one of {', '.join(possible)}, or "
+            f"write {chosen} with the command that computes the result"
         )
     if chosen not in possible:
         others = [name for name, those in formats.items() if chosen in those]

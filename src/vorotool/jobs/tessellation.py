@@ -108,13 +108,13 @@ def _seeds_of(run: Run, o: Options, value: PointSet | PolygonSet | Raster) -> Re
         return ReadSeeds(seeds)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
     alone = {"columns": o.columns, **o.of_frame}
-    refuse(alone, "is for lists of points, but the input is an image, which brings its own")
+    refuse(alone, "applies to lists of points, but the input is an image with its own frame")
     return ReadSeeds(seeds_of_image(run, o, value, o.seeds), grid=value.grid)
 
 
 def _rows_of(run: Run, o: Options, seeds: SeedSet) -> Tessellator | PropagatedRows:
     if len(seeds) > o.max_sites:
-        raise LimitError(f"there are {len(seeds)} seeds, more than --max-sites {o.max_sites}")
+        raise LimitError(f"the input has {len(seeds)} seeds, more than --max-sites {o.max_sites}")
     rows = labelled_rows(
         seeds,
         frame_of(o, seeds),
@@ -195,7 +195,7 @@ class Products(Tessellated):
         is_png = (target.what, target.fmt) == ("labels", "png")
         if is_png and seeds.largest_label < DARK_LABELS and sys.stderr.isatty():
             self.run.note(
-                f"labels up to {seeds.largest_label} look black in a 16-bit PNG: --what color draws a picture"
+                f"labels up to {seeds.largest_label} look black in a 16-bit PNG: for a picture use --what color"
             )
         if target.what == "distance2" and self.sides.step != 1 and isinstance(rows, Tessellator):
             unit = unit_text(self.options.pixel_size)

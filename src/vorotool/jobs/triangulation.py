@@ -112,7 +112,7 @@ class MeshProducts(Results):
 
             check_html_size(len(self.mesh.points))
         if target.what in ("edges", "triangles") and not len(getattr(self.edged, target.what)):
-            self.run.warn(Message(f"there are no {target.what}: {self._shape()}", Kind.EMPTY_RESULT))
+            self.run.warn(Message(f"the result has no {target.what}: {self._shape()}", Kind.EMPTY_RESULT))
 
     def _shape(self) -> str:
         count = len(self.mesh.points) - self.mesh.duplicates

@@ -68,8 +68,8 @@ def with_spacing(o: Options) -> Options:
         return o
     if o.unit is not None:
         raise UsageError(
-            "--spacing changes distances, --pixel-size only scales what is written: give one of them, --spacing where "
-            "pixels are no squares"
+            "--spacing changes distances, --pixel-size only scales what is written: give only one, --spacing if "
+            "pixels are not squares"
         )
     return changed(o, pixel_size=spacing)
 
@@ -177,7 +177,7 @@ def check_frame(frame: Sequence[float]) -> None:
     from vorotool.types.magnitude import LARGEST
 
     if max(map(abs, frame)) > LARGEST:
-        raise UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
+        raise UsageError(f"--frame is too large to compute with: use numbers of at most {LARGEST:g}")
 
 
 def refuse_lengths(o: Options, reason: str, kind: type[VorotoolError] = UsageError) -> None:
@@ -226,7 +226,7 @@ def _number(sides: Sides, option: str, length: Measured) -> Fraction | float:
 
     found = ratio(length.unit, sides.unit)
     if found is None:
-        its = f"is in {sides.unit}, which is none that is known"
+        its = f"is in {sides.unit}, an unknown unit"
         known = ", ".join(METRES)
         raise UsageError(f"{option} {length.text} has a unit, but {sides.whose} {its}: give it one of {known}")
     if length.power not in (1, len(sides.lengths)):
@@ -234,10 +234,10 @@ def _number(sides: Sides, option: str, length: Measured) -> Fraction | float:
         raise UsageError(f"invalid {option} {length.text!r}: {what}")
     pixel = sides.side if length.power == 1 else prod(sides.lengths)
     if pixel is None:
-        what, text = ("pixels that are no squares", "SX,SY") if len(sides.lengths) == 2 else _VOXELS
+        what, text = ("pixels that are not squares", "SX,SY") if len(sides.lengths) == 2 else _VOXELS
         raise UsageError(
             f"{option} {length.text} has a unit, but the input has {what}: use --spacing auto, or --spacing {text}, "
-            "which measures in their sides"
+            "to measure with their sides"
         )
     exact = length.number * prod([found] * length.power) / pixel
     rounded = _as_double(exact)
@@ -246,7 +246,7 @@ def _number(sides: Sides, option: str, length: Measured) -> Fraction | float:
     return exact if length.is_exact else rounded
 
 
-_VOXELS = ("voxels that are no cubes", "SX,SY,SZ")
+_VOXELS = ("voxels that are not cubes", "SX,SY,SZ")
 
 
 def _as_double(exact: Fraction) -> float | None:
@@ -264,7 +264,7 @@ def check_units(o: Options, targets: Sequence[Target]) -> None:
         return
     of_map = getattr(o, "is_laid_out", False) and any(each.what.startswith("distance") for each in targets)
     if not shows_units(targets) and not o.scale_bar and not of_map:
-        raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
+        raise UsageError("--pixel-size applies to tables and vectors: use --what table, or leave it out")
 
 
 def _has_units(target: Target) -> bool:

@@ -52,12 +52,14 @@ def _read_sites(run: Run, o: Options, given: JobInput) -> ReadSites:
     with opened_input(o, given, "sites") as source:
         o, value = read_opened(run, o, given, source, columns=o.columns)
     if not isinstance(value, Raster):
-        refuse({**o.for_images, "simplify": o.simplify}, "is for images, but the input holds points, lines or polygons")
+        refuse(
+            {**o.for_images, "simplify": o.simplify}, "applies to images, but the input holds points, lines or polygons"
+        )
         sites = as_sites(value)
         if not len(sites.polygons):
             report_no_geometry(run, o)
         return ReadSites(sites, is_image=False, options=o)
-    refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
+    refuse({"columns": o.columns}, "applies to lists of points, but the input is an image")
     polygons, _, o, _, grid = outlined(run, o, given, value)
     return ReadSites(as_sites(polygons), is_image=True, options=o, grid=grid)
 
@@ -137,12 +139,17 @@ class VoronoiProducts(Results):
 
             check_html_size(len(self.cells), len(self.cells.ring_arcs))
         if target.what == "discs" and not len(self.discs):
-            self.run.warn(Message("there are no discs: no place is outside of all sites", Kind.EMPTY_RESULT))
+            self.run.warn(Message("the result has no discs: no point is outside of all sites", Kind.EMPTY_RESULT))
         if not self.features:
-            self.run.warn(Message("there are no cells: the input is empty", Kind.EMPTY_RESULT))
+            self.run.warn(Message("the result has no cells: the input is empty", Kind.EMPTY_RESULT))
         elif target.what in ("edges", "neighbors") and not self.cells.is_border.any():
             count = len(self.cells)
-            self.run.warn(Message(f"there are no {target.what} of {count} site{'s' * (count != 1)}", Kind.EMPTY_RESULT))
+            self.run.warn(
+                Message(
+                    f"the result has no {target.what}: the input has {count} site{'s' * (count != 1)}",
+                    Kind.EMPTY_RESULT,
+                )
+            )
 
     def verify(self, progress: Progress) -> None:
         """Check the map, with nothing that it was made by."""

@@ -145,14 +145,14 @@ def write(
     elif chosen in PICTURES and not is_labels:
         for option, given in numbers.items():
             if given is not None:
-                raise UsageError(f"{option} is for numbers in text: leave it out of pictures")
+                raise UsageError(f"{option} applies to numbers in text: leave it out for pictures")
         if width is not None and not 0 <= whole_number(width, "width") <= MAX_SIDE:
             raise UsageError(f"width is {shown_number(width)}: give a number of pixels up to {MAX_SIDE}")
         _write(_Value(o, value, _drawn(value, chosen, what, pictured)), path, chosen)
     else:
         for option, given in pictured.items():
             if given is not None:
-                raise UsageError(f"{option} is for pictures: use fmt='svg' or fmt='png', or leave it out")
+                raise UsageError(f"{option} applies to pictures: use fmt='svg' or fmt='png', or leave it out")
         product = _part(value, chosen, what, flatten)
         if chosen == "gpkg" and stream_kind(path) is None:
             from vorotool.formats.features.geopackage import check_layers
@@ -266,7 +266,7 @@ def _json_values(column: Any) -> list[Any]:
 def _part(value: Any, fmt: str, what: str | None, flatten: float | None) -> Product:
     """Choose what is written; only curves are flattened."""
     if flatten is not None and not any(each.is_curved for each in parts_of(value).values()):
-        raise UsageError(f"flatten is for skeletons and offsets: leave it out with a {type(value).__name__}")
+        raise UsageError(f"flatten applies to skeletons and offsets: leave it out with a {type(value).__name__}")
     return chosen_part(value, fmt, what)
 
 
@@ -274,7 +274,7 @@ def _drawn(value: Any, fmt: str, what: str | None, given: Mapping[str, Any]) -> 
     """Choose what a picture shows."""
     if is_of(value, "LabelImage"):
         if what not in (None, "color", "colour", "labels"):
-            raise UsageError(f"what={what!r} is no picture of a LabelImage: use color, or leave it out")
+            raise UsageError(f"what={what!r} is not a picture of a LabelImage: use color, or leave it out")
         if fmt == "png" and given["width"] is not None:
             raise UsageError("the PNG of a label image has its own size: leave width out, or use fmt='svg'")
         return parts_of(value)["labels" if what == "labels" else "color"]
@@ -283,7 +283,7 @@ def _drawn(value: Any, fmt: str, what: str | None, given: Mapping[str, Any]) -> 
     if fmt != "svg":
         raise UsageError("the plot of a RegionPersistence is drawn as SVG: use fmt='svg'")
     if given["layers"] is not None:
-        raise UsageError("layers are for pictures of shapes, but this is a plot: leave them out")
+        raise UsageError("layers apply to pictures of shapes, but this is a plot: leave them out")
     return parts_of(value)["persistence"]
 
 
@@ -294,7 +294,7 @@ def _check_volume(value: Any, fmt: str, options: Mapping[str, object]) -> None:
         raise UsageError(f"a {name} cannot be written as {fmt!r}: use one of {', '.join(formats)}")
     for option, given in options.items():
         if given is not None:
-            raise UsageError(f"{option} is not for volumes: leave it out with a {name}")
+            raise UsageError(f"{option} does not apply to volumes: leave it out with a {name}")
 
 
 class _Value(Results):

@@ -233,7 +233,7 @@ def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
     ("arguments", "code", "words"),
     [
         ("points", 2, "points stands for several inputs: name a folder for their outputs with --out-dir"),
-        ("points/p0.csv points/p2.csv -o out.png", 2, "2 inputs are given, but -o names one output"),
+        ("points/p0.csv points/p2.csv -o out.png", 2, "2 inputs, but -o names one output"),
         ("points/p0.csv --page all -o out.png", 2, "--page all"),
         ("--files-from old.csv -o out.png", 2, "--files-from old.csv"),
         ("points/p0.csv --resume -o out.png", 2, "--resume"),

@@ -166,7 +166,7 @@ def test_few_and_collinear_points(run, folder, text, edges, words):
     assert len(done.err.splitlines()) == len(words)
     done = run("delaunay", "few.csv", "--what", "triangles", "--stats", "s.json", "-o", "a.csv")
     assert (folder / "a.csv").read_text() == "label_a,label_b,label_c\n"
-    assert ("warning: there are no triangles: " in done.err) == ("," in text.replace("x,y", ""))
+    assert ("warning: the result has no triangles: " in done.err) == ("," in text.replace("x,y", ""))
     assert json.loads((folder / "s.json").read_text())["collinear"] is True
     for fmt in ("svg", "png", "obj", "geojson", "npz"):
         picture = ("--width", 90) if fmt == "png" else ()

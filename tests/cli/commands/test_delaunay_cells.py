@@ -98,7 +98,7 @@ def test_properties_are_copied_unless_refused(run, folder):
     ("options", "code", "words"),
     [
         (("--frame", "0,0,1"), 2, "'0,0,1'"),
-        (("--frame", "0,0,0,1"), 2, "W and H more than 0"),
+        (("--frame", "0,0,0,1"), 2, "W and H above 0"),
         (("--frame", "nan,0,1,1"), 2, "expected finite numbers"),
         (("--frame", "1e17,0,1,1"), 3, "width and height must be positive"),
         (("--clip", "none.geojson"), 3, "none.geojson"),

@@ -164,7 +164,7 @@ def test_few_points(run, folder, method):
     (folder / "line.csv").write_text("x,y\n3,2\n5,2\n9,2\n")
     for name, count, warning in (
         ("none", 0, "warning: the input holds no geometry: the result is empty\n"),
-        ("one", 0, "warning: there are no edges"),
+        ("one", 0, "warning: the result has no edges"),
         ("line", 2, ""),
     ):
         done = run("delaunay", f"{name}.csv", "--method", method)

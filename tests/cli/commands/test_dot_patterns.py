@@ -85,7 +85,7 @@ def test_one_cluster_and_none(run, folder):
     assert run("alphashape", "dots.csv", "--what", "persistence").err == "note: 1 region stands out\n"
     Path("line.csv").write_text("0,0\n1,1\n2,2\n")
     done = run("alphashape", "line.csv", "--what", "persistence", "-f", "svg")
-    assert (done.code, done.err) == (0, "note: there are no regions\n")
+    assert (done.code, done.err) == (0, "note: the shapes have no regions\n")
     assert "there are no regions" in done.out
 
 

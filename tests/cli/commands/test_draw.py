@@ -113,7 +113,7 @@ def test_an_array_of_two_columns_is_an_image(run, folder):
     assert np.asarray(Image.open(folder / "a.png")).shape == (3, 2)
     np.save(folder / "four.npy", np.zeros((2, 3, 4, 5), dtype=np.uint8))
     done = run("draw", "four.npy", "-o", "a.png")
-    assert (done.code, "four.npy" in done.err and "is not drawn" not in done.err) == (3, True)
+    assert (done.code, "four.npy" in done.err and "cannot be drawn" not in done.err) == (3, True)
 
 
 def test_the_picture_of_a_store(run, folder):
@@ -130,7 +130,7 @@ def test_the_picture_of_a_store(run, folder):
         (b"", [], 3, "a.json"),
         (b'[{"polygon":0,"area":2}]', [], 3, "a.json"),
         (b'{"type":"Point","coordinates":[1,2]}', [], 3, "a.json"),
-        (b'{"polygons":[]}', [], 0, "warning: the picture is empty: the input is polygons or lines"),
+        (b'{"polygons":[]}', [], 0, "warning: the picture is empty: the input (polygons or lines)"),
         (b'{"type":"FeatureCollection","features":[]}', [], 0, "warning: the picture is empty"),
         (b'{"polygons":[[[0,0],[1,0],[1,1]]]}', ["--page", "0"], 2, "--page"),
         (b'{"polygons":[[[0,0],[1,0],[1,1]]]}', ["--layers", "cells"], 2, "--layers"),
@@ -152,7 +152,7 @@ def test_objects_of_a_mask_have_their_own_colors(run, folder, dtype, value):
     mask[5:20, 5:20] = mask[5:20, 35:50] = mask[30:45, 5:50] = value
     np.save(folder / "mask.npy", mask.astype(dtype))
     done = run("draw", "mask.npy", "--layers", "cells,labels", "-o", "a.svg")
-    note = f"note: {value} is the only value besides 0, and taken for a mask: each of its objects is drawn by itself\n"
+    note = f"note: {value} is the only value besides 0, and read as a mask: each of its objects is drawn separately\n"
     assert (done.code, done.err) == (0, note if dtype == np.uint16 else "")
     cells = re.findall(r'<path id="(cell-\d+)" fill="(#\w+)"', (folder / "a.svg").read_text())
     assert [name for name, _ in cells] == ["cell-1", "cell-2", "cell-3"]

@@ -110,7 +110,7 @@ def test_pictures_say_what_to_do(run, info, tmp_path):
     iio.imwrite(tmp_path / "photo.jpg", chance.integers(0, 255, (8, 9), dtype=np.uint8))
     for told, words in zip(
         info("grey.png", "color.png", "photo.jpg"),
-        ("a photograph?", "a color image", "lossy"),
+        ("a photograph", "a color image", "lossy"),
         strict=True,
     ):
         assert told["kind"] == "picture"

@@ -426,7 +426,7 @@ def test_nothing_to_share_out(run, folder):
     (folder / "one.wkt").write_text("POINT (3 4)")
     done = run("voronoi", "one.wkt", "--what", "edges")
     assert (done.code, done.rows) == (0, [])
-    assert "there are no edges of 1 site" in done.err
+    assert "no edges: the input has 1 site" in done.err
 
 
 # ---- what is refused ---------------------------------------------------------------------------------
@@ -436,7 +436,7 @@ def test_nothing_to_share_out(run, folder):
         (("--by", "size"), 2, "--by 'size'"),
         (("--by", "kind", "--no-properties"), 2, "--no-properties"),
         (("--frame", "0,0,1"), 2, "expected four numbers"),
-        (("--frame", "0,0,0,1"), 2, "W and H more than 0"),
+        (("--frame", "0,0,0,1"), 2, "W and H above 0"),
         (("--frame", "0,0,1e300,1"), 2, "--frame"),
         (("--max-distance", "0"), 2, "expected more than 0"),
         (("--max-distance", "2ell"), 2, "--max-distance '2ell'"),

@@ -92,7 +92,7 @@ KNOWN = "nm, um, µm, mm, cm, dm, m, km, in, ft, ftUS, yd, mi"
         ("tessellate in.csv --max-distance 5um", "5um"),
         ("tessellate in.csv --max-distance 5parsec", "--max-distance '5parsec'"),
         ("tessellate in.csv --max-distance 5um --pixel-size 2", "--pixel-size"),
-        ("tessellate in.csv --max-distance 5um --pixel-size 2voxel", "is in voxel, which is none that is known"),
+        ("tessellate in.csv --max-distance 5um --pixel-size 2voxel", "is in voxel, an unknown unit"),
         ("tessellate in.csv --max-distance 5voxel --pixel-size 2um", "invalid --max-distance '5voxel'"),
         ("skeleton-exact in.json --prune chord=2m", "--prune chord=2m"),
         ("skeleton-exact in.json --what points --every 1ell", "invalid --every '1ell'"),

@@ -279,7 +279,7 @@ def test_no_unit_no_length(run, tmp_path):
         Image.fromarray(MASK).save(tmp_path / "in.png")
         done = run(*words.split())
         assert done.code == 2
-        assert "has a unit, but that of the input is not known: give --pixel-size" in done.err
+        assert "has a unit, but the unit of the input is unknown: give --pixel-size" in done.err
         assert ("for a map give --input-crs" in done.err) == ("in.png" not in words)
 
 

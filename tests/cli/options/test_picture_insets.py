@@ -157,7 +157,7 @@ def test_rounded_lengths(seed):
 def test_longitude_and_latitude_have_no_bar_and_an_aspect(run, folder):
     done = run("delaunay", "world.csv", "-f", "svg", "--scale-bar")
     assert done.code == 0
-    assert "there is no scale bar: the length of a degree of longitude differs" in done.err
+    assert "no scale bar is drawn: the length of a degree of longitude" in done.err
     assert "scale-bar" not in groups(done.out)
     root = ET.fromstring(done.out)
     aspect = 1 / math.cos(math.radians(62))
@@ -244,5 +244,5 @@ def test_the_library_draws_alike(run, folder):
     for value in (skeleton, seeds):
         with pytest.raises(vorotool.UsageError, match="label_by 'river'"):
             vorotool.write(value, "out.svg", label_by="river")
-    with pytest.raises(vorotool.UsageError, match="legend is for pictures"):
+    with pytest.raises(vorotool.UsageError, match="legend applies to pictures"):
         vorotool.write(skeleton, "out.json", legend=True)

@@ -101,7 +101,7 @@ def test_what_has_no_pixels_has_no_size_of_them(run, folder):
     done = run("tessellate", "mask.pbm", "-o", "a.tif", "--pixel-size", "auto")
     assert (done.code, "--pixel-size" in done.err) == (2, True)
     done = run("tessellate", "mask.pbm", "--what", "table", "--pixel-size", "auto")
-    assert (done.code, "carries no pixel size" in done.err) == (3, True)
+    assert (done.code, "states no pixel size" in done.err) == (3, True)
 
 
 @pytest.mark.parametrize("what", ["labels", "diagram", "distance"])
@@ -129,7 +129,7 @@ def test_ome_xml_that_is_hostile(run, tmp_path):
     for body in bodies:
         tifffile.imwrite(tmp_path / "in.tif", MASK, description=body, metadata=None)
         done = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
-        assert (done.code, "carries no pixel size" in done.err) == (3, True), body
+        assert (done.code, "states no pixel size" in done.err) == (3, True), body
         assert run("tessellate", "in.tif", "-o", "out.png").code == 0
 
 

@@ -149,4 +149,4 @@ def test_places_are_in_the_unit(run, masks):
     )
     done = run(*args, "2,2", "--to", "14,5")
     assert (done.code, "leads from (80, 80) to (560, 200)" in done.err) == (3, True)
-    assert "(places in steps of 1/40 um)" in done.err
+    assert "(coordinates in steps of 1/40 um)" in done.err

@@ -25,7 +25,7 @@ def ome(path, x=0.325, y=0.325, unit="µm", other=None):
         ((0.325, 0.325), "--pixel-size 0.325mm", "0.325mm contradicts in.tif, which has pixels of 0.325 µm"),
         ((0.325, 0.325), "--pixel-size 0.65um", "--pixel-size 0.65um contradicts"),
         ((0.325, 0.5), "--pixel-size 0.325um", "which has pixels of 0.325 x 0.5 µm"),
-        ((0.25, 0.5), "--spacing 0.5,0.25um", "as if its sides were in another order than SX,SY"),
+        ((0.25, 0.5), "--spacing 0.5,0.25um", "not in the order SX,SY"),
         ((0.25, 0.5), "--spacing 250,500nm", ""),
         ((0.325, 0.325), "--pixel-size 0.325um", ""),
         ((0.325, 0.325), "--pixel-size 325.1nm", ""),
@@ -51,7 +51,7 @@ def test_volumes(run, tmp_path):
     tifffile.imwrite(tmp_path / "in.tif", np.stack([MASK] * 3), ome=True, metadata={"axes": "ZYX", **sizes})
     call = ["tessellate", "in.tif", "--volume", "--what", "table", "-f", "csv"]
     done = run(*call, "--spacing", "2,0.5,0.5um")
-    assert (done.code, "another order than SX,SY,SZ" in done.err) == (0, True)
+    assert (done.code, "the order SX,SY,SZ" in done.err) == (0, True)
     assert run(*call, "--spacing", "2,0.5,0.5um", "--strict").code == 3
     assert "contradicts" not in run(*call, "--spacing", "0.5,0.5,2um").err
     assert "contradicts" not in run(*call, "--spacing", "auto").err
@@ -86,11 +86,11 @@ def test_pixels_that_are_no_squares_are_noted(run, tmp_path, what):
     done = run("tessellate", "in.tif", "--what", what, "-o", "o.csv" if what == "table" else "o.tif")
     assert done.code == 0
     of = "results" if what == "table" else "distances"
-    assert done.err.count(f"which are no squares: {of} are in pixels; --spacing auto measures in their sides") == 1
+    assert done.err.count(f"which are not squares: {of} are in pixels; --spacing auto measures with these sides") == 1
     done = run(
         "tessellate", "in.tif", "--what", what, "--spacing", "auto", "-o", "p.csv" if what == "table" else "p.tif"
     )
-    assert "no squares" not in done.err
+    assert "not squares" not in done.err
 
 
 # ---- OME ----------------------------------------------------------------------------------------
@@ -125,6 +125,6 @@ def test_ome(run, tmp_path, stated, sides, unit):
 def test_dots_an_inch_are_still_for_print(run, tmp_path):
     tifffile.imwrite(tmp_path / "in.tif", MASK, resolution=(300, 300), resolutionunit=2)
     done = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
-    assert (done.code, "300 dots an inch" in done.err) == (3, True)
+    assert (done.code, "300 dots per inch" in done.err) == (3, True)
     done = run("alphashape", "in.tif", "-r", "2mm")
-    assert (done.code, "that of the input is not known" in done.err) == (2, True)
+    assert (done.code, "the unit of the input is unknown" in done.err) == (2, True)

@@ -254,8 +254,8 @@ def test_degrees_are_told_of(run, tmp_path):
 @pytest.mark.parametrize(
     ("transform", "code", "words"),
     [
-        (Affine(3, 1, 50, -1, 3, 60), 3, "the image is turned or mirrored on the map"),
-        (Affine(-3, 0, 50, 0, -3, 60), 3, "the image is turned or mirrored on the map"),
+        (Affine(3, 1, 50, -1, 3, 60), 3, "the image is rotated or mirrored on the map"),
+        (Affine(-3, 0, 50, 0, -3, 60), 3, "the image is rotated or mirrored on the map"),
         (from_origin(0, 100, 2, 3), 0, "in.tif"),
     ],
 )

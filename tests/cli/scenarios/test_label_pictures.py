@@ -192,6 +192,6 @@ def test_the_library_refuses(tmp_path, looks, message):
     image = vorotool.tessellate([[1, 1], [5, 3]], shape=(50, 60))
     with pytest.raises(vorotool.UsageError, match=message):
         vorotool.write(image, tmp_path / "out.svg", **looks)
-    with pytest.raises(vorotool.UsageError, match=r"background is for pictures: use fmt='svg'"):
+    with pytest.raises(vorotool.UsageError, match=r"background applies to pictures: use fmt='svg'"):
         vorotool.write(image, tmp_path / "out.npy", background="red")
     assert not list(tmp_path.iterdir())

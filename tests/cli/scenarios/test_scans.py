@@ -71,7 +71,7 @@ def test_a_cleaned_scan_is_the_clean_mask(run, scans, command):
 
 def test_what_is_left_out_is_told(run, scans):
     done = run("tessellate", "specks.tif", "-o", "a.png", "--min-area", "5", "--stats", "s.json")
-    assert "note: 3 of 5 objects have fewer than 5 pixels: left out" in done.err
+    assert "note: 3 of 5 objects have fewer than 5 pixels: dropped" in done.err
     assert json.loads((scans / "s.json").read_text())["small_objects"] == 3
     done = run("tessellate", "specks.tif", "-o", "a.png", "--fill-holes", "--stats", "s.json")
     assert json.loads((scans / "s.json").read_text())["filled_pixels"] == 49
@@ -81,7 +81,7 @@ def test_what_is_left_out_is_told(run, scans):
 
 def test_the_note_has_whole_pixels(run, scans):
     done = run("skeleton-exact", "specks.tif", "--min-area", "0.3um2", "--pixel-size", "0.3um", "-o", "a.json")
-    assert done.err == "note: 3 of 5 objects have fewer than 4 pixels: left out\n"
+    assert done.err == "note: 3 of 5 objects have fewer than 4 pixels: dropped\n"
 
 
 def test_images_beyond_memory_are_refused_with_a_way_out(run, scans, monkeypatch):
@@ -144,7 +144,7 @@ def test_a_batch_is_cleaned_as_each_alone(run, scans):
 def test_contours_of_grey_values_go_around_what_stays(run, scans):
     options = ["skeleton-exact", "dark.png", "--threshold", "90", "--outline", "contour", "-f", "json"]
     done = run(*options, "--min-area", "5", "--fill-holes", "--stats", "s.json", "-o", "a.json")
-    assert (done.code, "objects have fewer than 5 pixels: left out" in done.err) == (0, True)
+    assert (done.code, "objects have fewer than 5 pixels: dropped" in done.err) == (0, True)
     stats = json.loads((scans / "s.json").read_text())
     assert (stats["filled_pixels"], stats["small_objects"]) == (49, 2)
     assert run(*options, "-o", "b.json").code == 0
@@ -168,7 +168,7 @@ def test_contours_of_grey_values_go_around_what_stays(run, scans):
         ("tessellate ink.tif --fill-holes=ten -o a.png", 2, "expected a number of pixels such as 50, or an area such"),
         ("tessellate ink.tif --fill-holes 5um2 -o a.png", 2, "--fill-holes 5um2"),
         ("tessellate ink.tif --min-area 5um3 --pixel-size 1um --what table", 2, "pixels have areas, such as 5um2"),
-        ("delaunay ink.tif --min-area 5um2 --pixel-size auto", 3, "the image carries no pixel size"),
+        ("delaunay ink.tif --min-area 5um2 --pixel-size auto", 3, "the image states no pixel size"),
     ],
 )  # fmt: skip
 def test_what_is_refused(run, scans, command, code, words):

@@ -98,7 +98,7 @@ def test_results_clip_results(run, tmp_path, command, size):
     plain, stated = run(*words, "--clip", "pixels.geojson"), run(*words, "--clip", "um.geojson")
     assert areas(plain) == areas(stated)
     assert sum(areas(plain)) == pytest.approx(float(30 * 40 * side**2))
-    assert "pixels.geojson states no unit: its coordinates are taken to be pixels of in.tif" in plain.err
+    assert "pixels.geojson states no unit: its coordinates are assumed to be pixels of in.tif" in plain.err
     assert "um.geojson" not in stated.err
     assert run("voronoi", "in.tif", "--pixel-size", "0.5um", "-o", "cells.geojson", "-q").code == 0
     assert json.loads((tmp_path / "cells.geojson").read_text())["unit"] == "um"
@@ -113,7 +113,7 @@ def test_what_states_none_is_as_it_is(run, tmp_path):
     (tmp_path / "clip.wkt").write_text(CLIP.wkt)
     done = run("voronoi", "in.geojson", "--clip", "clip.wkt", "--what", "table", "-f", "csv")
     assert sum(areas(done)) == pytest.approx(40 * 50)
-    assert "clip.wkt states no unit: its coordinates are taken to be those of in.geojson" in done.err
+    assert "clip.wkt states no unit: its coordinates are assumed to be those of in.geojson" in done.err
 
 
 def test_a_unit_that_cannot_be_converted(run, tmp_path):
@@ -122,7 +122,7 @@ def test_a_unit_that_cannot_be_converted(run, tmp_path):
     words = ["voronoi", "in.wkt", "--clip", "clip.geojson", "--what", "table", "-f", "csv"]
     done = run(*words)
     assert sum(areas(done)) == pytest.approx(40 * 50)
-    assert "warning: clip.geojson is in mm, but the unit of in.wkt is not known" in done.err
+    assert "warning: clip.geojson is in mm, but the unit of in.wkt is unknown" in done.err
     assert run(*words, "--strict").code == 3
     known = run(*words, "--strict", "--pixel-size", "1cm")
     assert sum(areas(known)) == pytest.approx(4 * 5)
@@ -169,7 +169,7 @@ def test_an_overlay_without_a_size(run, tmp_path):
     tifffile.imwrite(tmp_path / "im.tif", MASK)
     (tmp_path / "in.geojson").write_text(text(SITES, "mm"))
     done = run("voronoi", "in.geojson", "--overlay", "im.tif", "-o", "o.png")
-    assert (done.code, "im.tif states no size of its pixels" in done.err) == (0, True)
+    assert (done.code, "im.tif states no pixel size" in done.err) == (0, True)
 
 
 # ---- one table of many ---------------------------------------------------------------------------

@@ -101,9 +101,9 @@ def test_lines_of_a_shell(run, folder, line, same):
 
 
 REFUSED = [
-    ("V tessellate - -", 2, "the input - and the input - are one stream"),
+    ("V tessellate - -", 2, "the input - and the input - are the same stream"),
     ("V tessellate - --overlay /dev/stdin --what color -o y.png", 2, "--overlay /dev/stdin"),
-    ("V delaunay - --what cells --clip /dev/fd/0", 2, "are one stream, which is read once"),
+    ("V delaunay - --what cells --clip /dev/fd/0", 2, "are the same stream"),
     ("V tessellate --files-from - - --out-dir x", 2, "--files-from -"),
     ("mkfifo x; V tessellate x dots.csv --table y.csv", 2, "x is a pipe, which only this process can read"),
     (f"{TABLE} -o - --stats /dev/stdout", 2, "--stats /dev/stdout"),

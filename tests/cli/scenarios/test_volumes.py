@@ -415,7 +415,7 @@ REFUSED = [
     ("stack.tif --volume -o a.png", 2, "labels cannot be written as png: use --what color, or one of tiff, npy, zarr"),
     ("stack.tif --volume --method propagation -o a.tif", 2, "--method propagation"),
     ("stack.tif --volume --pixel-size 1 --what table", 2, "--pixel-size"),
-    ("stack.tif --volume --max-distance 1um -o a.tif", 2, "has voxels that are no cubes: use --spacing auto"),
+    ("stack.tif --volume --max-distance 1um -o a.tif", 2, "has voxels that are not cubes: use --spacing auto"),
     ("stack.tif --volume --overlay stack.tif --what color -o a.png", 2, "--overlay"),
     ("stack.npy --volume --min-area 2um3 -o a.tif", 2, "--min-area 2um3"),
     ("stack.tif --volume --fill-holes 2um2 --spacing 1,1,2um -o a.tif", 2, "voxels have volumes, such as 5um3"),
@@ -433,7 +433,7 @@ REFUSED = [
     ),
     ("stack.tif --volume --max-pixels 500 --chunk 9x9x6 -o a.zarr", 5, "a layer of chunks has 11 x 9 x 6 voxels"),
     ("stack.tif --volume --max-sites 9 -o a.tif", 5, "--max-sites 9"),
-    ("stack.npy --volume --spacing auto -o a.tif", 3, "the volume carries no size of its voxels: give numbers"),
+    ("stack.npy --volume --spacing auto -o a.tif", 3, "the volume states no voxel size: give numbers"),
     ("none.tif --volume -o a.tif", 3, "none.tif"),
     ("points.csv --volume --input-format tiff -o a.tif", 3, "points.csv"),
 ]

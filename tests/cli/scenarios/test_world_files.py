@@ -115,7 +115,7 @@ def test_json_lines_on_a_map_are_noted(run, tmp_path):
 
     collection(tmp_path / "in.geojson", SHAPES)
     done = run("voronoi", "in.geojson", "-o", "out.jsonl")
-    assert (done.code, done.err.count("out.jsonl is in EPSG:2056, but GDAL takes")) == (0, 1)
+    assert (done.code, done.err.count("out.jsonl is in EPSG:2056, but GDAL reads")) == (0, 1)
     assert "-a_srs EPSG:2056" in done.err
     (tmp_path / "out.jsonl").rename(tmp_path / "out.geojsonl")
     assert pyogrio.read_info(tmp_path / "out.geojsonl")["crs"] == "EPSG:4326"

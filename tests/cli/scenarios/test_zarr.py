@@ -190,7 +190,7 @@ def test_bad_tiles_are_bad_input(run, tmp_path, tiles):
     for options, code, words in (
         (("-o", "a.zarr"), 3, "seeds.zarr cannot be read as Zarr"),
         (("-o", "seeds.zarr"), 2, "also an input"),
-        (("-o", "a.zarr", "--size", "9x9"), 2, "--size is for lists of points"),
+        (("-o", "a.zarr", "--size", "9x9"), 2, "--size applies to lists of points"),
         (("-o", "a.zarr", "--page", "2"), 3, "--page 2"),
     ):
         failed = run("tessellate", "seeds.zarr", *options)

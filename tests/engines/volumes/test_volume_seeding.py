@@ -275,9 +275,9 @@ def test_images_name_the_neighbors_of_voxels():
     [
         (
             np.random.default_rng(0).integers(0, 200, (2, 40, 40)),
-            "slice 0 of the volume holds 200 values in .* fragments",
+            "slice 0 of the volume holds 200 different values in .* pieces",
         ),
-        (np.random.default_rng(0).random((2, 40, 40)), "values in .* fragments"),
+        (np.random.default_rng(0).random((2, 40, 40)), "different values in .* pieces"),
         (np.array([[[0, 1]], [[0, -3]]]), "the volume holds the value -3 in slice 1, row 0, column 1: labels must be"),
         (np.array([[[0, 1, np.inf]]]), "the volume holds NaN or infinite values"),
         (np.zeros((3, 4)), r"expected a volume: .*, but got an array of float64 and shape \(3, 4\)"),

@@ -297,7 +297,7 @@ def test_edges_of_shapes(tmp_path):
         write_volume(io.BytesIO(), [wide], shape=(1, 2, 2), dtype=np.uint8, fmt="tiff")
     with pytest.raises(UsageError, match="'png'"):
         vorotool.write(vorotool.Volume(values), tmp_path / "a.png")
-    with pytest.raises(UsageError, match="width is not for volumes"):
+    with pytest.raises(UsageError, match="width does not apply to volumes"):
         vorotool.write(vorotool.Volume(values), tmp_path / "a.tif", width=9)
 
 

@@ -207,6 +207,6 @@ def test_pages_of_commands(folder, capsys):
     assert columns["unit"] == ["mm"] * 3
     (folder / "box.json").write_text("[[[0, 0], [4, 0], [0, 3]]]")
     assert command("draw", "box.json", "-o", "box.html") == 2
-    assert "a page is of cells or labels, but the input is polygons or lines" in capsys.readouterr().err
+    assert "a page shows cells or labels, but the input is polygons or lines" in capsys.readouterr().err
     assert command("draw", "labels.png", "-o", "no.html", "--legend") == 2
     assert "--legend" in capsys.readouterr().err

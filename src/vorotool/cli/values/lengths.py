@@ -91,7 +91,7 @@ def distances(text: str) -> tuple[Any, ...]:
     except UsageError as error:
         raise UnexpectedError(error.typed) from None
     if any(isinstance(each, Measured) and not each.number for each in found):
-        raise UnexpectedError("a distance is 0: use finite ones, above 0 outwards, below 0 inwards")
+        raise UnexpectedError("a distance is 0: use positive ones outwards, negative ones inwards")
     return tuple(each if isinstance(each, Measured) else next(plain) for each in found)
 
 
@@ -109,7 +109,7 @@ def _one_or_range(part: str) -> Sequence[float | Measured]:
         raise UnexpectedError(f"the step {texts[2]} does not lead from {texts[0]} to {texts[1]}")
     count = (stop - start) // step + 1
     if count > MOST_OF_RANGE:
-        raise UnexpectedError(f"these are {count} distances, more than {MOST_OF_RANGE}: use a larger step")
+        raise UnexpectedError(f"the range has {count} distances, more than {MOST_OF_RANGE}: use a larger step")
     numbers = [start + k * step for k in range(int(count))]
     if unit is None:
         return [float(number) for number in numbers]
@@ -121,7 +121,7 @@ def rectangle(text: str) -> tuple[Any, ...]:
     """Return ``X,Y,W,H`` in the units of the input, or in a unit after the last number or each."""
     numbers = _numbers(text, 4, "expected four numbers X,Y,W,H, such as 0,0,12.5,8 or 0,0,12.5,8mm")
     if not all(float(each.number if isinstance(each, Measured) else each) > 0 for each in numbers[2:]):
-        raise UnexpectedError("expected finite numbers, W and H more than 0")
+        raise UnexpectedError("expected finite numbers with W and H above 0")
     return numbers
 
 
@@ -237,8 +237,7 @@ def _with_common_step(sides: list[Fraction]) -> PixelSides:
         return pixel_sides(sides[::-1], len(sides))
     except UsageError:
         raise UnexpectedError(
-            f"expected sides that are at most {MOST_STEPS} times the largest length which divides them all: round them "
-            "to fewer digits"
+            f"expected sides of at most {MOST_STEPS} times their largest common step: round them to fewer digits"
         ) from None
 
 

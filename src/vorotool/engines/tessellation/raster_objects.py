@@ -183,7 +183,7 @@ def refuse_photograph(values: NDArray[Any]) -> None:
                 f"an image use {_AS_LABELS} or {_SOME_THRESHOLD}"
             )
         raise InputError(
-            f"the image holds {distinct} values in {fragments} fragments: a photograph? use "
+            f"the image holds {distinct} different values in {fragments} connected pieces, like a photograph: use "
             f"{mask_options(values)}, or {_AS_LABELS} if these are labels"
         )
 

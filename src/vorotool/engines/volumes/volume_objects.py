@@ -149,8 +149,8 @@ def _refuse_grey(values: NDArray[Any], first: int) -> None:
     looks, distinct, fragments = photograph_signs(plane)
     if looks:
         raise InputError(
-            f"slice {number} of the volume holds {distinct} values in {fragments} fragments: gray values? use "
-            f"{mask_options(plane)}, {_THRESHOLD}, or {_AS_LABELS} if these are labels"
+            f"slice {number} of the volume holds {distinct} different values in {fragments} connected pieces, like "
+            f"gray values: use {mask_options(plane)}, {_THRESHOLD}, or {_AS_LABELS} if these are labels"
         )
 
 

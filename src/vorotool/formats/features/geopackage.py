@@ -14,7 +14,7 @@ from datetime import date, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from vorotool.errors import OUTPUT, OVERWRITE, InputError, LimitError, OutputError
+from vorotool.errors import INPUT_FORMAT, OUTPUT, OVERWRITE, InputError, LimitError, OutputError
 from vorotool.formats.features.feature_table import Features
 from vorotool.formats.features.layers import chosen_layer
 from vorotool.formats.io.limits import check_unpacked, decoding, interruptible
@@ -65,7 +65,10 @@ class _Column(NamedTuple):
 def features_of(source: Source) -> Features:
     """Read a layer: the one that is wanted, or the only one."""
     if not source.data.startswith(MAGIC):
-        raise InputError(f"{source.name} is not a GeoPackage: its first bytes are those of another format")
+        raise InputError(
+            f"{source.name} is not a GeoPackage: its first bytes are those of another format; name its format with "
+            f"{INPUT_FORMAT}"
+        )
     with decoding(source.name, "GeoPackage"):
         return interruptible(lambda: _read(source))
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.extras import needed
-from vorotool.errors import InputError
+from vorotool.errors import INPUT_FORMAT, InputError
 from vorotool.formats.features.feature_table import Features
 from vorotool.formats.features.layers import chosen_layer
 from vorotool.formats.features.shapefile_parts import archive_of
@@ -48,7 +48,10 @@ def features_of(source: Source) -> Features:
     """Read a layer: the one that is wanted, or the only one."""
     title = TITLES[source.format]
     if not _BEGINNINGS[source.format].match(source.data):
-        raise InputError(f"{source.name} is not a {title} file: its first bytes are those of another format")
+        raise InputError(
+            f"{source.name} is not a {title} file: its first bytes are those of another format; name its format with "
+            f"{INPUT_FORMAT}"
+        )
     pyogrio = needed("pyogrio", "gis", f"{title} files")
     try:
         with decoding(source.name, title):

@@ -68,7 +68,7 @@ class OffsetCurves(Derived):
             made = self.of(shapes, distances, progress)
         empty = [f"{distance:g}" for distance in distances if distance not in made.distance]
         if empty:
-            self.run.warn(Message(f"nothing is left at the distance {', '.join(empty)}", Kind.EMPTY_RESULT))
+            self.run.warn(Message(f"no shape remains at the distance {', '.join(empty)}", Kind.EMPTY_RESULT))
         return made
 
     def of(self, shapes: Any, distances: Any, progress: Progress = None) -> Offsets:

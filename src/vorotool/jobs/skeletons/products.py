@@ -54,7 +54,9 @@ class SkeletonProducts(Results, ABC):
             self._polygons, self.is_mask, options, self.frame, self.grid = read_polygons(run, options, given)
         super().__init__(run, options)
         if self.frame is None:
-            refuse({"what thickness": "thickness" in options.what}, "is for images, but the input is polygons or lines")
+            refuse(
+                {"what thickness": "thickness" in options.what}, "applies to images, but the input is polygons or lines"
+            )
         self.backdrop = placed_backdrop(run, options, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_columns(options, self._polygons.properties)
@@ -131,7 +133,7 @@ class SkeletonProducts(Results, ABC):
                 size = self.options.pixel_size
                 if size is None or size.sides is None:
                     raise
-                raise InputError(f"{error.marked} (places in steps of {size.factor}{unit_text(size)})") from None
+                raise InputError(f"{error.marked} (coordinates in steps of {size.factor}{unit_text(size)})") from None
 
     @cached_property
     def diagram(self) -> Skeleton:

@@ -51,7 +51,9 @@ def read_volume_seeds(run: Run, o: Options, given: JobInput) -> tuple[Options, R
     """Read a volume, or points of space; options with a unit are in that of the voxels then."""
     if not _is_volume(o, given.path):
         return _read_points(run, o, given)
-    refuse({"columns": o.columns, **o.of_frame}, "is for lists of points, but the input is a volume, with its own")
+    refuse(
+        {"columns": o.columns, **o.of_frame}, "applies to lists of points, but the input is a volume with its own frame"
+    )
     with reading(given.path):
         source = open_volume(given.path, input_format=o.input_format)
         if source.note:
@@ -80,12 +82,12 @@ def read_volume_seeds(run: Run, o: Options, given: JobInput) -> tuple[Options, R
 def _read_points(run: Run, o: Options, given: JobInput) -> tuple[Options, ReadVolume]:
     if o.pixel_size is not None and o.pixel_size.is_auto:
         raise UsageError(
-            "--spacing auto is for volumes, whose files may say it: give numbers and their unit, such as "
+            "--spacing auto needs a volume whose file states its voxel size: give numbers and their unit, such as "
             "0.325,0.325,1.5um"
         )
     o = lengths_of_voxels(o, None)
     of_volumes = {key: value for key, value in o.for_images.items() if key in _OF_VOLUMES}
-    refuse(of_volumes, "is for volumes, but the input is a list of points")
+    refuse(of_volumes, "applies to volumes, but the input is a list of points")
     run.stats |= unit_stats(o.pixel_size)
     with reading(given.path):
         points = read_xyz(
@@ -161,11 +163,11 @@ def with_voxel_sides(run: Run, o: Options, given: JobInput, grid: VoxelGrid | No
     if asked is None:
         if grid is not None and not grid.is_cube:
             run.note(
-                f"{given.name} has voxels of {grid.size_text()}, which are no cubes: distances are in voxels; "
-                "--spacing auto measures in their sides"
+                f"{given.name} has voxels of {grid.size_text()}, which are not cubes: distances are in voxels; "
+                "--spacing auto measures with these sides"
             )
         elif grid is not None and given.has_units:
-            run.note(f"{given.name} carries voxels of {grid.size_text()}: --spacing auto uses that")
+            run.note(f"{given.name} states voxels of {grid.size_text()}: --spacing auto uses that")
         return o
     if asked.is_auto:
         asked = _of_file(grid)
@@ -177,7 +179,7 @@ def with_voxel_sides(run: Run, o: Options, given: JobInput, grid: VoxelGrid | No
 def _of_file(grid: VoxelGrid | None) -> PixelSize:
     instead = "give numbers and their unit, such as --spacing 0.325,0.325,1.5um"
     if grid is None:
-        raise InputError(f"the volume carries no size of its voxels: {instead}")
+        raise InputError(f"the volume states no voxel size: {instead}")
     sides = sides_of_voxels(grid)
     if sides is None:
         raise InputError(

@@ -45,7 +45,7 @@ def products(run: Run, o: Options, given: JobInput) -> VolumeProducts:
     with run.phase("read"):
         o, read = read_volume_seeds(run, o, given)
     if len(read.seeds) > o.max_sites:
-        raise LimitError(f"there are {len(read.seeds)} seeds, more than --max-sites {o.max_sites}")
+        raise LimitError(f"the input has {len(read.seeds)} seeds, more than --max-sites {o.max_sites}")
     with run.phase("prepare"):
         sweep = VolumeSweep(
             read.seeds,
