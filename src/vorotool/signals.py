@@ -55,6 +55,12 @@ def settled(code: int) -> int:
     return received or code
 
 
+def ignore_interrupts() -> None:
+    """Let an interrupt change nothing any more: Python gives it its default effect while it shuts down."""
+    if signal.getsignal(signal.SIGINT) is _end:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
 def received() -> int:
     """Exit code of a signal that came, which may have been swallowed or turned into another exception; 0 if none."""
     return _End.code

@@ -156,7 +156,7 @@ KERNEL = ("tessellate", "--size", "60000x60000", "-f", "npy")
     ],
 )
 def test_an_interrupt_of_what_takes_long(process, folder, number, code, command):
-    count = 20_000 if command is KERNEL else 200_000
+    count = 20_000 if command is KERNEL else 400_000
     np.save(folder / "many.npy", np.random.default_rng(0).integers(0, 60000, (count, 2)).astype(float))
     (folder / "out").write_text("old")
     child = process(command[0], "many.npy", *command[1:], "--threads", "1", "-q", "-o", "out")

@@ -17,7 +17,7 @@ from vorotool.errors import VorotoolError
 from vorotool.jobs.failures import explained
 from vorotool.jobs.terminal import escaped, print_text, tell
 from vorotool.products import commands
-from vorotool.signals import handle_termination, insist_on_the_end, received, settled
+from vorotool.signals import handle_termination, ignore_interrupts, insist_on_the_end, received, settled
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -142,6 +142,7 @@ def main(arguments: list[str] | None = None) -> NoReturn:
         sys.stderr.flush()
     except OSError:  # nobody hears what is wrong; the exit code remains
         _abandon(sys.stderr)
+    ignore_interrupts()
     sys.exit(code)
 
 
