@@ -62,13 +62,13 @@ PointsLike: TypeAlias = PointSet | ArrayLike | DataFrameLike | GeometryLike | Se
 """Points: an (n, 2) array or list of pairs, a data frame, geometry of points."""
 
 ImageLike: TypeAlias = Raster | LabelImage | ArrayLike
-"""A mask, a label image or grey values: a 2-D array, or what numpy makes one of."""
+"""A mask, a label image or gray values: a 2-D array, or what numpy makes one of."""
 
 SeedsLike: TypeAlias = SeedSet | PointsLike | ImageLike
 """Seeds of a tessellation: points or an image."""
 
 VolumeLike: TypeAlias = Volume | LabelVolume | ArrayLike
-"""A mask, a label volume or grey values: a 3-D array, or what numpy makes one of."""
+"""A mask, a label volume or gray values: a 3-D array, or what numpy makes one of."""
 
 VolumePointsLike: TypeAlias = VolumePoints | ArrayLike | DataFrameLike | Mapping[str, Any]
 """Points of space: an (n, 3) array or list of triples x, y, z, or a data frame or mapping with these columns."""

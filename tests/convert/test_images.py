@@ -153,8 +153,8 @@ def test_what_is_refused_names_the_parameter(source, message):
 
 
 def test_grey_values_and_colors_where_there_may_be_a_threshold():
-    assert as_raster(LABELS.astype(float), "image", is_grey=True).values.dtype == float
-    assert as_raster(np.zeros((4, 5, 3), np.uint8), "image", is_grey=True).is_color
+    assert as_raster(LABELS.astype(float), "image", is_gray=True).values.dtype == float
+    assert as_raster(np.zeros((4, 5, 3), np.uint8), "image", is_gray=True).is_color
     with pytest.raises(InputError, match="invalid labels: expected labels, a 2-D array of integers"):
         as_label_image(Raster(LABELS.astype(float)), "labels", numbered_components)
 

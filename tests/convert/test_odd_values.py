@@ -220,7 +220,7 @@ CALLS = {
     "box": as_box,
     "extent": as_extent,
     "raster": as_raster,
-    "grey": lambda value, name: as_raster(value, name, is_grey=True),
+    "grey": lambda value, name: as_raster(value, name, is_gray=True),
     "labels": lambda value, name: as_label_image(value, name, numbered_components),
     "seeds": as_seeds,
     "seeds of an image": lambda value, name: as_seeds(value, name, image=True),

@@ -12,7 +12,7 @@ from PIL import Image
 import vorotool
 from vorotool.errors import UsageError
 from vorotool.numeric.crs import crs_name, member_of_text
-from vorotool.numeric.length_units import metres
+from vorotool.numeric.length_units import meters
 from vorotool.numeric.number_text import NumberText
 from vorotool.products.formats import FORMATS
 from vorotool.products.inputs import INPUTS, NAMES_WITH, VOLUME_NAMES
@@ -127,7 +127,7 @@ def image_row(fmt, folder):
         Image.fromarray(labels * 60).save(path, **({"format": "PPM"} if fmt == "pnm" else {}))
     read = vorotool.read(path, input_format=None if fmt == "zarr" else fmt)
     is_same = is_written and np.array_equal(read.values, labels)
-    has_size = read.grid is not None and read.grid.width * (metres(read.grid.unit) or 0) == Fraction(1, 2 * 10**6)
+    has_size = read.grid is not None and read.grid.width * (meters(read.grid.unit) or 0) == Fraction(1, 2 * 10**6)
     system = "no"
     if is_written and fmt != "zarr":
         vorotool.write(vorotool.LabelImage(labels, grid=PLACED), path, fmt=fmt, what="labels")

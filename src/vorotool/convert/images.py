@@ -57,7 +57,7 @@ def is_image(source: Any, name: str, image: bool | None = None) -> bool:
     return False
 
 
-def as_raster(source: Any, name: str, *, is_grey: bool = False, max_pixels: int = MAX_PIXELS) -> Raster:
+def as_raster(source: Any, name: str, *, is_gray: bool = False, max_pixels: int = MAX_PIXELS) -> Raster:
     """Give an image from whatever holds it."""
     if isinstance(source, Raster):
         return source
@@ -65,13 +65,13 @@ def as_raster(source: Any, name: str, *, is_grey: bool = False, max_pixels: int 
         return Raster(source.labels, source.grid)
     with naming(name):
         refuse_paths(source, texts=True)
-        _check_shape(source, name, is_grey=is_grey, max_pixels=max_pixels)
+        _check_shape(source, name, is_gray=is_gray, max_pixels=max_pixels)
         grid = grid_of(source) if _has_axes(source) else None
         array = _array(source)
         if array.dtype.kind not in "biuf":
             raise unexpected(source, EXPECTED)
-        _check_shape(array, name, is_grey=is_grey, max_pixels=max_pixels)
-        if array.dtype.kind == "f" and not is_grey:
+        _check_shape(array, name, is_gray=is_gray, max_pixels=max_pixels)
+        if array.dtype.kind == "f" and not is_gray:
             how = f"vorotool.seeds_from_raster({name}, threshold=…) takes gray values"
             raise InputError(f"expected truth values or integers, but got {described(array)}; {how}")
         return Raster(array, grid)
@@ -113,12 +113,12 @@ def _array(source: Any) -> NDArray[Any]:
     raise unexpected(source, EXPECTED)
 
 
-def _check_shape(source: Any, name: str, *, is_grey: bool, max_pixels: int) -> None:
+def _check_shape(source: Any, name: str, *, is_gray: bool, max_pixels: int) -> None:
     """Refuse what is no image by its shape alone: arrays of Dask and Zarr are not in memory yet."""
     shape = getattr(source, "shape", None)
     if not isinstance(shape, tuple):
         return
-    if len(shape) == 3 and shape[2] in COLOR_CHANNELS and not is_grey:
+    if len(shape) == 3 and shape[2] in COLOR_CHANNELS and not is_gray:
         raise InputError(f"it is a color image, {described(source)}: give {_thresholded(name)}")
     if len(shape) == 3 and shape[2] not in COLOR_CHANNELS:
         raise InputError(

@@ -64,7 +64,7 @@ def _width(source: Any) -> int | None:
     return shape[1] if isinstance(shape, tuple) and len(shape) == AXES - 1 and kind in "iuf" else None
 
 
-def as_volume(source: Any, name: str, *, is_grey: bool = False, max_pixels: int = MAX_PIXELS) -> Volume:
+def as_volume(source: Any, name: str, *, is_gray: bool = False, max_pixels: int = MAX_PIXELS) -> Volume:
     """Give a volume from whatever holds it."""
     if isinstance(source, Volume):
         return source
@@ -83,7 +83,7 @@ def as_volume(source: Any, name: str, *, is_grey: bool = False, max_pixels: int 
             raise unexpected(source, EXPECTED) from None
         if array.ndim != AXES or array.dtype.kind not in "biuf":
             raise unexpected(source, EXPECTED)
-        if array.dtype.kind == "f" and not is_grey:
+        if array.dtype.kind == "f" and not is_gray:
             how = f"vorotool.seeds_from_volume({name}, threshold=…) takes gray values"
             raise InputError(f"expected truth values or integers, but got {described(array)}; {how}")
         return Volume(array)

@@ -110,7 +110,7 @@ def read(
     threads : int
         Number of threads; 0 uses all.
     note : callable, optional
-        Called with a text that describes what was recognised.
+        Called with a text that describes what was recognized.
     crs : str, optional
         Coordinate reference system of points or polygons without one, such as EPSG:3857.
     to_crs : str, optional

@@ -12,7 +12,7 @@ from vorotool.errors import InputError, UsageError
 from vorotool.formats.images.banded import open_tiff, open_zarr
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
-from vorotool.formats.recognition import read_recognised, recognised, refuse_for_images
+from vorotool.formats.recognition import read_recognized, recognized, refuse_for_images
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.numbers import Flatten, checked_flatten, checked_tolerance
 from vorotool.plain import plain
@@ -105,9 +105,9 @@ class Opened:
             return self._turned(read_rows(self.array, max_pixels=given.max_pixels, note=given.note), given)
         content = read_source(self.name, self.layer) if self.content is None else self.content
         content = replace(content, max_sites=given.max_sites, flatten=given.flatten)
-        holds, source = recognised(content, self.geometry, self.said, given.columns)
+        holds, source = recognized(content, self.geometry, self.said, given.columns)
         told(source.format)
-        return self._turned(read_recognised(holds, source, given), given)
+        return self._turned(read_recognized(holds, source, given), given)
 
     def _turned(
         self, value: Any, given: ReadOptions

@@ -34,7 +34,7 @@ _RESULTS: dict[bytes, Holds] = {
 }
 
 
-def recognised(
+def recognized(
     source: Source, geometry: str | None = None, said: str | None = None, columns: str | None = None
 ) -> tuple[Holds, Source]:
     """Tell what a source holds, and give it with its format; what was parsed to tell comes with it."""
@@ -43,15 +43,15 @@ def recognised(
     image = None if may_be_points or result else image_format(source, said)
     if image is not None:
         return "image", replace(source, format=image)
-    from vorotool.formats.text_recognition import recognised_geometry, text_source
+    from vorotool.formats.text_recognition import recognized_geometry, text_source
 
     if result is not None:
         return result, text_source(source, "json")
-    return recognised_geometry(source, geometry, said, columns)
+    return recognized_geometry(source, geometry, said, columns)
 
 
-def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
-    """Read what a source was recognised as: points, polygons, an image, a skeleton or offset curves."""
+def read_recognized(holds: Holds, source: Source, options: ReadOptions) -> Any:
+    """Read what a source was recognized as: points, polygons, an image, a skeleton or offset curves."""
     if holds == "image":
         refuse_for_images(options, source.layer)
     elif source.layer is not None and "layers" not in INPUTS[source.format].has:

@@ -38,7 +38,7 @@ _HEADS = (
 _MARKUP = re.compile(rb"<(kml|gpx)[\s>]")
 
 
-def recognised_geometry(
+def recognized_geometry(
     source: Source, geometry: str | None, said: str | None, columns: str | None
 ) -> tuple[Holds, Source]:
     """Tell what a source holds that is no image, and give it with its format."""

@@ -16,7 +16,7 @@ from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.parsing.reference_systems import with_stated_axis
 from vorotool.formats.points.tables import is_table
-from vorotool.formats.recognition import image_format, image_source, read_recognised, recognised
+from vorotool.formats.recognition import image_format, image_source, read_recognized, recognized
 from vorotool.formats.text_recognition import has_no_rows
 from vorotool.jobs.checked_columns import check_column
 from vorotool.jobs.inputs import JobInput, note_other_size
@@ -157,7 +157,7 @@ def _read(run: Run, o: Options, given: JobInput) -> LabelImage | Lined:
     if source.data.startswith(MAGIC):  # of two columns, too: points are not drawn
         holds, source = "image", image_source(source, said)
     elif source.data.strip() or image_format(source, said):
-        holds, source = recognised(source, said=said)
+        holds, source = recognized(source, said=said)
     elif has_no_rows(source):
         holds, source = "polygons", replace(source, format="wkt")
     else:
@@ -177,7 +177,7 @@ def _read(run: Run, o: Options, given: JobInput) -> LabelImage | Lined:
         max_pixels=o.max_pixels,
         note=partial(_note, run),
     )
-    value = read_recognised(holds, source, options)
+    value = read_recognized(holds, source, options)
     if options.y_axis is not None:
         value = with_stated_axis(value, source.name, options.y_axis)
     return replace(label_image_of(value, source.name), grid=value.grid) if isinstance(value, Raster) else value

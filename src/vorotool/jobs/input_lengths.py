@@ -138,9 +138,9 @@ def _converted(o: Options, unit: InputUnit | None, shapes: PointSet | PolygonSet
 def _refused(o: Options, instead: str = "") -> Options:
     size = o.pixel_size
     if size is not None and size.unit is None and not size.is_auto:
-        from vorotool.numeric.length_units import METRES
+        from vorotool.numeric.length_units import METERS
 
-        refuse_lengths(o, f"{size.option} has no unit: give it one of {', '.join(METRES)}")
+        refuse_lengths(o, f"{size.option} has no unit: give it one of {', '.join(METERS)}")
     refuse_lengths(o, f"the unit of the input is unknown: {instead or _USUAL}")
     return o
 

@@ -43,16 +43,16 @@ def _by_threshold(run: Run, o: Options, image: Raster) -> Foreground:
         whole_threshold,
     )
 
-    grey = counted_values(image)
+    gray = counted_values(image)
     found = Foreground(image, *settled_threshold(image, "otsu", invert=o.invert))
-    if is_flat(grey):
+    if is_flat(gray):
         run.note(f"all pixels have the value {found.threshold:.17g}: Otsu's method finds no foreground")
         run.stats["threshold"] = None
         return found
     run.note(f"threshold {found.threshold:.17g}, by Otsu's method")
     run.stats["threshold"] = found.threshold
     assert found.threshold is not None  # Otsu's method gives a number
-    bright = float((grey > whole_threshold(grey, found.threshold)).mean())
+    bright = float((gray > whole_threshold(gray, found.threshold)).mean())
     if not o.invert and bright > MOSTLY:
         share = f"{bright:.0%} of the image"
         run.note(f"{share} is brighter and becomes foreground: for dark objects, such as ink on paper, use --invert")
@@ -71,7 +71,7 @@ def _cleaned(run: Run, o: Options, found: Foreground) -> Foreground:
     cleaned = cleaned_values(values, cleaning, o.seeds, connectivity=int(o.connectivity or 8), missing=found.image.mask)
     report_cleaning(run, o, cleaned.filled, (cleaned.removed, cleaned.objects), "pixels")
     if o.outline == "contour" and found.threshold is not None:
-        return found._replace(cleaning=cleaning)  # contours follow the grey values
+        return found._replace(cleaning=cleaning)  # contours follow the gray values
     mask = cleaned.mask.view(np.uint8)
     return Foreground(replace(found.image, values=mask, mask=None, is_lossy=False), None, invert=False)
 

@@ -180,7 +180,7 @@ class Options:
 
     # ---- pictures
     @property
-    def scale_in_millimetres(self) -> bool:
+    def scale_in_millimeters(self) -> bool:
         """Whether a scale is given that is no ratio."""
         return self.scale is not None and not self.scale.is_ratio
 

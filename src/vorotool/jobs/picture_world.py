@@ -58,9 +58,9 @@ def world_of(
         bar = _scale_bar(crs, unit, size, is_image=is_image)
     scale = looks.scale
     wants_unit = is_paper if scale is None else scale.is_ratio and looks.drawing_unit is None
-    millimetres = _millimetres(crs, unit, size, run, is_image=is_image) if wants_unit else None
-    is_paper &= looks.aspect is None and millimetres is not None
-    return World(bar, millimetres, aspect, None if frame is None else frame.sides, is_paper=is_paper)
+    millimeters = _millimeters(crs, unit, size, run, is_image=is_image) if wants_unit else None
+    is_paper &= looks.aspect is None and millimeters is not None
+    return World(bar, millimeters, aspect, None if frame is None else frame.sides, is_paper=is_paper)
 
 
 def world_of_sites(run: Run, o: Options, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
@@ -163,8 +163,8 @@ def _scale_bar(crs: Any, unit: str | None, size: PixelSize | None, *, is_image: 
     return ScaleBar(1.0, "px" if is_image else unit or (found and found.text))
 
 
-def _millimetres(crs: Any, unit: str | None, size: PixelSize | None, run: Run, *, is_image: bool) -> Fraction | None:
-    """How many millimetres 1 in the coordinates is, if that is known."""
+def _millimeters(crs: Any, unit: str | None, size: PixelSize | None, run: Run, *, is_image: bool) -> Fraction | None:
+    """How many millimeters 1 in the coordinates is, if that is known."""
     known = None if is_image else unit_of_crs(crs) if unit is None else InputUnit(unit)
     if size is not None and size.unit is not None:
         known = InputUnit(size.unit, size.factor)

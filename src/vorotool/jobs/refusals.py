@@ -149,7 +149,7 @@ _PROPERTIES = {
     "?is_automatic": "the automatic choice of r",
     "?has_bands_on_cluster": "--cluster",
     "?has_several_results": "other results",
-    "?scale_in_millimetres": "--scale S",
+    "?scale_in_millimeters": "--scale S",
 }
 
 

@@ -17,7 +17,7 @@ from vorotool.engines.tessellation.bands import Band, SeedBand, SeedBands
 from vorotool.engines.tessellation.frames import band_limits, require_memory, squared_limit
 from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.seeding import seeds_in_frame
-from vorotool.engines.tessellation.tessellate import labelled_rows, verify_rows
+from vorotool.engines.tessellation.tessellate import labeled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
 from vorotool.jobs.contradictions import check_image_size
@@ -115,7 +115,7 @@ def _seeds_of(run: Run, o: Options, value: PointSet | PolygonSet | Raster) -> Re
 def _rows_of(run: Run, o: Options, seeds: SeedSet) -> Tessellator | PropagatedRows:
     if len(seeds) > o.max_sites:
         raise LimitError(f"the input has {len(seeds)} seeds, more than --max-sites {o.max_sites}")
-    rows = labelled_rows(
+    rows = labeled_rows(
         seeds,
         frame_of(o, seeds),
         method=o.method,

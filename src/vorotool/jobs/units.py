@@ -213,21 +213,21 @@ def _in_pixels(option: str, value: Any, converted: Callable[[str, Measured], Any
 
 def _check_unit(size: PixelSize | None, option: str, length: Measured) -> None:
     """Refuse a unit that is not known; that of the size of pixels may be any."""
-    from vorotool.numeric.length_units import METRES, is_known
+    from vorotool.numeric.length_units import METERS, is_known
 
     if not is_known(length.unit) and (size is None or size.unit != length.unit):
-        known = ", ".join(METRES)
+        known = ", ".join(METERS)
         raise UsageError(f"invalid {option} {length.text!r}: expected a number alone, or with a unit of {known}")
 
 
 def _number(sides: Sides, option: str, length: Measured) -> Fraction | float:
     """A length, an area or a volume in pixels: exact, or correctly rounded."""
-    from vorotool.numeric.length_units import METRES, ratio
+    from vorotool.numeric.length_units import METERS, ratio
 
     found = ratio(length.unit, sides.unit)
     if found is None:
         its = f"is in {sides.unit}, an unknown unit"
-        known = ", ".join(METRES)
+        known = ", ".join(METERS)
         raise UsageError(f"{option} {length.text} has a unit, but {sides.whose} {its}: give it one of {known}")
     if length.power not in (1, len(sides.lengths)):
         what = "pixels have areas, such as 5um2" if len(sides.lengths) == 2 else "voxels have volumes, such as 5um3"

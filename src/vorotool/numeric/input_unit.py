@@ -86,7 +86,7 @@ def _axis(text: str | None) -> Any:
 
 
 _INCHES = {"US survey": 39370000, "(Sears 1922)": 39370147, "(Benoit 1895 B)": 39370113, "Indian": 39370142}
-"""Millionths of inches in a metre, by which EPSG defines yards, feet, chains and links."""
+"""Millionths of inches in a meter, by which EPSG defines yards, feet, chains and links."""
 _OF_A_YARD = {"yard": Fraction(1), "foot": Fraction(1, 3), "chain": Fraction(22), "link": Fraction(22, 100)}
 _RATIOS = {
     name: Fraction(36 * 10**6, inches) * part
@@ -94,4 +94,4 @@ _RATIOS = {
     for unit, part in _OF_A_YARD.items()
     for name in (f"British {unit} {kind}", f"{kind} {unit}")
 } | {"Gold Coast foot": Fraction(6378300, 20926201)}
-"""Metres of units that are no short decimal numbers."""
+"""Meters of units that are no short decimal numbers."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-METRES = {
+METERS = {
     "nm": Fraction(1, 10**9),
     "um": Fraction(1, 10**6),
     "µm": Fraction(1, 10**6),
@@ -19,7 +19,7 @@ METRES = {
     "yd": Fraction(9144, 10**4),
     "mi": Fraction(1609344, 10**3),
 }
-"""Of how many metres each unit is that options may have."""
+"""Of how many meters each unit is that options may have."""
 
 _NAMES = {
     "um": "µm",
@@ -54,10 +54,10 @@ _PREFIXES = {
     "kilo": "km",
 }
 _NAMES |= {
-    f"{prefix}{metre}": name for prefix, name in _PREFIXES.items() for metre in ("metre", "metres", "meter", "meters")
+    f"{prefix}{meter}": name for prefix, name in _PREFIXES.items() for meter in ("metre", "metres", "meter", "meters")
 }
 _OTHERS = {"pm": Fraction(1, 10**12), "Å": Fraction(1, 10**10), "mil": Fraction(254, 10**7)}
-_LENGTHS = {_NAMES.get(unit, unit): metres for unit, metres in METRES.items()} | _OTHERS
+_LENGTHS = {_NAMES.get(unit, unit): meters for unit, meters in METERS.items()} | _OTHERS
 """By the one name of each unit."""
 _IMPERIAL = ("inch", "ft", "ftUS", "yd", "mi", "mil")
 
@@ -86,6 +86,6 @@ def is_known(unit: str) -> bool:
     return unit_name(unit) in _LENGTHS
 
 
-def metres(unit: str | None) -> Fraction | None:
-    """Give the metres of a unit of the metric system, by its one name; None of any other."""
+def meters(unit: str | None) -> Fraction | None:
+    """Give the meters of a unit of the metric system, by its one name; None of any other."""
     return None if unit is None or unit in _IMPERIAL else _LENGTHS.get(unit)

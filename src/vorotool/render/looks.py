@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
-from vorotool.numeric.length_units import METRES
+from vorotool.numeric.length_units import METERS
 
 if TYPE_CHECKING:
     from vorotool.render.canvas.layers import Page
@@ -30,7 +30,7 @@ OPTIONS = ("scale", "unit", "background", "color", "line-width", "label-by", "le
 
 
 class Scale(NamedTuple):
-    """A scale: millimetres of paper a unit, or a ratio, 1 to a number."""
+    """A scale: millimeters of paper a unit, or a ratio, 1 to a number."""
 
     number: float
     is_ratio: bool
@@ -126,7 +126,7 @@ class World(NamedTuple):
     """Where what is drawn lies."""
 
     scale_bar: ScaleBar | None = None  # what lengths are written in
-    millimetres: Fraction | None = None  # of 1 in the coordinates of the data, for pictures to scale
+    millimeters: Fraction | None = None  # of 1 in the coordinates of the data, for pictures to scale
     aspect: float = 1.0  # px of a unit of y for each of a unit of x
     frame: Sides | None = None  # what is shown instead of the bounds: the image that the data come from, or --frame
     page: Sides | None = None  # what pictures to scale show instead: --frame, or the page of the drawing
@@ -171,7 +171,7 @@ def _paper(y_up: bool, shown: tuple[Sides, float], looks: Looks, world: World, f
         return None
     bounds, margin = (world.page, 0.0) if looks.extent != "data" and world.page is not None else shown
     try:
-        return ScaledPage(bounds, y_up=y_up, millimetres=_millimetres(looks, world.millimetres), margin=margin)
+        return ScaledPage(bounds, y_up=y_up, millimeters=_millimeters(looks, world.millimeters), margin=margin)
     except UsageError:
         if is_chosen:
             raise
@@ -189,12 +189,12 @@ def color_code(text: str) -> str | None:
     return "#" + "".join(f"{channel:02x}" for channel in rgb) if len(rgb) == 3 else None
 
 
-def _millimetres(looks: Looks, own: Fraction | None) -> float:
-    """Millimetres of paper a unit of the data."""
+def _millimeters(looks: Looks, own: Fraction | None) -> float:
+    """Millimeters of paper a unit of the data."""
     if looks.scale is not None and not looks.scale.is_ratio:
         return looks.scale.number
     if looks.drawing_unit is not None:
-        own = METRES[looks.drawing_unit] * 1000
+        own = METERS[looks.drawing_unit] * 1000
     if own is None:
         raise UsageError(
             f"--scale 1:N needs the unit of the input, which states none: add --unit ({', '.join(DRAWING_UNITS)}), or "

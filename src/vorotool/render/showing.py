@@ -127,7 +127,7 @@ def _raster_png(raster: Raster) -> bytes:
 
 
 def _visible(values: NDArray[Any]) -> NDArray[np.uint8]:
-    """Grey or red, green and blue, from the least value, black, to the largest."""
+    """Gray or red, green and blue, from the least value, black, to the largest."""
     if values.ndim == 3:
         values = values[..., :3] if values.shape[2] > 2 else values[..., 0]
     if values.dtype == np.uint8 and values.ndim == 3:

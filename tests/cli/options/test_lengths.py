@@ -11,7 +11,7 @@ from vorotool.cli.values import UnexpectedError
 from vorotool.cli.values.lengths import distances, exact_length, length, measured, place, radius, rectangle
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.units import Measured, PixelSize, lengths_in_pixels
-from vorotool.numeric.length_units import METRES, is_known, ratio
+from vorotool.numeric.length_units import METERS, is_known, ratio
 
 XY = np.array([[0, 0], [9, 1], [4, 7], [12, 8], [2, 3], [7, 4], [11, 2], [1, 9], [5, 2], [8, 9]])
 
@@ -125,8 +125,8 @@ def test_ratios_are_those_of_the_units():
     assert ratio("km", "nm") == 10**12
     assert ratio("µm", "\u03bcm") == ratio("um", "µm") == 1
     assert ratio("mm", "parsec") is None
-    for one in METRES:
-        for two in METRES:
+    for one in METERS:
+        for two in METERS:
             assert ratio(one, two) * ratio(two, one) == 1
     assert is_known("\u03bcm")
     assert not is_known("Mm")

@@ -87,7 +87,7 @@ def imagej(folder):
     return ("ij.tif",) * 2
 
 
-def centimetres(folder):
+def centimeters(folder):
     tifffile.imwrite(folder / "cm.tif", MASK, resolution=(20000, 20000), resolutionunit=3)
     return ("cm.tif",) * 2
 
@@ -111,7 +111,7 @@ def png(folder):
 SOURCES = {
     "svg": (svg, "0.2cm", "2"),
     "dxf": (dxf, "50.8mm", "2"),
-    "metres": (lambda folder: system(folder, 2056), "0.002km", "2"),
+    "meters": (lambda folder: system(folder, 2056), "0.002km", "2"),
     "feet": (lambda folder: system(folder, 2229), "0.6m", "1.9685"),
     "member": (lambda folder: geojson(folder, "um", unit="um"), "2000nm", "2"),
     "column": (table, "0.002mm", "2"),
@@ -119,7 +119,7 @@ SOURCES = {
     "ome": (ome, "1um", "2"),
     "ome auto": (ome_auto, "1um", "2"),
     "imagej": (imagej, "1000nm", "2"),
-    "centimetres": (centimetres, "0.0001cm", "2"),
+    "centimeters": (centimeters, "0.0001cm", "2"),
     "geotiff": (geotiff, "0.06km", "2"),
     "png": (png, "0.001mm", "2"),
 }
@@ -236,7 +236,7 @@ def test_a_length_is_its_number(run, tmp_path, name, option, more, source):
 
 def is_refused(option, source, message):
     """Whether an option is refused there whatever its value."""
-    is_image = source in ("ome", "ome auto", "imagej", "centimetres", "geotiff", "png")
+    is_image = source in ("ome", "ome auto", "imagej", "centimeters", "geotiff", "png")
     if option in ("min_area", "fill_holes", "simplify"):
         return not is_image
     if option in ("cell_size", "join_tolerance"):
@@ -245,16 +245,16 @@ def is_refused(option, source, message):
 
 
 # ---- numbers, by fractions ----------------------------------------------------------------------
-METRES = {"m": Fraction(1), "ft": Fraction(3048, 10**4), "in": Fraction(254, 10**4), "ftUS": Fraction(1200, 3937)}
+METERS = {"m": Fraction(1), "ft": Fraction(3048, 10**4), "in": Fraction(254, 10**4), "ftUS": Fraction(1200, 3937)}
 
 
 @pytest.mark.parametrize(("code", "axis"), [(2056, "m"), (2229, "ftUS")])
-@pytest.mark.parametrize("unit", list(METRES))
+@pytest.mark.parametrize("unit", list(METERS))
 def test_correctly_rounded(run, tmp_path, code, axis, unit):
     shapes, _ = system(tmp_path, code)
     for digits in ("1", "0.1", "3.3", "0.7"):
         assert run("skeleton-exact", shapes, "--what", "offset", "-d", digits + unit, "-o", "o.json").code == 0
-        exact = Fraction(digits) * METRES[unit] / METRES[axis]
+        exact = Fraction(digits) * METERS[unit] / METERS[axis]
         (written,) = {each["distance"] for each in json.loads((tmp_path / "o.json").read_text())["shapes"]}
         assert struct.pack("<d", written) == struct.pack("<d", exact.numerator / exact.denominator)
 
@@ -284,10 +284,10 @@ def test_no_unit_no_length(run, tmp_path):
 
 
 # ---- pictures to scale --------------------------------------------------------------------------
-@pytest.mark.parametrize("source", ["svg", "metres", "dxf", "feet"])
+@pytest.mark.parametrize("source", ["svg", "meters", "dxf", "feet"])
 def test_pictures_to_scale(run, tmp_path, source):
-    """A page of the bounds and a tenth around them, in millimetres."""
-    unit = {"svg": Fraction(1, 1000), "metres": Fraction(1), "dxf": METRES["in"], "feet": METRES["ftUS"]}[source]
+    """A page of the bounds and a tenth around them, in millimeters."""
+    unit = {"svg": Fraction(1, 1000), "meters": Fraction(1), "dxf": METERS["in"], "feet": METERS["ftUS"]}[source]
     shapes, _ = SOURCES[source][0](tmp_path)
     assert run("skeleton-exact", shapes, "-o", "o.svg", "--scale", "1:50", "-q").code == 0
     assert run("skeleton-exact", shapes, "-o", "p.svg", "--scale", repr(float(unit * 20)), "-q").code == 0
@@ -296,7 +296,7 @@ def test_pictures_to_scale(run, tmp_path, source):
 
 # ---- what is told of units -----------------------------------------------------------------------
 @pytest.mark.parametrize(
-    ("source", "unit"), [("svg", "mm"), ("dxf", "in"), ("metres", "m"), ("feet", "ftUS"), ("member", "µm")]
+    ("source", "unit"), [("svg", "mm"), ("dxf", "in"), ("meters", "m"), ("feet", "ftUS"), ("member", "µm")]
 )
 def test_units_are_told_and_kept(run, tmp_path, source, unit):
     shapes, _ = SOURCES[source][0](tmp_path)
@@ -307,7 +307,7 @@ def test_units_are_told_and_kept(run, tmp_path, source, unit):
         assert run(*command.split(), shapes, "-o", "o.json", "-q").code == 0
         value = read("o.json")
         kept = value.polygons.unit
-        assert (kept is None) == (source in ("metres", "feet"))
+        assert (kept is None) == (source in ("meters", "feet"))
         assert kept is None or unit_name(kept) == told["unit"]
         again = json.loads(run("info", "--json", "o.json").out)
         assert again["unit"] == told["unit"]

@@ -156,8 +156,8 @@ def test_vectors_are_those_of_pixels_on_the_map(run, tmp_path, command, transfor
 def test_tables_without_places(run, tmp_path, command):
     write(tmp_path / "in.tif", DOTS if "pixels" in command else MASK)
     on_map = run(*command.split(), "in.tif", "-f", "csv", "-q", "--verify").rows
-    metres = run(*command.split(), "in.tif", "-f", "csv", "-q", "--pixel-size", "25m").rows
-    for one, other in zip(on_map, metres, strict=True):
+    meters = run(*command.split(), "in.tif", "-f", "csv", "-q", "--pixel-size", "25m").rows
+    for one, other in zip(on_map, meters, strict=True):
         for row in (one, other):
             row.pop("bbox_x", None), row.pop("bbox_y", None), row.pop("unit", None)
         assert {name: pytest.approx(float(text or 0), rel=1e-9) for name, text in one.items()} == {
@@ -183,8 +183,8 @@ def test_the_table_of_regions(run, tmp_path, transform):
         centers = [placed(transform, mass.x + 0.5, mass.y + 0.5) for mass in masses]
         assert np.allclose([(float(row["x"]), float(row["y"])) for row in rows], centers, rtol=1e-12)
     neighbors = run("tessellate", "in.tif", "--what", "neighbors", "-q").rows
-    metres = run("tessellate", "in.tif", "--what", "neighbors", "-q", "--pixel-size", str(side)).rows
-    assert neighbors == metres
+    meters = run("tessellate", "in.tif", "--what", "neighbors", "-q", "--pixel-size", str(side)).rows
+    assert neighbors == meters
 
 
 def test_points_along_lie_on_the_skeleton(run, tmp_path):

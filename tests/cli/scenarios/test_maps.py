@@ -35,7 +35,7 @@ def test_lakes_become_centerlines_with_attributes_and_system(run, lakes, read, w
     assert axes["depth"].tolist() == [197, 82]
     expected = geopandas.GeoSeries(LAKES, crs="EPSG:4326").to_crs("EPSG:2056")
     assert all(axis.within(lake.buffer(1e-3)) for axis, lake in zip(axes.geometry, expected, strict=True))
-    assert 20_000 < axes.geometry[0].length < 25_000  # metres: the lake is 0.3 degrees long
+    assert 20_000 < axes.geometry[0].length < 25_000  # meters: the lake is 0.3 degrees long
 
 
 def test_degrees_are_a_warning_that_names_a_system(run, lakes):

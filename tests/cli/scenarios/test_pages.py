@@ -117,16 +117,16 @@ def test_pixels_stay_where_they_are_asked_for(run, tmp_path, part):
         assert made.width == 1000
 
 
-@pytest.mark.parametrize(("number", "millimetres"), [(4, 1), (5, 10), (1, 25.4)])
-def test_drawings_in_dxf_are_drawn_at_their_size(run, tmp_path, number, millimetres):
+@pytest.mark.parametrize(("number", "millimeters"), [(4, 1), (5, 10), (1, 25.4)])
+def test_drawings_in_dxf_are_drawn_at_their_size(run, tmp_path, number, millimeters):
     drawing = ezdxf.new(units=number)
     drawing.modelspace().add_lwpolyline([(0, 0), (10, 0), (10, 5), (0, 5)], close=True)
     drawing.saveas(tmp_path / "part.dxf")
     run("skeleton-exact", "part.dxf", "-o", "made.svg")
     sides, layers = page(tmp_path / "made.svg")
-    assert sides == pytest.approx((10.4 * millimetres, 5.4 * millimetres))  # with a margin of 2 %
+    assert sides == pytest.approx((10.4 * millimeters, 5.4 * millimeters))  # with a margin of 2 %
     left, top, right, bottom = layers["polygons"]
-    assert (right - left, bottom - top) == pytest.approx((10 * millimetres, 5 * millimetres), abs=1e-3)
+    assert (right - left, bottom - top) == pytest.approx((10 * millimeters, 5 * millimeters), abs=1e-3)
 
 
 def test_a_drawing_without_a_unit_has_pixels(run, tmp_path):

@@ -30,7 +30,7 @@ def maps(folder):
     (folder / "stations.csv").write_text("lon,lat\n" + "".join(f"{x},{y}\n" for x, y in STATIONS))
     (folder / "plain.csv").write_text("x,y\n" + "".join(f"{x},{y}\n" for x, y in STATIONS))
     (folder / "stations.wkt").write_text("".join(f"SRID=4326;POINT ({x} {y})\n" for x, y in STATIONS))
-    (folder / "metres.geojson").write_text(box(240e3, 300e3, 760e3, 680e3, "urn:ogc:def:crs:EPSG::3057"))
+    (folder / "meters.geojson").write_text(box(240e3, 300e3, 760e3, 680e3, "urn:ogc:def:crs:EPSG::3057"))
     (folder / "degrees.geojson").write_text(box(-25, 63, -13, 67.5, "EPSG:4326"))
     (folder / "unnamed.geojson").write_text(box(-25, 63, -13, 67.5))
     return folder
@@ -42,10 +42,10 @@ def crs_of(text):
 
 @pytest.mark.parametrize("name", ["stations.geojson", "stations.csv", "stations.wkt"])
 def test_polygons_to_clip_to_in_another_system_are_refused(run, maps, name):
-    done = run("delaunay", name, "--what", "cells", "--clip", "metres.geojson", "-o", "cells.geojson")
+    done = run("delaunay", name, "--what", "cells", "--clip", "meters.geojson", "-o", "cells.geojson")
     assert done.code == 3
     message = done.err.splitlines()[-1]
-    assert all(word in message for word in ("metres.geojson", "EPSG:3057", name))
+    assert all(word in message for word in ("meters.geojson", "EPSG:3057", name))
     assert "--crs OGC:CRS84" in message or "--crs EPSG:4326" in message
     assert not (maps / "cells.geojson").exists()
 
@@ -74,9 +74,9 @@ def test_points_that_name_no_system_take_that_of_the_polygons(run, maps):
 
 @pytest.mark.parametrize("name", ["bare.geojson", "plain.csv"])
 def test_points_that_name_no_system_and_lie_elsewhere_are_refused(run, maps, name):
-    done = run("delaunay", name, "--what", "cells", "--clip", "metres.geojson")
+    done = run("delaunay", name, "--what", "cells", "--clip", "meters.geojson")
     assert done.code == 3
-    assert "metres.geojson" in done.err
+    assert "meters.geojson" in done.err
 
 
 def test_nothing_is_said_where_neither_names_a_system(run, maps):

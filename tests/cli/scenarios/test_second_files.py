@@ -9,7 +9,7 @@ import pytest
 import shapely
 import tifffile
 
-METRES = {"mm": Fraction(1, 1000), "um": Fraction(1, 10**6), "in": Fraction(254, 10**4), "m": Fraction(1)}
+METERS = {"mm": Fraction(1, 1000), "um": Fraction(1, 10**6), "in": Fraction(254, 10**4), "m": Fraction(1)}
 MASK = np.zeros((40, 60), np.uint8)
 MASK[5:20, 5:25] = MASK[25:36, 20:55] = 255
 SITES = [shapely.box(0, 0, 10, 10), shapely.box(30, 5, 40, 15), shapely.box(8, 30, 20, 40)]
@@ -49,7 +49,7 @@ def test_a_file_in_another_unit(run, tmp_path, first, second, option):
     """The same rectangle, in the unit of the sites, and in another one."""
     (tmp_path / "in.geojson").write_text(text(SITES, first))
     (tmp_path / "same.geojson").write_text(text([CLIP], first))
-    other = scaled(CLIP, METRES[first] / METRES[second])
+    other = scaled(CLIP, METERS[first] / METERS[second])
     (tmp_path / "other.geojson").write_text(text([other], second))
     words = ["voronoi", "in.geojson", "--what", "table", "-f", "csv", "--frame=-50,-50,150,150", option]
     expected = areas(run(*words, "same.geojson"))
@@ -62,7 +62,7 @@ def test_a_file_in_another_unit(run, tmp_path, first, second, option):
 @pytest.mark.parametrize("unit", ["in", "mm"])
 def test_drawings_state_theirs(run, tmp_path, unit):
     (tmp_path / "in.geojson").write_text(text(SITES, "mm"))
-    dxf(tmp_path / "clip.dxf", scaled(CLIP, METRES["mm"] / METRES[unit]), unit)
+    dxf(tmp_path / "clip.dxf", scaled(CLIP, METERS["mm"] / METERS[unit]), unit)
     done = run("voronoi", "in.geojson", "--clip", "clip.dxf", "--what", "table", "-f", "csv")
     assert sum(areas(done)) == pytest.approx(40 * 50)
     points = [shapely.Point(xy) for xy in [(1, 2), (20, 30), (5, 40)]]
@@ -133,7 +133,7 @@ def test_a_unit_that_cannot_be_converted(run, tmp_path):
 def test_distances_of_two_files(run, tmp_path, second):
     """3 mm apart, in whatever unit the second is."""
     (tmp_path / "a.geojson").write_text(text([shapely.box(0, 0, 4, 4)], "mm"))
-    b = scaled(shapely.box(7, 0, 9, 4), METRES["mm"] / METRES[second])
+    b = scaled(shapely.box(7, 0, 9, 4), METERS["mm"] / METERS[second])
     (tmp_path / "b.geojson").write_text(text([b], second))
     done = run("distance", "a.geojson", "b.geojson", "--what", "smallest", "-f", "csv")
     assert done.code == 0, done.err

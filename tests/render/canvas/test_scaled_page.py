@@ -33,37 +33,37 @@ def square(scale=1.0):
     return Polygons("shape", SQUARE * scale, np.arange(4, dtype=np.int32), np.array([0, 4]))
 
 
-@pytest.mark.parametrize("millimetres", [1e-3, 0.5, 1, 25.4, 1000])
+@pytest.mark.parametrize("millimeters", [1e-3, 0.5, 1, 25.4, 1000])
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e9])
 @pytest.mark.parametrize("y_up", [False, True])
-def test_sizes_return(millimetres, size, y_up):
-    if not 1e-3 <= size * millimetres <= 1e5:
+def test_sizes_return(millimeters, size, y_up):
+    if not 1e-3 <= size * millimeters <= 1e5:
         pytest.skip("no page for it")
-    page = ScaledPage((0, 0, 3 * size, 2 * size), y_up=y_up, millimetres=millimetres)
+    page = ScaledPage((0, 0, 3 * size, 2 * size), y_up=y_up, millimeters=millimeters)
     shape = shapes_of(svg_of([square(size)], page))[-1]  # the first is the ground
     x, y, right, bottom = shape.bounds
-    across = size * millimetres
+    across = size * millimeters
     assert right - x == pytest.approx(3 * across, rel=1e-6, abs=1e-4)
     assert bottom - y == pytest.approx(2 * across, rel=1e-6, abs=1e-4)
     assert x == pytest.approx(0.06 * across, rel=1e-6, abs=1e-4)
 
 
 def test_arcs_return():
-    page = ScaledPage((-1, -1, 1, 1), y_up=True, millimetres=20)
+    page = ScaledPage((-1, -1, 1, 1), y_up=True, millimeters=20)
     places = np.array([[1.0, 0.0], [-1.0, 0.0]])
     arcs = Arcs("offset", places, places[::-1], np.zeros((2, 2)), np.array([0, 2]), None, WHITE, 1.0, np.ones(2, bool))
     circle = shapes_of(svg_of([arcs], page))[-1]
     assert circle.area == pytest.approx(400 * np.pi, rel=1e-4)
 
 
-@pytest.mark.parametrize("millimetres", [1e300, 1e7, 0.0, 1e-320, float("inf"), float("nan")])
-def test_pages_that_nobody_has(millimetres):
+@pytest.mark.parametrize("millimeters", [1e300, 1e7, 0.0, 1e-320, float("inf"), float("nan")])
+def test_pages_that_nobody_has(millimeters):
     with pytest.raises(UsageError, match=r"the page would be .* choose another scale"):
-        ScaledPage((0, 0, 3, 2), y_up=False, millimetres=millimetres)
+        ScaledPage((0, 0, 3, 2), y_up=False, millimeters=millimeters)
 
 
 def test_ground():
-    page = ScaledPage((0, 0, 3, 2), y_up=False, millimetres=1)
+    page = ScaledPage((0, 0, 3, 2), y_up=False, millimeters=1)
     page.style = PictureStyle(None)
     assert b"<rect" not in svg_of([], page)
     page.style = PictureStyle("#112233")

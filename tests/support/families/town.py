@@ -27,7 +27,7 @@ def town(count, seed=1):
     Returns
     -------
     xy : (n, 2) float64 array
-        Counter-clockwise around each house, in metres.
+        Counter-clockwise around each house, in meters.
     start : (count + 1,) int64 array
         Where each begins.
     """

@@ -10,7 +10,7 @@ from vorotool.errors import InputError
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.recognition import read_recognised
+from vorotool.formats.recognition import read_recognized
 
 
 def read(text, name="seeds.csv", **options):
@@ -18,7 +18,7 @@ def read(text, name="seeds.csv", **options):
     if data.startswith(MAGIC) and not options.get(
         "input_format"
     ):  # of three columns, too, which `vorotool.read` takes for an image
-        return read_recognised("points", Source(name, data, "npy"), ReadOptions(**options))
+        return read_recognized("points", Source(name, data, "npy"), ReadOptions(**options))
     return read_as(Source(name, data), "points", **options)
 
 

@@ -6,13 +6,13 @@ from vorotool.formats.images.rgb_reader import picture_and_grid
 from vorotool.formats.io.sources import Source
 from vorotool.formats.opening import opened
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.recognition import image_source, read_recognised, recognised
+from vorotool.formats.recognition import image_source, read_recognized, recognized
 from vorotool.products.inputs import IMAGE_NAMES, NAMES_WITH, known_input_format
 
 
 def read_as(source, geometry=None, *, input_format=None, columns=None, **options):
     said = known_input_format(input_format, NAMES_WITH[geometry])
-    return read_recognised(*recognised(source, geometry, said, columns), ReadOptions(columns=columns, **options))
+    return read_recognized(*recognized(source, geometry, said, columns), ReadOptions(columns=columns, **options))
 
 
 def image_of(source, *, input_format=None, **options):

@@ -13,7 +13,7 @@ from vorotool.cli.values.numbers import decimal
 from vorotool.errors import UsageError
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning
 from vorotool.jobs.units import AUTO, AUTO_SPACING, Measured, PixelSize
-from vorotool.numeric.length_units import METRES
+from vorotool.numeric.length_units import METERS
 
 if TYPE_CHECKING:
     from vorotool.types.spacing import PixelSides
@@ -25,7 +25,7 @@ _WITH_UNIT = re.compile(rf"({_NUMBER})\s*({_NAME})")
 _AREA = re.compile(rf"({_NUMBER})(?:\s*({_NAME})\^?([23²³]))?")
 _SIDE = re.compile(rf"([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*({_NAME})?")
 _LIKE_AREA = re.compile(
-    rf"-?(?:[0-9]++(?:\.[0-9]++)?|\.[0-9]++)(e[-+]?[0-9]+)?\s*({_NAME}\^?[0-9²³]|{'|'.join(METRES)}|px|pixels?|voxels?)?",
+    rf"-?(?:[0-9]++(?:\.[0-9]++)?|\.[0-9]++)(e[-+]?[0-9]+)?\s*({_NAME}\^?[0-9²³]|{'|'.join(METERS)}|px|pixels?|voxels?)?",
     re.IGNORECASE,
 )
 """An argument that is an area, or was to be one; a file whose name has an extension is none."""

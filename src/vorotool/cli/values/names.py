@@ -70,7 +70,7 @@ def image(text: str) -> str:
 
 # ---- pictures ------------------------------------------------------------------------------------
 def scale(text: str) -> Scale:
-    """Return ``S``, millimetres a unit, or ``1:N``."""
+    """Return ``S``, millimeters a unit, or ``1:N``."""
     from vorotool.cli.values.numbers import number_or_nan
     from vorotool.render.looks import Scale
 

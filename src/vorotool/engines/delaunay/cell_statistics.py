@@ -58,7 +58,7 @@ def cell_statistics(
     -------
     CellStatistics
         ``cells``, a table with one row a point or region, and ``summary``, one with a row a measure. The area that the
-        spanning tree is normalised by is that of the frame, the polygons or the image where there are any, else that
+        spanning tree is normalized by is that of the frame, the polygons or the image where there are any, else that
         of the convex hull; of a label image that of its regions.
 
     Raises

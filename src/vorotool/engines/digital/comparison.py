@@ -94,9 +94,9 @@ def compare_digital(
     require_memory(frame, max_pixels)
     threads = checked_threads(threads)
     sweep = Tessellator(seeds, frame, threads=threads, strict=strict, progress=progress)
-    labelled = LabelImage(sweep.labels(), frame, sweep.seeds)
-    measures = measure_regions(labelled, threads=threads, progress=progress)
-    digital = digital_triangulation(labelled, threads=threads, progress=progress)
+    labeled = LabelImage(sweep.labels(), frame, sweep.seeds)
+    measures = measure_regions(labeled, threads=threads, progress=progress)
+    digital = digital_triangulation(labeled, threads=threads, progress=progress)
     components = np.zeros(len(digital.points), np.int64)
     components[np.searchsorted(digital.labels, measures.labels)] = measures.columns["components"]
     mesh = delaunay(digital.points, threads=threads, progress=progress)

@@ -23,21 +23,21 @@ Rings = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 
 @plain(eq=False)
-class GreyLevel:
-    """Grey values, of which those above a level are inside; none is at the level."""
+class GrayLevel:
+    """Gray values, of which those above a level are inside; none is at the level."""
 
     values: NDArray[Any]  # (H, W) array: finite
     level: float  # between two values
 
 
-def grey_level(grey: NDArray[Any], threshold: float) -> GreyLevel:
+def gray_level(gray: NDArray[Any], threshold: float) -> GrayLevel:
     """Give the level of a threshold: where pixels have just this value, half-way to the next larger one."""
-    if grey.dtype.kind == "f" and not np.isfinite(grey).all():
+    if gray.dtype.kind == "f" and not np.isfinite(gray).all():
         raise InputError("the image holds NaN or infinite values: contours need finite values; use " + _CRACKS)
-    above = grey > threshold
-    if above.any() and (grey == threshold).any():
-        return GreyLevel(grey, threshold + (float(grey[above].min()) - threshold) / 2)
-    return GreyLevel(grey, threshold)
+    above = gray > threshold
+    if above.any() and (gray == threshold).any():
+        return GrayLevel(gray, threshold + (float(gray[above].min()) - threshold) / 2)
+    return GrayLevel(gray, threshold)
 
 
 def half_way_contours(corners: Corners, start: NDArray[np.int64]) -> Rings:
@@ -56,8 +56,8 @@ def half_way_contours(corners: Corners, start: NDArray[np.int64]) -> Rings:
     return doubled[kept] / 2 - 0.5, first[start]
 
 
-def grey_contours(corners: Corners, start: NDArray[np.int64], grey: GreyLevel) -> Rings:
-    """Contours of grey values: a vertex where the line between two pixels' centers reaches the level."""
+def gray_contours(corners: Corners, start: NDArray[np.int64], gray: GrayLevel) -> Rings:
+    """Contours of gray values: a vertex where the line between two pixels' centers reaches the level."""
     a, b = corners.astype(np.int64), corners[following(start)].astype(np.int64)
     length = np.abs(b - a).sum(axis=1)
     way = np.repeat(np.sign(b - a), length, axis=0)
@@ -65,12 +65,12 @@ def grey_contours(corners: Corners, start: NDArray[np.int64], grey: GreyLevel) -
     after = np.minimum(here, here + way)  # the pixel below or on the right of each crack of unit length
     across = (way == 0).astype(np.int64)
     before = after - across
-    height, width = grey.values.shape
+    height, width = gray.values.shape
     is_inner = ((before >= 0) & (after < [width, height])).all(axis=1)
     share = np.full(len(here), 0.5)
-    low, high = (grey.values[places[is_inner, 1], places[is_inner, 0]].astype(float) for places in (before, after))
-    crosses = (low > grey.level) != (high > grey.level)
-    share[is_inner] = np.divide(grey.level - low, high - low, out=np.full(len(low), 0.5), where=crosses)
+    low, high = (gray.values[places[is_inner, 1], places[is_inner, 0]].astype(float) for places in (before, after))
+    crosses = (low > gray.level) != (high > gray.level)
+    share[is_inner] = np.divide(gray.level - low, high - low, out=np.full(len(low), 0.5), where=crosses)
     return before + share[:, None] * across, starts_of(length)[start]
 
 

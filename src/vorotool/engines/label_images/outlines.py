@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.images import as_raster
-from vorotool.engines.label_images.marching_squares import grey_contours, grey_level, half_way_contours
+from vorotool.engines.label_images.marching_squares import gray_contours, gray_level, half_way_contours
 from vorotool.engines.label_images.simplification import simplified_polygons
 from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
 from vorotool.engines.tessellation.raster_objects import (
@@ -18,7 +18,7 @@ from vorotool.engines.tessellation.raster_objects import (
     Threshold,
     default_objects,
     foreground_values,
-    grey_values,
+    gray_values,
     label_values,
     report_no_foreground,
     settled_threshold,
@@ -78,7 +78,7 @@ def outlines(
     The crack outline follows the sides of the pixels of an object: its corners are at half-integers, and its area is
     the number of pixels. The contour is that of marching squares, as in scikit-image for an image padded with
     background: it runs half-way between the centers of pixels inside and outside, or, with a threshold, where the
-    interpolated grey value equals it.
+    interpolated gray value equals it.
 
     An object is a component of a mask, or all pixels of one label; each component of a label is a polygon. Touching
     labels are never merged: their outlines share the border between them, vertex by vertex.
@@ -169,10 +169,10 @@ def outlines(
     if isinstance(image, LabelImage):
         assert image.frame is not None  # LabelImage has filled it in
         mode, origin, image = mode or "labels", (image.frame.x, image.frame.y), image.labels
-    raster = as_raster(image, "image", is_grey=True)
+    raster = as_raster(image, "image", is_gray=True)
     if threshold is not None:
         threshold, invert = settled_threshold(raster, threshold, invert=invert)
-        raster = Raster(grey_values(raster), mask=raster.mask, y_axis=raster.y_axis)
+        raster = Raster(gray_values(raster), mask=raster.mask, y_axis=raster.y_axis)
     height, width = raster.values.shape[:2]
     values = foreground_values(raster, threshold, invert=invert)
     if cleaning := Cleaning.of(min_area, fill_holes):
@@ -189,8 +189,8 @@ def outlines(
     elif threshold is None:
         xy, start = half_way_contours(made["corners"], made["start"])
     else:
-        grey = np.pad(raster.values, 1, mode="edge") if is_open else raster.values
-        xy, start = grey_contours(made["corners"], made["start"], grey_level(grey, threshold))
+        gray = np.pad(raster.values, 1, mode="edge") if is_open else raster.values
+        xy, start = gray_contours(made["corners"], made["start"], gray_level(gray, threshold))
     if is_open:
         xy, start = _cut_at_border(xy - 1, start, labels.shape)
     ids = made["labels"] if by_label else np.arange(1, len(made["labels"]) + 1)

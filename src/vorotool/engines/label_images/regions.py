@@ -61,7 +61,7 @@ class RegionMeasures:
 
 def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
     """Measure all regions of a label image in one pass."""
-    image = _labelled(image)
+    image = _labeled(image)
     found = _core.label_images.measure_regions(label_array(image.labels), checked_threads(threads), progress)
     labels = found.pop("labels")
     refuse_negative(image.labels.dtype, int(labels.max(initial=0)))
@@ -130,7 +130,7 @@ def region_table(
         options = {"distance2": distance2, "distance_scale": distance_scale, "measures": measures}
         own: Table = _in_space("tables:volume_table", image, threads, progress, properties=properties, **options)
         return own
-    image = _labelled(image)
+    image = _labeled(image)
     threads = checked_threads(threads)
     measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
     labels, sites = _sites(image, measures)
@@ -205,7 +205,7 @@ def neighbor_table(
     if is_of_space(image):
         own: Table = _in_space("tables:volume_neighbors", image, threads, progress, measures=measures)
         return own
-    image = _labelled(image)
+    image = _labeled(image)
     measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
     labels, sites = _sites(image, measures)
     position = sites[_rows_of(measures.labels, labels, image)]
@@ -266,7 +266,7 @@ def voronoi_diagram(
     if is_of_space(image):
         given = {"before": above, "after": below, "out": out}
         return np.asarray(_in_space("measures:volume_diagram", image, threads, progress, **given))
-    labels = label_array(_labelled(image).labels)
+    labels = label_array(_labeled(image).labels)
     if out is None:
         out = np.empty(labels.shape, dtype=np.uint8)
     elif described(out) != f"uint8 of shape {labels.shape}" or not out.flags.c_contiguous:
@@ -343,7 +343,7 @@ def _in_space(function: str, image: Any, threads: int, progress: Progress, **opt
     return resolved(f"{_IN_SPACE}{function}")(image, threads=threads, progress=progress, **options)
 
 
-def _labelled(image: Any) -> LabelImage:
+def _labeled(image: Any) -> LabelImage:
     return as_label_image(image, "image", numbered_components)
 
 

@@ -43,7 +43,7 @@ def plane(values: ImageLike, name: str) -> NDArray[Any]:
     shape = getattr(values, "shape", None)
     if isinstance(shape, tuple) and len(shape) == 2 and 0 in shape:
         return np.asarray(values)
-    image = as_raster(values, name, is_grey=True)
+    image = as_raster(values, name, is_gray=True)
     if image.is_color:
         raise InputError(f"invalid {name}: expected one value in each pixel, but it is a color image")
     if image.mask is not None and image.mask.any():

@@ -101,7 +101,7 @@ def _holds_polygons(source: Any) -> bool:
 
 
 def require_seeds(seeds: SeedSet | VolumeSeeds) -> None:
-    """Refuse an empty list: nothing could be labelled. An image without foreground, which has a frame, is told of."""
+    """Refuse an empty list: nothing could be labeled. An image without foreground, which has a frame, is told of."""
     if not len(seeds) and seeds.frame is None:
         raise InputError("no seeds, so no pixel can be labeled: give at least one point")
 

@@ -21,35 +21,35 @@ MARGIN = 16 * 2.0**-53
 difference of two, as a part of the larger one."""
 
 
-def otsu_threshold(grey: NDArray[Any]) -> float:
+def otsu_threshold(gray: NDArray[Any]) -> float:
     """Give the largest value of the lower class; of floating-point numbers, the middle of a bin."""
-    if grey.dtype.kind == "f":
-        return _of_floats(grey)
-    if grey.dtype.itemsize <= NARROW:
+    if gray.dtype.kind == "f":
+        return _of_floats(gray)
+    if gray.dtype.itemsize <= NARROW:
         from skimage.filters import threshold_otsu
 
-        return int(threshold_otsu(grey))
-    values, counts = np.unique(grey, return_counts=True)
+        return int(threshold_otsu(gray))
+    values, counts = np.unique(gray, return_counts=True)
     offsets = values.astype(np.uint64) - values[0].astype(np.uint64)  # modulo 2^64, so right where the type is signed
     return int(values[best_split(offsets, counts)])
 
 
-def _of_floats(grey: NDArray[Any]) -> float:
+def _of_floats(gray: NDArray[Any]) -> float:
     """Otsu's threshold in a histogram, of values whose squares are numbers: scaled by a power of two where needed."""
     from skimage.filters import threshold_otsu
 
-    low, high = float(grey.min()), float(grey.max())
+    low, high = float(gray.min()), float(gray.max())
     exponent = int(np.frexp(max(-low, high))[1])
-    if abs(exponent) <= np.finfo(grey.dtype).maxexp // 8:
+    if abs(exponent) <= np.finfo(gray.dtype).maxexp // 8:
         exponent = 0
     else:
-        grey = np.ldexp(grey.astype(np.float64), -exponent)
+        gray = np.ldexp(gray.astype(np.float64), -exponent)
         low, high = float(np.ldexp(low, -exponent)), float(np.ldexp(high, -exponent))
-    if high - low <= 2 * BINS * float(np.spacing(grey.dtype.type(max(-low, high)))):  # there are not so many bins
-        values, counts = np.unique(grey.astype(np.float64), return_counts=True)
+    if high - low <= 2 * BINS * float(np.spacing(gray.dtype.type(max(-low, high)))):  # there are not so many bins
+        values, counts = np.unique(gray.astype(np.float64), return_counts=True)
         steps = (values - values[0]) / np.spacing(np.abs(values).min())  # exact: the values are so near each other
         return float(np.ldexp(values[best_split(steps.astype(np.uint64), counts)], exponent))
-    return float(np.ldexp(float(threshold_otsu(grey)), exponent))
+    return float(np.ldexp(float(threshold_otsu(gray)), exponent))
 
 
 def best_split(values: NDArray[np.uint64], counts: NDArray[np.int64]) -> int:

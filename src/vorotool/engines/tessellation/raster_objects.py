@@ -45,10 +45,10 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
     values, invert = raster.values, checked_flag(invert, "invert")
     if threshold is not None:
         number, invert = settled_threshold(raster, threshold, invert=invert)
-        grey = grey_values(raster)
-        values = grey > whole_threshold(grey, number)
+        gray = gray_values(raster)
+        values = gray > whole_threshold(gray, number)
     elif raster.is_color:
-        made = mask_options(grey_values(raster))
+        made = mask_options(gray_values(raster))
         raise InputError(f"a color image is neither a mask nor a label image: use {_THRESHOLD} or {made}")
     elif raster.is_lossy and not is_flat(values[values != values.min()]):
         raise InputError(
@@ -61,7 +61,7 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
     return values if raster.mask is None else np.where(raster.mask, values.dtype.type(0), values)
 
 
-def grey_values(raster: Raster) -> NDArray[Any]:
+def gray_values(raster: Raster) -> NDArray[Any]:
     """(H, W) the values, or the luminance of a color image; transparency does not count."""
     values = raster.values
     if not raster.is_color:
@@ -80,32 +80,32 @@ def settled_threshold(raster: Raster, threshold: float | Literal["otsu"], *, inv
         return cast(float, threshold), invert  # as it is: a double would round integers beyond 2^53
     from vorotool.engines.tessellation.otsu import otsu_threshold
 
-    grey = counted_values(raster)
-    if grey.dtype.kind == "f" and not np.isfinite(grey).all():
+    gray = counted_values(raster)
+    if gray.dtype.kind == "f" and not np.isfinite(gray).all():
         raise InputError(f"the image holds NaN or infinite values: use {_THRESHOLD} with a number, or replace them")
-    if is_flat(grey):
-        return (grey.flat[0].item() if grey.size else 0), False
-    return otsu_threshold(grey), invert
+    if is_flat(gray):
+        return (gray.flat[0].item() if gray.size else 0), False
+    return otsu_threshold(gray), invert
 
 
 def counted_values(raster: Raster) -> NDArray[Any]:
-    """Grey values of the pixels that are not masked."""
-    grey = grey_values(raster)
-    return grey if raster.mask is None else grey[~raster.mask]
+    """Gray values of the pixels that are not masked."""
+    gray = gray_values(raster)
+    return gray if raster.mask is None else gray[~raster.mask]
 
 
-def is_flat(grey: NDArray[Any]) -> bool:
+def is_flat(gray: NDArray[Any]) -> bool:
     """Whether there are no two different values."""
-    return not grey.size or bool(grey.min() == grey.max())
+    return not gray.size or bool(gray.min() == gray.max())
 
 
 def _is_otsu(threshold: Any) -> bool:
     return isinstance(threshold, str) and threshold == "otsu"
 
 
-def whole_threshold(grey: NDArray[Any], threshold: float) -> float:
+def whole_threshold(gray: NDArray[Any], threshold: float) -> float:
     """Give a threshold as an integer where values are: a float would round those beyond 2^53 when it is compared."""
-    return floor(threshold) if grey.dtype.kind in "iu" else threshold
+    return floor(threshold) if gray.dtype.kind in "iu" else threshold
 
 
 def default_objects(values: NDArray[Any], *, note: Note = None) -> Objects:
@@ -195,9 +195,9 @@ def photograph_signs(values: NDArray[Any]) -> tuple[bool, int, int]:
     return fractional or (fragments > 4 * distinct and fragments > 256), distinct, fragments
 
 
-def mask_options(grey: NDArray[Any]) -> str:
+def mask_options(gray: NDArray[Any]) -> str:
     """Give the options that make a mask of an image: of what is dark where most of it is light, as paper is."""
-    finite = grey[np.isfinite(grey)]
+    finite = gray[np.isfinite(gray)]
     middle = (float(finite.min()) + float(finite.max())) / 2 if finite.size else 0.0
     is_light = np.count_nonzero(finite > middle) > MOSTLY * finite.size
     if is_light:

@@ -59,7 +59,7 @@ def seeds_from_points(points: PointsLike, *, frame: Frame | None = None, strict:
         As `delaunay` takes them; coordinates in pixels. What is finer than the finest lattice of the frame, 2^-31 pixel
         for 512 x 512 pixels, moves to the nearest multiple of its step.
     frame : Frame, optional
-        The whole image that is to be labelled; by default the least one at the origin that holds the points.
+        The whole image that is to be labeled; by default the least one at the origin that holds the points.
     strict : bool
         Refuse points that would have to move.
 
@@ -192,7 +192,7 @@ def seeds_from_raster(
         of_volumes = "; 26 and 6 apply to volumes" if is_choice(connectivity, (26, 6)) else ""
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8{of_volumes}")
     max_sites = whole_number(max_sites, "max_sites")
-    raster = as_raster(raster, "raster", is_grey=True)
+    raster = as_raster(raster, "raster", is_gray=True)
     values = foreground_values(raster, threshold, invert=invert)
     if not is_choice(mode, (None, *get_args(SeedMode))):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")

@@ -43,7 +43,7 @@ BAND_PIXELS = 2**25
 """Most pixels of a band that is read at a time; for each two lists as wide as the image are kept, in a short form."""
 
 SWEEP_PIXELS = 2**22
-"""Pixels that are labelled at a time: each may be a seed, which takes some 60 bytes."""
+"""Pixels that are labeled at a time: each may be a seed, which takes some 60 bytes."""
 
 
 class ImageRows(Protocol):

@@ -217,7 +217,7 @@ def tessellate(
     if frame is not None:
         require_memory(frame, max_pixels)
     seed_set = as_seeds(seeds, image=image, max_pixels=max_pixels, frame=frame or needed_frame, sides=sides)
-    rows = labelled_rows(
+    rows = labeled_rows(
         seed_set,
         frame,
         method=method,
@@ -231,7 +231,7 @@ def tessellate(
     return LabelImage(rows.labels(dtype=dtype, out=out), rows.frame, rows.seeds, sides=sides)
 
 
-def labelled_rows(
+def labeled_rows(
     seeds: SeedSet,
     frame: Frame | None = None,
     *,

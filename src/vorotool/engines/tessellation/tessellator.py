@@ -32,7 +32,7 @@ from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.spacing import SQUARE, PixelSides
 
 
-class NothingLabelled:
+class NothingLabeled:
     """Stand-in for the core without seeds, as of an image or a volume without foreground."""
 
     duplicates = 0
@@ -82,11 +82,11 @@ class Tessellator:
         self.duplicates: int = self._core.duplicates
         report_duplicates(self.duplicates, len(seeds), strict=strict)
 
-    def _prepare(self) -> _core.tessellation.Tessellation | NothingLabelled:
+    def _prepare(self) -> _core.tessellation.Tessellation | NothingLabeled:
         seeds, frame = self.seeds, self.frame
         self._paints = False
         if not len(seeds):
-            return NothingLabelled()
+            return NothingLabeled()
         needed = needed_seeds(seeds)
         self._paints = needed is not None
         chosen = slice(None) if needed is None else needed

@@ -50,7 +50,7 @@ class VolumeMeasures:
 
 def measure_volume(volume: VolumeLike, *, threads: int = 0, progress: Progress = None) -> VolumeMeasures:
     """Measure all regions of a label volume in one pass."""
-    return measure_slabs([labelled(volume).labels], threads=threads, progress=progress)
+    return measure_slabs([labeled(volume).labels], threads=threads, progress=progress)
 
 
 def measure_slabs(slabs: Iterable[NDArray[Any]], *, threads: int = 0, progress: Progress = None) -> VolumeMeasures:
@@ -87,7 +87,7 @@ def volume_diagram(
     progress: Progress = None,
 ) -> NDArray[np.uint8]:
     """Mark the digital Voronoi diagram: voxels of which a neighbor across a face has a larger label (section 2.1)."""
-    own = label_array(labelled(labels).labels, "voxel")
+    own = label_array(labeled(labels).labels, "voxel")
     if out is None:
         out = np.empty(own.shape, dtype=np.uint8)
     elif described(out) != f"uint8 of shape {own.shape}" or not out.flags.c_contiguous:
@@ -97,7 +97,7 @@ def volume_diagram(
     return out
 
 
-def labelled(volume: Any) -> LabelVolume:
+def labeled(volume: Any) -> LabelVolume:
     """Give a label volume: of truth values the 26-connected components are numbered, integers are labels."""
     if isinstance(volume, LabelVolume):
         return volume

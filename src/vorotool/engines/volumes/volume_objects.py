@@ -131,12 +131,12 @@ class VolumeObjects:
         one, found = only_value((first, self.values(first, count)) for first, count in self.limits())
         if found is None:
             return objects_of_value(one, note=note)
-        _refuse_grey(found[1], found[0])
+        _refuse_gray(found[1], found[0])
         return "labels"
 
 
-def _refuse_grey(values: NDArray[Any], first: int) -> None:
-    """Refuse what looks like grey values, in the first slice that has two values beside 0."""
+def _refuse_gray(values: NDArray[Any], first: int) -> None:
+    """Refuse what looks like gray values, in the first slice that has two values beside 0."""
     several = (
         number for number, plane in enumerate(values) if plane.any() and (plane[plane != 0] != plane.max()).any()
     )

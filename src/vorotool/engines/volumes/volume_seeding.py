@@ -146,7 +146,7 @@ def seeds_from_volume(
     Raises
     ------
     InputError
-        If the volume looks like grey values and no threshold is given, or holds labels where a mask is to be cleaned;
+        If the volume looks like gray values and no threshold is given, or holds labels where a mask is to be cleaned;
         or there is no foreground, and `strict`.
     LimitError
         If there are more seeds than `max_sites`.
@@ -164,7 +164,7 @@ def seeds_from_volume(
     [1, 2, 2]
     """
     return seeds_of_slabs(
-        HeldSlices(as_volume(volume, "volume", is_grey=True)),
+        HeldSlices(as_volume(volume, "volume", is_gray=True)),
         mode=mode,
         connectivity=connectivity,
         threshold=threshold,

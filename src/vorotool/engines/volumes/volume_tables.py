@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.label_arrays import label_array
 from vorotool.engines.common.site_rows import largest_by_label, nearest_sites, spread
-from vorotool.engines.volumes.volume_measures import VolumeMeasures, labelled, measure_volume
+from vorotool.engines.volumes.volume_measures import VolumeMeasures, labeled, measure_volume
 from vorotool.engines.volumes.volume_regions import VolumeRegions
 from vorotool.errors import InputError
 from vorotool.numeric.checks import checked_threads
@@ -39,7 +39,7 @@ def volume_table(
     progress: Progress = None,
 ) -> Table:
     """Tabulate the regions of a tessellation: one row a site, in increasing label order."""
-    volume = labelled(volume)
+    volume = labeled(volume)
     threads = checked_threads(threads)
     if distance_scale is not None:
         finite_double(distance_scale, "distance_scale")
@@ -96,7 +96,7 @@ def volume_neighbors(
     progress: Progress = None,
 ) -> Table:
     """Tabulate the neighboring regions: one row a pair of labels that share a face."""
-    return neighbors_of_regions(_regions_of(labelled(volume), measures, threads, progress))
+    return neighbors_of_regions(_regions_of(labeled(volume), measures, threads, progress))
 
 
 def neighbors_of_regions(regions: VolumeRegions) -> Table:

@@ -19,7 +19,7 @@ from vorotool.engines.tessellation.frames import (
     squared_limit,
 )
 from vorotool.engines.tessellation.raster_objects import refuse_distances
-from vorotool.engines.tessellation.tessellator import NothingLabelled
+from vorotool.engines.tessellation.tessellator import NothingLabeled
 from vorotool.engines.volumes.inner_voxels import paint_inner
 from vorotool.engines.volumes.volume_frames import default_voxel_frame
 from vorotool.errors import InputError, LimitError, UsageError, option
@@ -58,10 +58,10 @@ class VolumeSweep:
         self.duplicates: int = self._core.duplicates
         report_duplicates(self.duplicates, len(seeds), strict=strict)
 
-    def _prepare(self, way: str) -> _core.volumes.VolumeTessellation | NothingLabelled:
+    def _prepare(self, way: str) -> _core.volumes.VolumeTessellation | NothingLabeled:
         seeds, frame = self.seeds, self.frame
         if not len(seeds):
-            return NothingLabelled("volume")
+            return NothingLabeled("volume")
         unit_z, unit_y, unit_x = self.sides.units
         try:
             return _core.volumes.VolumeTessellation(

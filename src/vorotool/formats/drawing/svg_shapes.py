@@ -20,9 +20,9 @@ _TRANSFORMS = re.compile(
     rf"\s*(?:(?:matrix|translate|scale|rotate|skewX|skewY)\s*\(\s*(?:{_NUMBER}(?:px|deg)?{_GAP})++\)[\s,]*+)*+"
 )
 MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
-"""Millimetres of the units of physical lengths."""
+"""Millimeters of the units of physical lengths."""
 PX = 25.4 / 96
-"""Millimetres of a px, which is the unit of coordinates where no viewBox makes another one of it."""
+"""Millimeters of a px, which is the unit of coordinates where no viewBox makes another one of it."""
 
 
 class Viewport(NamedTuple):

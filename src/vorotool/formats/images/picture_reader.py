@@ -100,7 +100,7 @@ def _decoded(file: Any, index: int) -> NDArray[Any]:
 
 
 def _check_jpeg(source: Source, kind: str) -> None:
-    """Refuse a file whose data cannot be a whole image, before memory is taken: what lacks would be grey."""
+    """Refuse a file whose data cannot be a whole image, before memory is taken: what lacks would be gray."""
     marker, width, height = jpeg_frame(source.data) if kind == "jpeg" else (0, 0, 0)
     if marker in _HUFFMAN and len(source.data) * _MOST_EXPANSION < width * height:
         raise InputError(

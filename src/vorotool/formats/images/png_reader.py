@@ -1,4 +1,4 @@
-"""Reading PNG with Pillow, and what Pillow leaves out: limits, checksums, 16-bit colors, unscaled grey."""
+"""Reading PNG with Pillow, and what Pillow leaves out: limits, checksums, 16-bit colors, unscaled gray."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from vorotool.formats.io.sources import Source
 
 _CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}
 _DEPTHS = {0: (1, 2, 4, 8, 16), 2: (8, 16), 3: (1, 2, 4, 8), 4: (8, 16), 6: (8, 16)}
-_GREY_STEP = {2: 85, 4: 17}  # Pillow spreads 2 and 4-bit grey over 0..255 in these steps
+_GREY_STEP = {2: 85, 4: 17}  # Pillow spreads 2 and 4-bit gray over 0..255 in these steps
 _PALETTE, _GREY_ALPHA, _COLOR_ALPHA = 3, 4, 6
 _MOST_EXPANSION = 1032  # deflate codes 258 bytes in 2 bits at best
 
@@ -46,7 +46,7 @@ def png_header(source: Source) -> PngHeader:
 
 
 def read_png(source: Source, max_pixels: int) -> NDArray[Any]:
-    """Return the stored values: (H, W) uint8 or uint16 for grey and palette indices, else (H, W, C)."""
+    """Return the stored values: (H, W) uint8 or uint16 for gray and palette indices, else (H, W, C)."""
     header = png_header(source)
     check_pixels(source.name, header.width, header.height, max_pixels)
     _check_chunks(source, header)
@@ -54,7 +54,7 @@ def read_png(source: Source, max_pixels: int) -> NDArray[Any]:
         if header.bit_depth < 16 or header.color_type == 0:
             return _read_plain(source.data, header)
         if header.color_type == _GREY_ALPHA:
-            return _read_grey_alpha_16(source.data)
+            return _read_gray_alpha_16(source.data)
         return _read_color_16(source.data)
 
 
@@ -139,11 +139,11 @@ def _read_color_16(data: bytes) -> NDArray[np.uint16]:
     return _joined(high, low)
 
 
-def _read_grey_alpha_16(data: bytes) -> NDArray[np.uint16]:
-    """Grey and alpha of 16 bits are stored as 8-bit red, green, blue, alpha are: relabel the header."""
+def _read_gray_alpha_16(data: bytes) -> NDArray[np.uint16]:
+    """Gray and alpha of 16 bits are stored as 8-bit red, green, blue, alpha are: relabel the header."""
     header = data[12:24] + bytes([8, _COLOR_ALPHA]) + data[26:29]
-    relabelled = data[:12] + header + struct.pack(">I", zlib.crc32(header)) + data[33:]
-    values = _decoded(relabelled)
+    relabeled = data[:12] + header + struct.pack(">I", zlib.crc32(header)) + data[33:]
+    values = _decoded(relabeled)
     return _joined(values[:, :, 0::2], values[:, :, 1::2])
 
 

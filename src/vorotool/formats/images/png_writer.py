@@ -40,7 +40,7 @@ def write_png(
     has_alpha: bool = False,
     threads: int = 0,
 ) -> None:
-    """Write a grey, palette or RGB PNG from bands of rows, in bounded memory."""
+    """Write a gray, palette or RGB PNG from bands of rows, in bounded memory."""
     height, width = shape
     if max(shape) > LARGEST_SIDE:
         raise LimitError(f"a PNG has at most {LARGEST_SIDE} pixels a side, not {width} x {height}: use .tif or .npy")

@@ -22,7 +22,7 @@ from vorotool.types.points.raster import Raster
 
 
 def read_image(source: Source, options: ReadOptions) -> Raster:
-    """Read the values of an image as they are stored: palette indices, labels, grey values are not rescaled."""
+    """Read the values of an image as they are stored: palette indices, labels, gray values are not rescaled."""
     kind, page, max_pixels = source.format, options.page, options.max_pixels
     if kind == "tiff":
         values, about = tiff_reader.read_tiff(source, page=page, max_pixels=max_pixels)

@@ -24,13 +24,13 @@ from vorotool.formats.images.tiff_grid import (
     TRANSFORMATION,
 )
 from vorotool.numeric.crs import crs_name, is_geographic
-from vorotool.numeric.length_units import metres
+from vorotool.numeric.length_units import meters
 from vorotool.types.pixel_grid import GeoKeys, PixelGrid
 
 _LARGEST = 2**32 - 1
 """The largest numerator and denominator."""
 
-_INCHES, _CENTIMETRES, NO_UNIT = 2, 3, 1
+_INCHES, _CENTIMETERS, NO_UNIT = 2, 3, 1
 _DOUBLE, _SHORT, _ASCII = 12, 3, 2
 """Types of tags."""
 
@@ -80,9 +80,9 @@ def imagej_unit(unit: str) -> str:
 
 
 def resolution_tags(grid: PixelGrid) -> dict[str, Any]:
-    """Pixels a unit; TIFF knows inches, centimetres and units without a name."""
-    size = metres(grid.unit)
-    number = _INCHES if grid.unit == "inch" else NO_UNIT if size is None else _CENTIMETRES
+    """Pixels a unit; TIFF knows inches, centimeters and units without a name."""
+    size = meters(grid.unit)
+    number = _INCHES if grid.unit == "inch" else NO_UNIT if size is None else _CENTIMETERS
     units = Fraction(1) if size is None else Fraction(1, 100) / size
     ratios = [ratio_of(float(1 / side) * float(units)) for side in (grid.width, grid.height)]
     return {} if None in ratios else resolution(ratios, number)

@@ -70,7 +70,7 @@ def parse_columns(columns: str, *, wants_z: bool = False) -> Wanted:
 
 def choose(name: str, fields: list[str], wanted: Wanted | None, options: ReadOptions) -> tuple[bool, Chosen]:
     """Whether the first record is a header, and which columns are x, y and, if one is, the label."""
-    return _recognise(name, fields, options) if wanted is None else _look_up(name, fields, wanted, options)
+    return _recognize(name, fields, options) if wanted is None else _look_up(name, fields, wanted, options)
 
 
 def chosen_columns(name: str, fields: list[str], options: ReadOptions) -> Chosen:
@@ -79,7 +79,7 @@ def chosen_columns(name: str, fields: list[str], options: ReadOptions) -> Chosen
     return choose(name, fields, wanted, options)[1]
 
 
-def _recognise(name: str, fields: list[str], options: ReadOptions) -> tuple[bool, Chosen]:
+def _recognize(name: str, fields: list[str], options: ReadOptions) -> tuple[bool, Chosen]:
     """Find the coordinates by the header; two columns without one are x, y."""
     chosen = space_columns(fields) if options.wants_z else coordinate_columns(fields)
     if chosen is not None:

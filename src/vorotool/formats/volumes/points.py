@@ -16,7 +16,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.points.columns import parse_columns
 from vorotool.formats.points.npy import check_coordinates, npy_labels
 from vorotool.formats.points.rows import PointRows
-from vorotool.formats.recognition import recognised
+from vorotool.formats.recognition import recognized
 from vorotool.numeric.checks import checked_threads
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import NAMES_WITH, SPACE_READERS, known_input_format
@@ -54,7 +54,7 @@ def read_xyz(
 def _rows(source: Source, said: str | None, options: ReadOptions) -> PointRows:
     if said == "npy" or (said is None and source.data.startswith(MAGIC)):
         return _of_array(source, options)
-    holds, source = recognised(source, "points", said, options.columns)
+    holds, source = recognized(source, "points", said, options.columns)
     reader = SPACE_READERS.get(source.format)
     if holds != "points" or reader is None:
         what = "an image" if holds == "image" else f"in the format {source.format}"

@@ -31,7 +31,7 @@ EXCLUDING = (
         "follows from the scale"),
     Rule(ALL, "aspect extent width y_up", "overlay", "a picture over an image has its size, and y downwards"),
     Rule(ALL, "background", "overlay", "the image itself is the background"),
-    Rule(ALL, "?scale_in_millimetres", "drawing_unit", "--scale S is in millimeters per unit"),
+    Rule(ALL, "?scale_in_millimeters", "drawing_unit", "--scale S is in millimeters per unit"),
     Rule("skeleton-exact", "thickness.png", "width overlay layers colors line_widths label_by aspect extent",
         "a picture of thickness has the pixels of the image, and colors of its own"),
     # ---- tessellations

@@ -1,4 +1,4 @@
-"""PNG pictures from layers: drawn four times as large without grey, then reduced."""
+"""PNG pictures from layers: drawn four times as large without gray, then reduced."""
 
 from __future__ import annotations
 

@@ -14,13 +14,13 @@ from vorotool.render.canvas.palettes import edge_color
 from vorotool.render.canvas.styles import PictureStyle
 
 PX = 96 / 25.4
-"""Of a millimetre."""
+"""Of a millimeter."""
 
 LARGEST = 1e6
-"""Millimetres: a kilometre of paper."""
+"""Millimeters: a kilometer of paper."""
 
 LEAST = 1e-3
-"""Millimetres: what is smaller has no digits left."""
+"""Millimeters: what is smaller has no digits left."""
 
 
 class ScaledPage(Page):
@@ -29,13 +29,13 @@ class ScaledPage(Page):
     decimals = 4
 
     def __init__(
-        self, bounds: tuple[float, float, float, float], *, y_up: bool, millimetres: float, margin: float = MARGIN
+        self, bounds: tuple[float, float, float, float], *, y_up: bool, millimeters: float, margin: float = MARGIN
     ) -> None:
         super().__init__(bounds, width=1000, y_up=y_up)
         low, high = np.ldexp(np.array(bounds, dtype=np.float64), -self._exponent).reshape(2, 2)
         span = high - low
         with np.errstate(over="ignore", under="ignore"):
-            scale = float(np.ldexp(millimetres, self._exponent))
+            scale = float(np.ldexp(millimeters, self._exponent))
             sides = [float(side) for side in (span + 2 * margin * (span.max() or 1.0)) * scale]
         if not (isfinite(scale) and min(sides) > 0 and LEAST <= max(sides) <= LARGEST):
             raise UsageError(

@@ -82,8 +82,8 @@ class LabelPicture:
     @property
     def shows_borders(self) -> bool:
         """Whether cells are wide enough for borders of a pixel."""
-        labelled = int(np.count_nonzero(self.image.labels))
-        return labelled >= LEAST_SPACING**2 * len(self.colors[0])
+        labeled = int(np.count_nonzero(self.image.labels))
+        return labeled >= LEAST_SPACING**2 * len(self.colors[0])
 
 
 def label_picture(

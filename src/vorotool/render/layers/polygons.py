@@ -129,7 +129,7 @@ shape_page = polygon_page
 
 # ---- what is drawn with the polygons that it is of: discs, offset curves, distances
 def disc_layers(discs: Discs, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of discs: the polygons light grey, circles, and where they touch."""
+    """Make layers of discs: the polygons light gray, circles, and where they touch."""
     wanted = checked_layers(layers, DISC_LAYERS)
     spacing = page.spacing(max(len(discs), 1))
     width = min(max(spacing / 16, 0.2), 1.5)

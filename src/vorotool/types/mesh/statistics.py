@@ -16,7 +16,7 @@ from vorotool.types.table import Table
 from vorotool.types.values import Tabular, Value, counted
 
 MEASURES = ("area", "perimeter", "roundness", "neighbors", "nearest_distance")
-"""Columns of cells that are summarised."""
+"""Columns of cells that are summarized."""
 
 
 @plain(eq=False, repr=False)
@@ -68,8 +68,8 @@ class CellStatistics(Value, Tabular):
         chosen["nearest_distance"] = chosen["nearest_distance"][np.isfinite(chosen["nearest_distance"])]
         edges = len(self.tree_lengths)
         unit = sqrt(self.area * (edges + 1)) / edges if edges else 1.0
-        normalised = self.tree_lengths / unit if unit > 0 else self.tree_lengths[:0]
-        return summary_table({**chosen, "tree_length": self.tree_lengths, "tree_normalised": normalised})
+        normalized = self.tree_lengths / unit if unit > 0 else self.tree_lengths[:0]
+        return summary_table({**chosen, "tree_length": self.tree_lengths, "tree_normalised": normalized})
 
     def _rows(self, what: str | None = None) -> Rows:
         return Rows(self.measures if what == "measures" else self.summary)
