@@ -73,6 +73,16 @@ def test_a_site_where_parts_of_a_clip_touch_is_in_both():
     verify_voronoi(cells)
 
 
+def test_a_line_through_a_corner_of_the_frame_does_not_run_along_it():
+    """Beside the corner by half a step of the lattice, it crosses the side a step from there, and is led through it."""
+    line = "LINESTRING (143.52380952380952 1.3, 147.1904761904762 4.966666666666666)"
+    frame = (142.52380952380952, 0.3, 1.3333333333333428, 1.3333333333333333)
+    for ends in ([line], [line, "LINESTRING (142.857 2.3, 143.19 2.3)"]):
+        cells = voronoi(["POINT (143.85714285714286 2.633333333333333)"], frame=frame, enclosures=ends)
+        assert cells.areas.tolist() == pytest.approx([16 / 9], rel=1e-6)
+        verify_voronoi(cells)
+
+
 # ---- limits that touch each other on a cut --------------------------------------------------------------
 def blocks(mask):
     """Unit squares, those of one number as one site."""
@@ -197,3 +207,11 @@ def test_the_checker_takes_ends_beside_lines_for_touching_or_not(site, lines, fr
     area = area_within(regions_of_cuts(sites, frame, options), np.array(sites), LIMIT)
     assert cells.areas.sum() == pytest.approx(area, rel=1e-6)
     verify_voronoi(cells, places=200)
+
+
+@pytest.mark.parametrize("seed", [272, 2946])
+def test_the_checker_takes_what_the_lattice_moves_for_right(seed):
+    """An end where edges of two clips cross, and a corner of the frame on an edge of the clip."""
+    sites, options = moved_scene(seed)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+        verify_voronoi(voronoi(sites, **options), places=200)

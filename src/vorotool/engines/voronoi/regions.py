@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.voronoi.joint_graph import JointGraph, packed
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
-from vorotool.numeric.ragged import owners, starts_of
+from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.numeric.sorted_sets import distinct, is_among
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -56,8 +56,8 @@ def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Region
         reason = "no area lies both in the frame and in the clip" if joint.of_clip else "the frame is too small"
         warn(VorotoolWarning(Message(f"all {count} cells are empty: {reason}", Kind.EMPTY_RESULT)))
     if len(joint.of_enclosures):
-        is_line = _has_source(graph, joint.of_enclosures)
-        face = _parted(graph, _faces(graph, is_line), is_line, shared)
+        is_line = np.bincount(owners(graph.source_count)[_is_of(joint.of_enclosures, graph)], minlength=len(graph)) > 0
+        face = _parted(joint, _faces(graph, is_line), is_line, shared)
         left, right = face[graph.segment_faces].T
         pairs = _meetings(joint, site, face, is_line & (left != right))
         pairs = pairs[np.isin(pairs[:, 0], face[shared])]
@@ -106,14 +106,13 @@ def _as_given(joint: JointGraph) -> Floats:
     return made
 
 
-def _has_source(graph: PlanarGraph, polygons: range) -> NDArray[np.bool_]:
-    """(m,) whether an edge of some polygons runs along each segment."""
+def _is_of(polygons: range, graph: PlanarGraph) -> NDArray[np.bool_]:
+    """(k,) whether each source of a segment is an edge of some polygons."""
     given = graph.polygons
     assert given is not None
     first = given.ring_starts[np.searchsorted(given.ring_polygon, [polygons.start, polygons.stop])]
-    is_source = (graph.source_edge >= first[0]) & (graph.source_edge < first[1])
-    has: NDArray[np.bool_] = np.bincount(owners(graph.source_count)[is_source], minlength=len(graph)) > 0
-    return has
+    is_source: NDArray[np.bool_] = (graph.source_edge >= first[0]) & (graph.source_edge < first[1])
+    return is_source
 
 
 def _faces(graph: PlanarGraph, is_line: NDArray[np.bool_]) -> Indices:
@@ -123,16 +122,41 @@ def _faces(graph: PlanarGraph, is_line: NDArray[np.bool_]) -> Indices:
     return root
 
 
-def _parted(graph: PlanarGraph, face: Indices, is_line: NDArray[np.bool_], shared: NDArray[np.bool_]) -> Indices:
+def _parted(joint: JointGraph, face: Indices, is_line: NDArray[np.bool_], shared: NDArray[np.bool_]) -> Indices:
     """(f,) the faces once more, those in parts that a line with open ends divides together with the frame or a clip."""
+    graph = joint.graph
     left, right = graph.segment_faces.T
     is_inner = shared[left] & shared[right]
     joined = graph.segment_faces[~is_line & is_inner].astype(np.int32)
     part = _core.graphs.connected_components(joined, graph.faces).astype(np.int64)
-    is_along = shared[left] != shared[right]  # an edge of the frame or the clip
+    is_along = is_line & (shared[left] != shared[right])  # an edge of the frame or the clip
+    is_along[is_along] = _run_together(joint, np.flatnonzero(is_along))
     divides = is_line & (face[left] == face[right]) & (is_along | (is_inner & (part[left] != part[right])))
     is_parted = np.isin(face, face[left[divides]])
     return np.where(is_parted, np.where(shared, graph.faces + part, 2 * graph.faces), face)
+
+
+def _run_together(joint: JointGraph, segments: Indices) -> NDArray[np.bool_]:
+    """(k,) whether a line and an edge of the frame or the clip that share a segment may be parallel as they are given.
+
+    Others cross, and are led through one more place of the lattice together.
+    """
+    graph = joint.graph
+    given, vertices = graph.polygons, graph.vertices
+    assert given is not None
+    assert vertices is not None
+    sizes = graph.source_count[segments].astype(np.int64)
+    row, source = owners(sizes), ranges(graph.source_starts[segments], sizes)
+    own = np.flatnonzero(_is_of(joint.of_enclosures, graph)[source])
+    pair = ranges(graph.source_starts[segments[row[own]]], sizes[row[own]])  # each line with all on its segment
+    row, line = np.repeat(row[own], sizes[row[own]]), np.repeat(source[own], sizes[row[own]])
+    first = joint.of_clip.start - (joint.frame >= 0)
+    is_cut = _is_of(range(first, joint.of_clip.stop), graph)[pair]
+    way = vertices[given.following].astype(np.int64) - vertices
+    (a, b), (c, d) = way[graph.source_edge[line[is_cut]]].T, way[graph.source_edge[pair[is_cut]]].T
+    # rounding moves each coordinate of an end by half a step at most, and those of a way between two by a step
+    is_parallel = np.abs(a * d - b * c) <= np.abs(a) + np.abs(b) + np.abs(c) + np.abs(d) + 2
+    return np.bincount(row[is_cut][is_parallel], minlength=len(segments)) > 0
 
 
 def _is_shared_out(joint: JointGraph) -> NDArray[np.bool_]:

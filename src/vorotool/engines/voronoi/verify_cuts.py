@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.types.box import corners_of
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.used_shapes import used_shapes
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
@@ -44,6 +46,9 @@ class EnclosedFaces:
             _Faces(shared, lines, border, geometry, near),
             _Faces(shared, met, inner, geometry, near),
         ]
+        apart = _apart(cells, lines, border, 2 * near)
+        if (apart != lines).any():
+            self.readings.append(_Faces(shared, apart, border, geometry, near))
         self.boundaries = shapely.boundary(np.concatenate([each.shapes for each in self.readings]))
 
     def least(self, places: Floats) -> Floats:
@@ -55,6 +60,23 @@ class EnclosedFaces:
         """(k,) whether a site may meet the face of each place."""
         fits: NDArray[np.bool_] = np.logical_or.reduce([each.may_have(places, rows) for each in self.readings])
         return fits
+
+
+def _apart(cells: VoronoiMap, lines: NDArray[Any], border: Any, near: float) -> NDArray[Any]:
+    """Take from lines their ends that are on others, or on a border, as far as doubles tell and at no vertex of it."""
+    import shapely
+
+    cuts = [each.xy for each in (cells.enclosures, cells.clip) if each is not None]
+    passes = Counter(map(tuple, np.concatenate([*cuts, corners_of(cells.frame)]).tolist()))
+    ends, line = shapely.get_coordinates(shapely.boundary(lines), return_index=True)
+    is_lone = np.array([passes[x, y] == 1 for x, y in ends.tolist()], dtype=bool)
+    ends, line = shapely.points(ends[is_lone]), line[is_lone]
+    end, other = shapely.STRtree([*lines, border]).query(ends, predicate="dwithin", distance=near)
+    end = np.unique(end[other != line[end]])
+    made = lines.copy()
+    for k in np.unique(line[end]).tolist():
+        made[k] = shapely.difference(made[k], shapely.union_all(shapely.buffer(ends[end[line[end] == k]], near)))
+    return made
 
 
 class _Faces:
