@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from vorotool import __version__
 from vorotool.batch.tasks import Outcome, Process, Task, carry_out, keep_busy
 from vorotool.errors import OutputError, UsageError, VorotoolError
-from vorotool.formats.zarr.arrays import open_array, write_rows
-from vorotool.formats.zarr.volumes import write_slices
+from vorotool.formats.zarr.writer import open_array, write_rows, write_slices
 
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.bands import Band

@@ -43,7 +43,7 @@ class Input:
 
 def pages_of(inputs: Iterable[Input]) -> list[Input]:
     """Return each page of the images among inputs as an input, whose outputs are named after it: ``stack-p003``."""
-    from vorotool.formats.pages import page_count
+    from vorotool.formats.images.image_header import page_count
 
     pages: list[Input] = []
     for each in inputs:

@@ -34,7 +34,7 @@ def shapely_of(geometry: Geometry | NDArray[Any] | None) -> NDArray[Any]:
     elif isinstance(geometry, Lines):
         made = lines(geometry)
     elif isinstance(geometry, Areas):
-        valid = resolved("formats.written.rings:valid_coverage")  # as it would be written without decimals
+        valid = resolved("formats.text.rings:valid_coverage")  # as it would be written without decimals
         made = valid(geometry.xy, geometry.nesting, in_box=geometry.in_box)
     elif isinstance(geometry, np.ndarray):
         made = geometry

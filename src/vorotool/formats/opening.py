@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from os import PathLike, fspath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vorotool.errors import InputError, UsageError
-from vorotool.formats.images.banded import open_tiff, open_zarr
+from vorotool.errors import InputError, UsageError, option
+from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognized, recognized, refuse_for_images
+from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.numbers import Flatten, checked_flatten, checked_tolerance
 from vorotool.plain import plain
@@ -128,3 +131,40 @@ def _member(crs: str) -> dict[str, Any]:
     if member is None:
         raise UsageError(f"{crs!r} is not a coordinate reference system: write authority and code, such as EPSG:3857")
     return member
+
+
+TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
+
+
+def open_tiff(name: str, input_format: str | None = None, page: int | None = None) -> TiffRows | None:
+    """Open a page of a TIFF file that can be read band by band; None if it is none, or comes through a stream."""
+    if input_format not in (None, "tiff") or not _begins_as_tiff(name):
+        return None
+    from vorotool.formats.images.band_reader import TiffRows
+
+    rows = TiffRows(name, str(Path(name).absolute()), page)
+    return rows if rows.is_plain else None
+
+
+def _begins_as_tiff(name: str) -> bool:
+    """Whether a file begins as a TIFF does; streams, which have one beginning only, are read whole elsewhere."""
+    try:
+        if stream_kind(name) is not None:
+            return False
+        with Path(name).open("rb") as file:
+            return file.read(4) in TIFF_MAGIC
+    except (OSError, ValueError):  # who reads it says why
+        return False
+
+
+def open_zarr(name: str, input_format: str | None = None, page: int | None = None) -> ZarrRows | None:
+    """Open what is, or should be, a Zarr array: a folder that holds one, or is named or said to; None if it is none."""
+    if input_format not in (None, "zarr") or not is_folder(name):
+        return None
+    if input_format is None and not is_store(name) and not name.rstrip(os.sep).lower().endswith(".zarr"):
+        return None
+    if page not in (None, 0):
+        raise InputError(f"{name} has a single page: {option(f'--page {page}')} does not exist")
+    from vorotool.formats.images.band_reader import ZarrRows
+
+    return ZarrRows(name, str(Path(name).absolute()))

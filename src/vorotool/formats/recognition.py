@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
-from vorotool.formats.images.magic import PICTURES, looks_like_pnm, picture_format
 from vorotool.formats.io.npy_arrays import MAGIC, npy_header
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
@@ -127,3 +127,32 @@ def _result(data: bytes) -> Holds | None:
     """What of ours text looks like the JSON of, which is not parsed to tell."""
     found = next((holds for kind, holds in _RESULTS.items() if kind in data), None)
     return found if found and data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") else None
+
+
+PICTURES = {"jpeg": "JPEG", "bmp": "BMP", "gif": "GIF", "webp": "WebP", "avif": "AVIF"}
+"""Formats and what they are called."""
+_BMP_HEADERS = (12, 16, 40, 52, 56, 64, 108, 124)
+
+GAP = rb"(?:\s|#[^\n\r]*[\n\r])+"
+"""Between the numbers of a header of PBM, PGM or PPM: space and comments."""
+_START = re.compile(rb"P([1-6])" + GAP + rb"(?=[0-9])")
+
+
+def picture_format(data: bytes) -> str | None:
+    """Which of `PICTURES` data begins as."""
+    if data.startswith(b"\xff\xd8\xff"):
+        return "jpeg"
+    if data.startswith((b"GIF87a", b"GIF89a")):
+        return "gif"
+    if data.startswith(b"RIFF") and data[8:12] == b"WEBP":
+        return "webp"
+    if data[4:12] in (b"ftypavif", b"ftypavis"):
+        return "avif"
+    if data.startswith(b"BM") and int.from_bytes(data[14:18], "little") in _BMP_HEADERS:
+        return "bmp"
+    return None
+
+
+def looks_like_pnm(data: bytes) -> bool:
+    """Tell whether data begins as a PBM, PGM or PPM file: P1 to P6, space or comments, a number."""
+    return _START.match(data[:65_536]) is not None

@@ -1,17 +1,16 @@
-"""The format of points, polygons and lines, which of them it holds, and its text."""
+"""The format of points, polygons, lines and drawings, which of them a source holds, and its text."""
 
 from __future__ import annotations
 
 import re
+import zlib
 from dataclasses import replace
 
-from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
-from vorotool.formats.drawing.recognition import drawing_format, refuse_drawing
+from vorotool.errors import INPUT_FORMAT, OTSU, InputError, UsageError, option
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.convertible import refuse_convertible
-from vorotool.formats.parsing.geojson import holds_shapes, parse_json
-from vorotool.formats.parsing.json_lines import RECORD_MARK, is_json_lines
+from vorotool.formats.parsing.json import RECORD_MARK, holds_shapes, is_json_lines, parse_json
 from vorotool.formats.parsing.npz_columns import NPZ_MAGIC, npz_holds
 from vorotool.formats.points.delimited import geometry_column, has_coordinates, header_fields
 from vorotool.products.formats import resolved
@@ -75,7 +74,7 @@ def _by_header(source: Source, chosen: str, columns: str | None = None) -> str:
 
 
 def _holds_shapefile(data: bytes) -> bool:
-    holds: bool = resolved("formats.features.shapefile_parts:holds_shapefile")(data)
+    holds: bool = resolved("formats.gis.shapefile:holds_shapefile")(data)
     return holds
 
 
@@ -131,7 +130,7 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
         return "points", _points(source, chosen, None)
     source = _with_format(source, chosen)
     if INPUTS[chosen].features:
-        source = replace(source, document=resolved("formats.features.reading:features_of")(source))
+        source = replace(source, document=resolved("formats.gis.reading:features_of")(source))
         return ("polygons" if source.document.holds_shapes else "points"), source
     if chosen == "npz":
         return npz_holds(source.data), source
@@ -205,3 +204,43 @@ def text_source(source: Source, chosen: str) -> Source:
     data = source.data.removeprefix(_UTF8_MARK)
     is_lines = chosen in ("json", "geojson") and is_json_lines(data)
     return replace(source, data=data, format="jsonl" if is_lines else chosen)
+
+
+_TAKERS = option("skeleton-exact, skeleton-approx or draw", "skeleton_exact or skeleton_approx")
+
+SUFFIXES = {".svg": "svg", ".svgz": "svg", ".dxf": "dxf"}
+_HEAD = 4096
+_SVG = re.compile(
+    rb"(\xef\xbb\xbf)?(<\?xml[^>]*>|<!--.*?-->|<!DOCTYPE[^>\[]*(\[.*?\]\s*)?>|\s++)*+<([\w-]+:)?svg[\s>]", re.DOTALL
+)
+_DXF = re.compile(rb"(\xef\xbb\xbf)?\s*(999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n")
+BINARY_DXF = b"AutoCAD Binary DXF\r\n\x1a\0"
+
+
+def drawing_format(source: Source) -> str | None:
+    """Tell the format of a drawing by the extension, else by the content; None if it is none."""
+    by_suffix = SUFFIXES.get(source.suffix)
+    if by_suffix is not None and source.data.strip():
+        return by_suffix
+    head = source.data[:_HEAD]
+    if head.startswith(b"\x1f\x8b"):
+        head = _unpacked_head(head)
+    if _SVG.match(head):
+        return "svg"
+    return "dxf" if head.startswith(BINARY_DXF) or _DXF.match(head) else None
+
+
+def _unpacked_head(head: bytes) -> bytes:
+    try:
+        return zlib.decompressobj(16 + zlib.MAX_WBITS).decompress(head, _HEAD)
+    except zlib.error:
+        return b""
+
+
+def refuse_drawing(source: Source) -> None:
+    """Refuse a drawing where points are due."""
+    if drawing_format(source) is not None:
+        raise InputError(
+            f"{source.name} is a drawing (polygons and lines), but points or an image are expected: use {_TAKERS}, or "
+            f"convert the drawing to an image and use {OTSU}"
+        )

@@ -268,7 +268,7 @@ def read_backdrop(o: Options) -> Backdrop | None:
     import io
 
     from vorotool.formats.images.png_writer import write_png
-    from vorotool.formats.images.rgb_reader import picture_and_grid
+    from vorotool.formats.images.reader import picture_and_grid
     from vorotool.formats.io.sources import read_source, reading
     from vorotool.formats.parsing.reader_options import ReadOptions
     from vorotool.formats.recognition import image_source

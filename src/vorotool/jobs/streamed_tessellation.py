@@ -67,7 +67,7 @@ class StreamedProducts(Streamed):
         self.grid = written_grid(options.pixel_size, image.grid)
         if image.note:
             run.note(image.note)
-        from vorotool.formats.zarr.arrays import CHUNK
+        from vorotool.formats.zarr.writer import CHUNK
 
         assert options.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held
         assert options.threshold != "otsu"

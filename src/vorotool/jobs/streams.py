@@ -85,7 +85,7 @@ class Streamed(Results):
         if target.what not in STREAMED:
             super().write_data(out, target)
             return
-        from vorotool.formats.io.disk_space import check_space
+        from vorotool.formats.io.descriptors import check_space
 
         stream, fmt, threads = self.stream(target.what), target.fmt, self.options.threads
         whole = stream.frame.shape[0]
@@ -101,10 +101,9 @@ class Streamed(Results):
 
     def write_store(self, target: Target, rules: Mapping[str, Any]) -> None:
         """Write an image or a volume to a Zarr store, if there is room for it: here, or on a cluster."""
-        from vorotool.formats.io.disk_space import check_space
-        from vorotool.formats.zarr.arrays import create_array
+        from vorotool.formats.io.descriptors import check_space
         from vorotool.formats.zarr.store import open_store
-        from vorotool.formats.zarr.volumes import add_levels
+        from vorotool.formats.zarr.writer import add_levels, create_array
 
         o, stream = self.options, self.stream(target.what)
         shape, dtype, chunks = stream.frame.shape, stream.dtype, check_chunks(o, stream)
@@ -197,8 +196,7 @@ class Tessellated(Streamed):
 
 def check_chunks(o: Options, stream: Stream) -> tuple[int, ...]:
     """Choose rows and columns of the chunks of a store, or slices, rows and columns."""
-    from vorotool.formats.zarr.arrays import chunks_of, zarr_module
-    from vorotool.formats.zarr.volumes import volume_chunks
+    from vorotool.formats.zarr.writer import chunks_of, volume_chunks, zarr_module
 
     zarr_module()
     is_image = isinstance(stream.frame, Frame)
@@ -219,7 +217,7 @@ def scale_of_squares(step: Fraction) -> float | None:
 
 def _levels(o: Options, shape: tuple[int, ...]) -> int:
     """Return the number of coarser copies."""
-    from vorotool.formats.zarr.volumes import usual_levels
+    from vorotool.formats.zarr.writer import usual_levels
 
     assert o.levels is None or len(shape) == 3  # the command refuses copies of images
     return usual_levels(shape) if o.levels == AUTO_LEVELS else o.levels or 0  # type: ignore[arg-type]
@@ -228,7 +226,7 @@ def _levels(o: Options, shape: tuple[int, ...]) -> int:
 def _folder(store: Path, target: Target, stream: Stream) -> Path:
     """Return where the array of a store is."""
     from vorotool.formats.zarr.multiscales import array_folder
-    from vorotool.formats.zarr.volumes import volume_folder
+    from vorotool.formats.zarr.writer import volume_folder
 
     place: Any = array_folder if isinstance(stream.frame, Frame) else volume_folder
     folder: Path = place(store, target.path, grid=stream.about.get("grid"), is_labels=target.what == "labels")
@@ -244,8 +242,7 @@ def _of_chunks(stream: Stream, count: int) -> Limits:
 
 def _write_chunks(array: Any, first: int, part: NDArray[Any], *, threads: int) -> None:
     """Write rows or slices of whole chunks."""
-    from vorotool.formats.zarr.arrays import write_rows
-    from vorotool.formats.zarr.volumes import write_slices
+    from vorotool.formats.zarr.writer import write_rows, write_slices
 
     (write_rows if part.ndim == 2 else write_slices)(array, first, part, threads=threads)
 

@@ -124,12 +124,12 @@ def check_targets(options: Options, targets: Sequence[Target], source: str) -> N
         else:
             check_output(target.path, binary=target.is_binary, option=named_by, **rules)
             if target.fmt == "gpkg" and stream_kind(target.path) is None:
-                from vorotool.formats.features.geopackage import check_layers
+                from vorotool.formats.gis.geopackage import check_layers
 
                 layers = [each.what for each in targets if each.path == target.path]
                 check_layers(target.path, layers, overwrite=options.overwrite)
             if FORMATS[target.fmt].parts:
-                from vorotool.formats.features.shapefile_parts import check_parts
+                from vorotool.formats.gis.shapefile import check_parts
 
                 replaced = Rules(options.no_clobber, rules["inputs"], named_by)
                 check_parts(target.path, replaced, makes_folder=rules["makes_folder"])

@@ -155,7 +155,7 @@ def write(
                 raise UsageError(f"{option} applies to pictures: use fmt='svg' or fmt='png', or leave it out")
         product = _part(value, chosen, what, flatten)
         if chosen == "gpkg" and stream_kind(path) is None:
-            from vorotool.formats.features.geopackage import check_layers
+            from vorotool.formats.gis.geopackage import check_layers
 
             check_layers(path, (product.what,), overwrite=overwrite)
         with coordinates_written(decimals), columns_wanted(with_columns), unit_member(own_unit(value)):
@@ -342,8 +342,7 @@ class _Value(Results):
 
     def write_store(self, target: Target, rules: Mapping[str, Any]) -> None:
         """Write an image or a volume to a Zarr store."""
-        from vorotool.formats.zarr.arrays import write_zarr
-        from vorotool.formats.zarr.volumes import write_zarr_volume
+        from vorotool.formats.zarr.writer import write_zarr, write_zarr_volume
 
         value, more = self._value, {"grid": self._value.grid, "threads": self.options.threads}
         if is_of(value, "LabelImage"):

@@ -56,8 +56,9 @@ def _of_objects(name: str, title: str, extensions: tuple[str, ...], maker: str) 
 
 def _of_maps(name: str, title: str, maker: str, sources: tuple[str, ...] = ("geojson",), **more: Any) -> Format:
     """Give a format of features of maps, or of the rows of tables where it can hold these."""
-    place = f"formats.features.feature_writers:{maker}"
-    return Format(name, title, is_text=False, flattens=True, made_from=sources, maker=place, is_map=True, **more)
+    return Format(
+        name, title, is_text=False, flattens=True, made_from=sources, maker=f"formats.gis.{maker}", is_map=True, **more
+    )
 
 
 _GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten", "precision", "threads"))
@@ -81,10 +82,12 @@ _ALL = (
     Format("poly", "Triangle", has_digits=True),
     Format("graphml", "GraphML", has_digits=True, flattens=True, writers={"skeleton": _GRAPHML}),
     _of_objects("jsonl", "JSON lines", ("jsonl", "ndjson"), "formats.text.json_lines:JsonLines"),
-    _of_maps("gpkg", "GeoPackage", "GeoPackage", ("geojson", "json")),
-    _of_maps("fgb", "FlatGeobuf", "FlatGeobuf"),
-    _of_maps("shp", "Shapefile", "Shapefile", parts=(".shx", ".dbf", ".prj", ".cpg")),
-    _of_maps("parquet", "GeoParquet", "GeoParquet", ("geojson", "json"), extensions=("parquet", "geoparquet")),
+    _of_maps("gpkg", "GeoPackage", "geopackage:GeoPackage", ("geojson", "json")),
+    _of_maps("fgb", "FlatGeobuf", "vector_files:FlatGeobuf"),
+    _of_maps("shp", "Shapefile", "shapefile:Shapefile", parts=(".shx", ".dbf", ".prj", ".cpg")),
+    _of_maps(
+        "parquet", "GeoParquet", "geoparquet:GeoParquet", ("geojson", "json"), extensions=("parquet", "geoparquet")
+    ),
     Format("dxf", "DXF", writer=_DXF, beside="geojson"),
     Format("html", "HTML"),
     Format("gif", "GIF", is_text=False, is_image=True),

@@ -31,19 +31,21 @@ def _of(name: str, *names: str, has: str = "", features: str = "", **readers: st
     return InputFormat(name, names or (name,), held, frozenset(has.split()), features)
 
 
-def _of_maps(name: str, *names: str, module: str = "vector_files", has: str = "bytes layers") -> InputFormat:
+def _of_maps(
+    name: str, *names: str, reader: str = "vector_files:features_of", has: str = "bytes layers"
+) -> InputFormat:
     """Give a format of features of maps: points, polygons and lines alike."""
-    features = f"formats.features.{module}:features_of"
+    features = f"formats.gis.{reader}"
     return _of(name, *names, has=has, features=features, points=_FEATURES[0], polygons=_FEATURES[1], sites=_FEATURES[2])
 
 
-_FEATURES = tuple(f"formats.features.reading:read_{each}" for each in ("points", "polygons", "sites"))
+_FEATURES = tuple(f"formats.gis.reading:read_{each}" for each in ("points", "polygons", "sites"))
 _IMAGE = "formats.images.reader:read_image"
 _ALL = (
     _of(
         "csv",
         *("csv", "tsv", "txt"),
-        features="formats.features.delimited_geometry:features_of",
+        features="formats.gis.well_known:features_of_rows",
         points="formats.points.delimited:read_text",
         polygons=_FEATURES[1],
         sites=_FEATURES[2],
@@ -59,7 +61,7 @@ _ALL = (
         offsets="formats.results.offset_files:read_archive",
         voronoi="formats.results.voronoi_files:read_archive",
     ),
-    _of_maps("csv-wkt", module="delimited_geometry", has=""),
+    _of_maps("csv-wkt", reader="well_known:features_of_rows", has=""),
     _of(
         "geojson",
         points="formats.points.json:read_geojson",
@@ -89,13 +91,13 @@ _ALL = (
         sites="formats.polygons.json:read_sites",
     ),
     _of("poly", polygons="formats.polygons.poly:read_poly"),
-    _of_maps("gpkg", module="geopackage"),
+    _of_maps("gpkg", reader="geopackage:features_of"),
     _of_maps("fgb"),
     _of_maps("shp", "shp", "shz"),
     _of_maps("kml"),
     _of_maps("gpx"),
-    _of_maps("parquet", "parquet", "geoparquet", module="geoparquet", has="bytes"),
-    _of_maps("wkb", module="wkb", has="bytes"),
+    _of_maps("parquet", "parquet", "geoparquet", reader="geoparquet:features_of", has="bytes"),
+    _of_maps("wkb", reader="well_known:features_of_binary", has="bytes"),
     _of("svg", "svg", "svgz", has="bytes curves", polygons="formats.drawing.svg_reader:read_svg"),
     _of("dxf", has="bytes curves", polygons="formats.drawing.dxf_reader:read_dxf"),
     _of("png", image=_IMAGE),
@@ -119,7 +121,7 @@ SPACE_READERS = {
     "wkt": "formats.points.wkt:wkt_rows",
     "npz": "formats.points.tables:npz_rows",
     "node": "formats.points.node:node_rows",
-    **{each.name: "formats.features.reading:point_rows" for each in _ALL if each.features and each.name != "csv"},
+    **{each.name: "formats.gis.reading:point_rows" for each in _ALL if each.features and each.name != "csv"},
 }
 """Formats whose points may have a z, and ``module:function`` of ``function(source, options)`` that reads it."""
 

@@ -121,8 +121,8 @@ _VOLUMES = (
 # ---- delaunay ------------------------------------------------------------------------------------
 _MESH = dict.fromkeys(("obj", "edge", "ele", "node"), Writer("formats.results.meshes:write_mesh"))
 _CELLS = {
-    "json": Writer("formats.results.cells:write_json", ("precision", "threads")),
-    "npz": Writer("formats.results.cells:write_arrays", ("threads",)),
+    "json": Writer("formats.results.features:write_cells_json", ("precision", "threads")),
+    "npz": Writer("formats.results.features:write_cells_arrays", ("threads",)),
 }
 _MESHES = "Triangulation DigitalTriangulation"
 _EDGED = f"{_MESHES} ProximityGraph"
@@ -186,7 +186,7 @@ def _documents(module: str) -> dict[str, Writer]:
 
 
 _SKELETON, _OFFSETS = _documents("skeleton_files"), _documents("offset_files")
-_THICKNESS = Writer("formats.results.thickness:write_thickness", ("fmt", "threads"))
+_THICKNESS = Writer("formats.images.label_images:write_thickness", ("fmt", "threads"))
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels", "render.layers.skeleton:skeleton")
 _DIAGRAM = _ARCS._replace(drawn_by="render.layers.skeleton:diagram")

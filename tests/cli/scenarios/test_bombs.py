@@ -171,9 +171,9 @@ def test_a_bomb_is_refused(tmp_path, kind):
 TELLING = """
 import sys
 from vorotool.cli.main import main
-from vorotool.formats.images import tiff_segments
+from vorotool.formats.images import tiff_layout
 
-unpack = tiff_segments._unpacked
+unpack = tiff_layout._unpacked
 
 
 def telling(*arguments):
@@ -183,7 +183,7 @@ def telling(*arguments):
     return unpacked
 
 
-tiff_segments._unpacked = telling
+tiff_layout._unpacked = telling
 main()
 """
 

@@ -8,7 +8,7 @@ import pytest
 import shapely
 
 from vorotool import UsageError, read
-from vorotool.formats.features import feature_writers
+from vorotool.formats.gis import geopackage
 
 LAYERS = {
     "lakes": [shapely.box(0, 0, 10, 4), shapely.box(20, 0, 24, 10)],
@@ -171,16 +171,16 @@ def test_layers_that_a_run_does_not_write_are_kept(run, towns):
 def test_all_layers_are_written_or_none(run, towns, monkeypatch, fault):
     (towns / "x.gpkg").write_text("older")
     if fault == "index":
-        monkeypatch.setattr(feature_writers, "has_index", lambda *_: False)
+        monkeypatch.setattr(geopackage, "has_index", lambda *_: False)
     else:
-        write = feature_writers.GeoPackage._write
+        write = geopackage.GeoPackage.gdal_write
 
         def failing(self, out, *args, **options):
             if self._what == "cells":
                 raise OSError(28, "No space left on device")
             write(self, out, *args, **options)
 
-        monkeypatch.setattr(feature_writers.GeoPackage, "_write", failing)
+        monkeypatch.setattr(geopackage.GeoPackage, "gdal_write", failing)
     done = run("delaunay", "odddots.geojson", "--what", "edges,cells,table", "-o", "x.gpkg")
     assert (done.code, "x.gpkg cannot be written: No space left" in done.err) == (4, True)
     assert (towns / "x.gpkg").read_text() == "older"

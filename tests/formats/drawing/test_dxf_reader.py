@@ -15,7 +15,7 @@ import vorotool
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.drawing import dxf_reader
 from vorotool.formats.drawing.curves import Curve, Line
-from vorotool.formats.drawing.joining import joined
+from vorotool.formats.drawing.polygons import joined
 from vorotool.types.polygons.conversion import to_shapely
 
 

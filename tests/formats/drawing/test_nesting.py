@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from vorotool.errors import LimitError
-from vorotool.formats.drawing import fill_rules, nesting
+from vorotool.formats.drawing import fill_rules
 from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
 
 RULES = ("nonzero", "evenodd")
@@ -71,14 +71,14 @@ def test_one_ring_that_crosses_hundreds():
 
 def test_the_sign_of_a_side_is_exact():
     a, b = (0.1, 0.1), (0.7, 0.7)
-    assert nesting._side(a, b, (0.3, 0.3)) == 0
-    assert nesting._side(a, b, (0.3, np.nextafter(0.3, 1))) > 0 > nesting._side(a, b, (0.3, np.nextafter(0.3, 0)))
-    assert nesting._side((0.0, 0.0), (1e-200, 1e-200), (1e-200, 2e-200)) > 0
-    assert nesting._side((0.0, 0.0), (1e200, 1e200), (1e200, 2e200)) > 0
+    assert fill_rules._side(a, b, (0.3, 0.3)) == 0
+    assert fill_rules._side(a, b, (0.3, np.nextafter(0.3, 1))) > 0 > fill_rules._side(a, b, (0.3, np.nextafter(0.3, 0)))
+    assert fill_rules._side((0.0, 0.0), (1e-200, 1e-200), (1e-200, 2e-200)) > 0
+    assert fill_rules._side((0.0, 0.0), (1e200, 1e200), (1e200, 2e200)) > 0
 
 
 def test_rings_that_touch_without_end_are_refused(monkeypatch):
-    monkeypatch.setattr(nesting, "MOST_MEETINGS", 1000)
+    monkeypatch.setattr(fill_rules, "MOST_MEETINGS", 1000)
     rings = [square(0, 1 + k) for k in range(400)]  # all along the same two lines
     with pytest.raises(LimitError, match="1000"):
         filled_polygons(rings, "evenodd")

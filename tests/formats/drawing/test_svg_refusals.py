@@ -9,7 +9,7 @@ import pytest
 import vorotool
 from support.readers.svg_reading import read, svg
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.formats.drawing import svg_document, xml_tree
+from vorotool.formats.drawing import svg_document
 
 # ---- what is refused -----------------------------------------------------------------------------
 REFUSED = [
@@ -115,7 +115,7 @@ def test_a_bomb_is_not_unpacked():
 
 
 def test_many_elements_are_refused(monkeypatch):
-    monkeypatch.setattr(xml_tree, "MOST_ELEMENTS", 100)
+    monkeypatch.setattr(svg_document, "MOST_ELEMENTS", 100)
     with pytest.raises(LimitError, match="100"):
         svg("<g/>" * 100)
     monkeypatch.setattr(svg_document, "MOST_REPEATED", 10)

@@ -5,9 +5,8 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from vorotool.formats.drawing import windings as module
-from vorotool.formats.drawing.fill_rules import filled_polygons
-from vorotool.formats.drawing.windings import windings
+from vorotool.formats.drawing import fill_rules as module
+from vorotool.formats.drawing.fill_rules import filled_polygons, windings
 
 
 def counted(rings, places):

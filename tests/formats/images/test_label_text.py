@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vorotool.errors import LimitError
-from vorotool.formats.images.label_text import write_label_text
+from vorotool.formats.images.label_images import write_label_text
 
 
 def test_columns_are_aligned_and_read_back() -> None:

@@ -5,7 +5,7 @@ import pytest
 import tifffile
 
 import vorotool
-from vorotool.formats.pages import page_count
+from vorotool.formats.images.image_header import page_count
 
 
 @pytest.mark.parametrize("kinds", [[1], [1, 1]])

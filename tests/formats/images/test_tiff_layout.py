@@ -193,7 +193,7 @@ def test_rows_of_a_strip_are_read_alone(tmp_path):
     tifffile.imwrite(tmp_path / "a.tif", image)  # what is read now was not read before
     np.testing.assert_array_equal(rows.rows(500, 3), image[500:503])
     read = []
-    from vorotool.formats.images.tiff_segments import decode_rows
+    from vorotool.formats.images.tiff_layout import decode_rows
 
     layout = rows._layout
 

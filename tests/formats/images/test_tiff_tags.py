@@ -9,8 +9,8 @@ import pytest
 import vorotool
 from support.processes.peak_memory import watched
 from vorotool.errors import InputError, LimitError
-from vorotool.formats.images import tiff_tags
-from vorotool.formats.pages import page_count
+from vorotool.formats.images import tiff_reader
+from vorotool.formats.images.image_header import page_count
 from vorotool.formats.volumes.opening import open_volume
 
 CLASSIC, BIG = ("H", "HHI", "I"), ("Q", "HHQ", "Q")
@@ -109,7 +109,7 @@ def test_a_page_behind_the_end(tmp_path):
 
 
 def test_more_pages_than_are_read(tmp_path, monkeypatch):
-    monkeypatch.setattr(tiff_tags, "MOST_ENTRIES", 100)
+    monkeypatch.setattr(tiff_reader, "MOST_ENTRIES", 100)
     assert open_volume(written(tmp_path, chain(pages(10), [*range(1, 10), None]))).shape == (10, 1, 1)
     path = written(tmp_path, chain(pages(11), [*range(1, 11), None]))
     for read in (vorotool.read, open_volume_and_look):
@@ -123,7 +123,7 @@ def test_pages_that_share_a_long_text(tmp_path, monkeypatch):
     shared = [{**page, 270: (ASCII, len(text), "text")} for page in pages(40)]
     path = written(tmp_path, chain(shared, [*range(1, 40), None], text=text))
     assert open_volume(path).shape == (40, 1, 1)
-    monkeypatch.setattr(tiff_tags, "_SPARE", 0)
+    monkeypatch.setattr(tiff_reader, "_SPARE", 0)
     with pytest.raises(InputError, match=rf"a\.tif.* {path.stat().st_size} bytes"):
         open_volume(path).shape  # noqa: B018
 

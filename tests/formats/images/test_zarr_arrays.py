@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from vorotool.errors import OutputError, UsageError
-from vorotool.formats.io.disk_space import check_space
-from vorotool.formats.zarr.arrays import chunks_of, create_array, open_array, write_rows, write_zarr, zarr_module
+from vorotool.formats.io.descriptors import check_space
+from vorotool.formats.zarr.writer import chunks_of, create_array, open_array, write_rows, write_zarr, zarr_module
 
 zarr = pytest.importorskip("zarr")
 IMAGE = np.random.default_rng(1).integers(0, 9, (70, 50)).cumsum(axis=1).astype(np.uint16)

@@ -14,7 +14,7 @@ from vorotool.errors import InputError, LimitError, OutputError, UsageError
 from vorotool.formats.volumes.opening import open_volume, read_volume
 from vorotool.formats.volumes.writer import write_volume
 from vorotool.formats.zarr.store import check_store
-from vorotool.formats.zarr.volumes import (
+from vorotool.formats.zarr.writer import (
     create_volume,
     usual_levels,
     volume_chunks,

@@ -8,7 +8,7 @@ import pytest
 from support.readers.sources import read_as
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.polygons.writer import write_polygons
+from vorotool.formats.results.features import write_polygons
 from vorotool.numeric.coordinate_grid import coordinates_written
 
 

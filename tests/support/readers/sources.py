@@ -1,8 +1,7 @@
 """Reads a source as `vorotool.read` does, without a file."""
 
 from vorotool.formats.images.label_images import label_image_of
-from vorotool.formats.images.reader import read_image
-from vorotool.formats.images.rgb_reader import picture_and_grid
+from vorotool.formats.images.reader import picture_and_grid, read_image
 from vorotool.formats.io.sources import Source
 from vorotool.formats.opening import opened
 from vorotool.formats.parsing.reader_options import ReadOptions

@@ -1,15 +1,18 @@
-"""A DXF drawing in memory: what is added goes to a layer, and the bytes depend on nothing but that."""
+"""A DXF drawing in memory, whose bytes depend only on what is added to it; and the import of ezdxf."""
 
 from __future__ import annotations
 
 import io
+import logging
+import sys
 from collections.abc import Sequence
+from configparser import ConfigParser
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.formats.drawing.ezdxf_library import ezdxf_module
+from vorotool.convert.extras import needed
 from vorotool.types.axis import DOWN, YAxis
 
 Floats = NDArray[np.float64]
@@ -115,3 +118,18 @@ class _FixedMetadata:
 
     def __exit__(self, *_: object) -> None:
         self._options.write_fixed_meta_data_for_testing = self._before
+
+
+def ezdxf_module(module: str = "ezdxf") -> Any:
+    """Import ezdxf, or a module of it."""
+    if "ezdxf" in sys.modules:
+        return needed(module, "cad", "DXF drawings")
+    logger = logging.getLogger("ezdxf")
+    if not logger.handlers:  # without one, what it ignores in damaged drawings goes to standard error
+        logger.addHandler(logging.NullHandler())
+    own = ConfigParser.read
+    try:
+        ConfigParser.read = lambda *_, **__: []  # type: ignore[method-assign]
+        return needed(module, "cad", "DXF drawings")
+    finally:
+        ConfigParser.read = own  # type: ignore[method-assign]

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from vorotool.errors import InputError, LimitError
-from vorotool.formats.compression.unpacking import unpack_gzip
 from vorotool.formats.drawing.curves import Affine, Curve
 from vorotool.formats.drawing.polygons import Shape, shapes_to_polygons
-from vorotool.formats.drawing.svg_document import GROUPS, MOST_REPEATED, Document
+from vorotool.formats.drawing.svg_document import GROUPS, MOST_REPEATED, Document, Element, Style
 from vorotool.formats.drawing.svg_shapes import (
     MM,
     PX,
@@ -22,9 +21,8 @@ from vorotool.formats.drawing.svg_shapes import (
     parsed_transform,
     viewbox_of,
 )
-from vorotool.formats.drawing.svg_styles import Style
-from vorotool.formats.drawing.xml_tree import Element
 from vorotool.formats.io.sources import Source
+from vorotool.formats.io.unpacking import unpack_gzip
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.types.box import Box
 from vorotool.types.polygons.polygon_set import PolygonSet

@@ -12,11 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import AS_VOLUME, InputError
-from vorotool.formats.images.nodata import missing_values, placed_grid
-from vorotool.formats.images.tiff_grid import PageGrid, grid_of
-from vorotool.formats.images.tiff_layout import TiffLayout
+from vorotool.formats.images.tiff_grid import PageGrid, grid_of, missing_values, placed_grid
+from vorotool.formats.images.tiff_layout import TiffLayout, decode_band, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_of
-from vorotool.formats.images.tiff_segments import decode_band, is_decoded_here
 from vorotool.formats.io.limits import check_pixels, decoding
 from vorotool.formats.zarr.metadata import read_metadata
 from vorotool.formats.zarr.multiscales import Level, full_size, label_images

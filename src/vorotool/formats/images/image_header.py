@@ -1,13 +1,24 @@
-"""Size and grid of an image, from its header alone."""
+"""Size, grid and number of pages of an image, from its header alone."""
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
-from vorotool.errors import InputError, UsageError
-from vorotool.formats.images.banded import TIFF_MAGIC, open_zarr
+from vorotool.errors import InputError, UsageError, VorotoolError
+from vorotool.formats.images.picture_reader import picture_pages
+from vorotool.formats.images.png_reader import png_header
+from vorotool.formats.images.png_writer import SIGNATURE
+from vorotool.formats.images.pnm_reader import pnm_header
+from vorotool.formats.images.tiff_grid import grid_of, placed_grid
+from vorotool.formats.images.tiff_reader import count_pages, opened_tiff, page_of
+from vorotool.formats.images.world_file import world_grid
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.io.sources import Source, explained_reading
+from vorotool.formats.io.limits import check_pixels, decoding
+from vorotool.formats.io.npy_arrays import MAGIC, npy_header
+from vorotool.formats.io.sources import GZIP, Source, explained_reading, read_source
+from vorotool.formats.opening import TIFF_MAGIC, open_zarr
+from vorotool.formats.recognition import image_format, looks_like_pnm, picture_format
 from vorotool.plain import plain
 from vorotool.types.pixel_grid import PixelGrid
 
@@ -27,9 +38,6 @@ class ImageHeader:
 
 def image_header(name: str) -> ImageHeader:
     """Read the header of an image, of a TIFF that of its first page: the others are smaller copies of it, or masks."""
-    from vorotool.formats.images.world_file import world_grid
-    from vorotool.formats.io.limits import check_pixels
-
     if stream_kind(name) is not None:
         raise UsageError(f"{name} is a stream, whose header cannot be read by itself: name a file")
     array = open_zarr(name)
@@ -48,10 +56,6 @@ def image_header(name: str) -> ImageHeader:
 
 
 def _of_tiff(name: str) -> ImageHeader:
-    from vorotool.formats.images.nodata import placed_grid
-    from vorotool.formats.images.tiff_grid import grid_of
-    from vorotool.formats.images.tiff_reader import opened_tiff, page_of
-    from vorotool.formats.io.limits import decoding
 
     with opened_tiff(name, str(Path(name).absolute())) as file:
         page = page_of(file, name, 0)
@@ -62,12 +66,6 @@ def _of_tiff(name: str) -> ImageHeader:
 
 def _plain_size(source: Source) -> tuple[int, int]:
     """Give width and height of an image whose header is a few bytes."""
-    from vorotool.formats.images.magic import looks_like_pnm
-    from vorotool.formats.images.png_reader import png_header
-    from vorotool.formats.images.png_writer import SIGNATURE
-    from vorotool.formats.images.pnm_reader import pnm_header
-    from vorotool.formats.io.npy_arrays import MAGIC, npy_header
-
     if source.data.startswith(SIGNATURE):
         png = png_header(source)
         return png.width, png.height
@@ -82,3 +80,27 @@ def _plain_size(source: Source) -> tuple[int, int]:
         f"{source.name} is not a TIFF, PNG, PNM, NPY or Zarr image, so its header cannot be read by itself: convert "
         f"it with gdal_translate {source.name} raster.tif"
     )
+
+
+_HEAD = 4096
+"""Bytes that tell the format."""
+
+
+def page_count(path: str) -> int | None:
+    """Count the pages of a TIFF or the pictures of an animation; other images have one, and what is none has none."""
+    try:
+        if Path(path).is_dir():
+            return 1
+        with Path(path).open("rb") as file:
+            head = file.read(_HEAD)
+        source = read_source(path) if head.startswith(GZIP) else Source(path, head)
+        kind = image_format(source)
+        if kind == "tiff":
+            content = io.BytesIO(source.data) if source.is_unpacked else path
+            with opened_tiff(path, content) as tiff, decoding(path, "TIFF"):
+                return max(1, count_pages(tiff))
+        if kind is not None and picture_format(source.data) == kind:
+            return picture_pages(source if source.is_unpacked else read_source(path), kind)
+        return None if kind is None else 1
+    except (OSError, ValueError, VorotoolError):
+        return 1

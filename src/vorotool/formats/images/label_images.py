@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError, LimitError, UsageError, option
+from vorotool.formats.io.row_bands import checked
 from vorotool.products.formats import resolved
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.raster import Raster
+from vorotool.types.skeleton.thickness import ThicknessImage
 
 _ANY_IMAGE = option("-o image.tif or image.npy", "the path image.tif or image.npy")
 
@@ -55,7 +57,7 @@ def write_label_image(
     elif fmt == "npy":
         resolved("formats.images.npy:write_npy")(out, bands, shape, dtype=kind)
     elif fmt == "text":
-        resolved("formats.images.label_text:write_label_text")(out, bands, shape, largest_label=largest_label)
+        resolved("formats.images.label_images:write_label_text")(out, bands, shape, largest_label=largest_label)
     else:
         raise UsageError(f"invalid fmt {fmt!r}: expected png, tiff, npy or text")
 
@@ -113,3 +115,44 @@ def _as_labels(values: NDArray[Any], name: str) -> NDArray[Any]:
             f"{name} has {values[row, column]} in row {row}, column {column}: labels are from 0 to {_LARGEST_LABEL}"
         )
     return values.astype(np.uint32)
+
+
+_IMAGES = option("-o labels.png, labels.tif or labels.npy", "the path labels.png, labels.tif or labels.npy")
+
+WIDEST = 4096
+MOST_PIXELS = 1_000_000
+
+
+def write_label_text(
+    out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, int], *, largest_label: int
+) -> None:
+    """Write one line a row; columns are as wide as the largest label and one space apart."""
+    height, width = shape
+    if width > WIDEST or width * height > MOST_PIXELS:
+        raise LimitError(
+            f"{width} x {height} pixels are too many for text (at most {WIDEST} wide, {MOST_PIXELS} pixels): "
+            f"use {_IMAGES}"
+        )
+    digits = len(str(largest_label))
+    for band in checked(bands, shape):
+        for row in band.tolist():
+            out.write((" ".join(f"{int(value):>{digits}}" for value in row) + "\n").encode("ascii"))
+
+
+ROWS = 256
+"""Of a band, which is converted at a time."""
+
+
+def write_thickness(out: BinaryIO, image: ThicknessImage, fmt: Literal["tiff", "npy"], *, threads: int = 0) -> None:
+    """Write each thickness as a float of 32 bits."""
+    values = image.values
+    write_label_image(
+        out,
+        (values[row : row + ROWS].astype(np.float32) for row in range(0, len(values), ROWS)),
+        shape=(values.shape[0], values.shape[1]),
+        dtype=np.float32,
+        fmt=fmt,
+        largest_label=0,
+        grid=image.grid,
+        threads=threads,
+    )

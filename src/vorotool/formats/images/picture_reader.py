@@ -11,10 +11,10 @@ from typing import Any
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Message, option
-from vorotool.formats.images.jpeg_sizes import jpeg_frame
-from vorotool.formats.images.magic import PICTURES, picture_format
+from vorotool.formats.images.tiff_layout import TiffLayout
 from vorotool.formats.io.limits import check_pixels, decoding, interruptible
 from vorotool.formats.io.sources import Source
+from vorotool.formats.recognition import PICTURES, picture_format
 
 _ANIMATED = ("gif", "webp", "avif")
 _HUFFMAN = (0xC0, 0xC1, 0xC2)
@@ -106,3 +106,33 @@ def _check_jpeg(source: Source, kind: str) -> None:
         raise InputError(
             f"{source.name} is damaged: its {len(source.data)} bytes cannot hold {width} x {height} pixels"
         )
+
+
+_LARGEST_UNIT = 32
+"""Pixels: 8 x 8 values, of up to 4 x 4 pixels each; a picture is filled up to whole units."""
+
+
+def check_jpegs(layout: TiffLayout, data: bytes) -> None:
+    """Refuse pictures that are larger than the strip or tile that they fill."""
+    wide, high = (-(-side // _LARGEST_UNIT) * _LARGEST_UNIT for side in (layout.columns, layout.rows))
+    for index, (offset, count) in enumerate(zip(layout.offsets, layout.counts, strict=True)):
+        _, width, height = jpeg_frame(data[offset : offset + count])
+        if width > wide or height > high:
+            raise InputError(
+                f"{layout.name} is damaged: {layout.kind} {index} holds a JPEG of {width} x {height} pixels, but has "
+                f"room for {layout.columns} x {layout.rows}"
+            )
+
+
+def jpeg_frame(data: bytes) -> tuple[int, int, int]:
+    """Marker, width and height of the first frame header; zeros if there is none."""
+    at = 2
+    while at + 9 <= len(data) and data[at] == 0xFF:
+        marker = data[at + 1]
+        if marker == 0xFF:  # fills
+            at += 1
+        elif 0xC0 <= marker <= 0xCF and marker not in (0xC4, 0xC8, 0xCC):
+            return marker, int.from_bytes(data[at + 7 : at + 9], "big"), int.from_bytes(data[at + 5 : at + 7], "big")
+        else:
+            at += 2 + int.from_bytes(data[at + 2 : at + 4], "big")
+    return 0, 0, 0

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.images.magic import GAP
 from vorotool.formats.io.limits import check_pixels
 from vorotool.formats.io.sources import Source
+from vorotool.formats.recognition import GAP
 
 _LARGEST_MAXIMUM = 65_535
 _HEADERS = {

@@ -15,8 +15,11 @@ import re
 import select
 import stat
 import sys
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
+from pathlib import Path
 from typing import Any, BinaryIO
+
+from vorotool.errors import OUTPUT, OutputError
 
 try:
     import fcntl
@@ -191,3 +194,29 @@ class _OnwardOnly(io.FileIO):
 
     def tell(self) -> int:
         raise io.UnsupportedOperation("what is open already has no position of ours")
+
+
+def check_space(path: str | os.PathLike[str], most: int, expected: Callable[[], int]) -> None:
+    """Refuse an output for which there is no room."""
+    free = _free(path)
+    if free is None or most <= free:
+        return
+    needed = expected()
+    if needed > free:
+        raise OutputError(
+            f"{os.fspath(path)} takes about {needed / 1e9:.3g} GB, but {free / 1e9:.3g} GB are free: free some space, "
+            f"or write elsewhere with {OUTPUT}"
+        )
+
+
+def _free(path: str | os.PathLike[str]) -> int | None:
+    """Bytes that are free where a file is, or will be; None where it takes none."""
+    if stream_kind(os.fspath(path)) is not None:
+        return None
+    target = Path(os.path.realpath(path))
+    folder = target.parent
+    while not folder.exists():
+        folder = folder.parent
+    from shutil import disk_usage  # which loads bz2 and lzma, and small jobs do without
+
+    return disk_usage(folder).free

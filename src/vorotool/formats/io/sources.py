@@ -74,7 +74,7 @@ def without_gz(name: str) -> str:
 
 def _unpacked(data: bytes, name: str) -> bytes:
     """Undo gzip up to the limit."""
-    from vorotool.formats.compression.unpacking import unpack_gzip
+    from vorotool.formats.io.unpacking import unpack_gzip
 
     try:
         made = unpack_gzip(data, MOST_UNPACKED)

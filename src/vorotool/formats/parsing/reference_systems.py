@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, Message, UsageError, option
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.numeric.crs import crs_member, crs_name, same_crs
+from vorotool.numeric.crs import crs_member, crs_name, crs_text, same_crs
 from vorotool.numeric.degrees import TO_CRS, note_degrees
 from vorotool.types.axis import DOWN, UP, YAxis
 from vorotool.types.fields import with_y_axis
@@ -34,8 +34,6 @@ def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
                 f"{_CRS}"
             )
         if not same_crs(value.crs, options.to_crs):
-            from vorotool.formats.parsing.reprojection import reprojected
-
             value = replace(value, xy=reprojected(value.xy, name, value.crs, options.to_crs))
         value = replace(value, crs=options.to_crs, y_axis=UP)
     note_degrees(value, name, options.note)
@@ -86,3 +84,30 @@ def crs_of_numbers(name: str, srids: Sequence[int], line_of: Callable[[int], int
             f"{line_of(first)} in EPSG:{srids[first]}: put them into separate files"
         )
     return crs_member(f"EPSG:{srids[first]}")
+
+
+def reprojected(xy: NDArray[np.float64], name: str, source: Any, target: Any) -> NDArray[np.float64]:
+    """Bring coordinates from one system into another, vertex by vertex: edges stay straight lines between them."""
+    from vorotool.convert.extras import needed
+
+    pyproj = needed("pyproj", "gis", "other coordinate reference systems")
+    systems = [_known(pyproj, each) for each in (source, target)]
+    pyproj.network.set_network_enabled(False)  # grids that are not there are not looked for elsewhere
+    made = np.stack(pyproj.Transformer.from_crs(*systems, always_xy=True).transform(*xy.T), axis=1)
+    bad = np.flatnonzero(~np.isfinite(made).all(axis=1))
+    if bad.size:
+        x, y = xy[bad[0]].tolist()
+        raise InputError(
+            f"{name}: ({x}, {y}) in {crs_name(source)} cannot be expressed in {crs_name(target)} ({bad.size} such "
+            "vertices): choose a system for this region"
+        )
+    return made
+
+
+def _known(pyproj: Any, crs: Any) -> Any:
+    try:
+        return pyproj.CRS.from_user_input(crs_text(crs))
+    except pyproj.exceptions.CRSError:
+        raise UsageError(
+            f"the coordinate reference system {crs_name(crs)} is unknown: check authority and code, as in EPSG:3857"
+        ) from None

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.convert.coordinate_names import coordinate_columns, plain_name, space_columns
 from vorotool.errors import InputError, UsageError, option
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
+from vorotool.types.points.point_set import PointSet
 
 COLUMNS, _X_Y = option("--columns"), option("--columns X,Y", 'columns="X,Y"')
 _BEGINNINGS = (("x", "y"), ("longitude", "latitude"), ("lon", "lat"), ("lng", "lat"), ("east", "north"))
@@ -195,3 +199,17 @@ def _cut(text: str) -> str:
 
 def _looks_numeric(text: str) -> bool:
     return bool(_NUMBER.fullmatch(text) or DECIMAL_COMMA.fullmatch(text))
+
+
+class PointRows(NamedTuple):
+    """A list of points."""
+
+    coordinates: NDArray[np.float64]  # (n, 2) or (n, 3) float64 array: x, y, and z where it is asked for
+    labels: NDArray[np.int64] | None  # (n,) int64 array: the input's own
+    properties: dict[str, Any]  # further columns
+    placed: dict[str, Any]  # direction of y and coordinate reference system, as `PointSet` takes them
+
+
+def point_set(rows: PointRows) -> PointSet:
+    """Give points of the plane."""
+    return PointSet(rows.coordinates, rows.labels, rows.properties, **rows.placed)

@@ -28,8 +28,16 @@ from vorotool.formats.parsing.reader_options import (
     ReadOptions,
     no_points,
 )
-from vorotool.formats.points.columns import COLUMNS, DECIMAL_COMMA, Chosen, choose, note_no_label, parse_columns
-from vorotool.formats.points.rows import PointRows, point_set
+from vorotool.formats.points.columns import (
+    COLUMNS,
+    DECIMAL_COMMA,
+    Chosen,
+    PointRows,
+    choose,
+    note_no_label,
+    parse_columns,
+    point_set,
+)
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.number_text import typed_texts
 from vorotool.plain import plain

@@ -8,19 +8,19 @@ from typing import Any
 
 from vorotool.errors import AS_JSON, InputError, UsageError, option
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.geojson import (
+from vorotool.formats.parsing.json import (
     feature_places,
     features_of,
     geometry_of,
     list_of,
+    not_a_point_advice,
     parse_json,
     property_columns,
     read_y_axis,
 )
-from vorotool.formats.parsing.geometry_advice import not_a_point_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, position_array, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
-from vorotool.formats.points.rows import PointRows, point_set
+from vorotool.formats.points.columns import PointRows, point_set
 from vorotool.formats.points.tables import is_table, points_of_objects
 from vorotool.formats.text.feature_collection import stated_unit
 from vorotool.types.axis import UP

@@ -11,8 +11,8 @@ from vorotool import _core
 from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.points.columns import PointRows
 from vorotool.formats.points.delimited import explain
-from vorotool.formats.points.rows import PointRows
 from vorotool.plain import plain
 from vorotool.types.points.point_set import PointSet
 

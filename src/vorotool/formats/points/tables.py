@@ -13,9 +13,8 @@ from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.npz_columns import npz_columns
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, shortened
-from vorotool.formats.points.columns import Chosen, chosen_columns, note_no_label
+from vorotool.formats.points.columns import Chosen, PointRows, chosen_columns, note_no_label, point_set
 from vorotool.formats.points.delimited import placed_by
-from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.numeric.coordinates import INEXACT, first_inexact
 from vorotool.numeric.numbers import shown_number
 from vorotool.types.points.point_set import PointSet, labels_of

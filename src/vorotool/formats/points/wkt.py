@@ -8,10 +8,10 @@ import numpy as np
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting
-from vorotool.formats.parsing.geometry_advice import not_a_point_advice
+from vorotool.formats.parsing.json import not_a_point_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
-from vorotool.formats.points.rows import PointRows, point_set
+from vorotool.formats.points.columns import PointRows, point_set
 from vorotool.numeric.crs import without_number
 from vorotool.numeric.curves.well_known import geometry_of_texts
 from vorotool.types.axis import UP

@@ -10,11 +10,10 @@ import numpy as np
 from vorotool.convert.sites import Sites, as_sites
 from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.geojson import parse_json, property_columns, read_y_axis, refuse_table
+from vorotool.formats.parsing.json import parse_json, property_columns, read_y_axis, refuse_table
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
-from vorotool.formats.polygons.geojson import read_geojson
+from vorotool.formats.polygons.geojson import RingCollector, read_geojson
 from vorotool.formats.polygons.geojson import read_sites as read_geojson_sites
-from vorotool.formats.polygons.ring_collector import RingCollector
 from vorotool.formats.text.tables import json_bytes
 from vorotool.products.formats import resolved
 from vorotool.types.axis import MEMBER as Y_AXIS

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
-from vorotool.formats.text.coordinate_text import coordinate_text
+from vorotool.formats.text.row_writer import coordinate_text
 from vorotool.numeric.sorted_sets import distinct
 from vorotool.plain import plain
 from vorotool.types.box import bounds

@@ -11,13 +11,12 @@ import numpy as np
 from vorotool.convert.sites import Sites
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting
-from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advice
+from vorotool.formats.parsing.json import OF_SITES, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.wkt import geometry_texts
 from vorotool.formats.polygons.geojson import feature_ranges, feature_texts
-from vorotool.formats.text.coordinate_text import coordinate_text
-from vorotool.formats.text.row_writer import Column, RowShape, write_rows
+from vorotool.formats.text.row_writer import Column, RowShape, coordinate_text, write_rows
 from vorotool.numeric.curves.well_known import geometry_of_texts
 from vorotool.types.axis import UP
 from vorotool.types.polygons.conversion import polygons_of_geometry

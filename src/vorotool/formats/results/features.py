@@ -1,23 +1,28 @@
-"""Features of any value as GeoJSON and as well-known text."""
+"""Features of any value as GeoJSON and as well-known text, polygons in all their formats, and cells as JSON and NPZ."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
-from vorotool.formats.polygons.geojson import feature_columns
+from vorotool.formats.polygons.geojson import feature_columns, write_geojson
+from vorotool.formats.polygons.json import write_json
+from vorotool.formats.polygons.poly import write_poly
 from vorotool.formats.polygons.wkt import write_wkt
-from vorotool.formats.polygons.writer import write_polygons
-from vorotool.formats.results.geometry_text import geometry_text
+from vorotool.formats.results.geometry_text import geometry_text, written_areas
 from vorotool.formats.text.feature_collection import write_collection
-from vorotool.formats.text.row_writer import Column, RowShape, write_rows
-from vorotool.formats.text.tables import json_column, json_text, object_shape, placed_column
-from vorotool.formats.written.polygons import written_polygons
-from vorotool.types.features import Mixture, Rows, features_of, parts_of
+from vorotool.formats.text.rings import written_polygons
+from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
+from vorotool.formats.text.tables import json_column, json_text, object_shape, placed_column, write_npz
+from vorotool.numeric.ragged import owners, within
+from vorotool.types.axis import MEMBER as Y_AXIS
+from vorotool.types.features import Areas, Mixture, Rows, features_of, parts_of, rows_of
+from vorotool.types.mesh.cells import CellSet
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.table import Lookup
+from vorotool.types.table import Computed, Lookup
 
 
 def write_shapes(out: BinaryIO, value: Any, fmt: str, *, what: str, flatten: float | None = None) -> None:
@@ -82,3 +87,75 @@ def _ids(rows: Rows) -> tuple[list[Column], str, str]:
 
 def _id(value: Any) -> str:
     return "" if value is None else f'"id":{json_text(value)},'
+
+
+_WRITERS: dict[str, Callable[[BinaryIO, PolygonSet], None]] = {
+    "json": write_json,
+    "geojson": write_geojson,
+    "wkt": write_wkt,
+    "poly": write_poly,
+}
+
+
+def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str) -> None:
+    """Write polygons and lines; polygons are valid on the grid of the file."""
+    _WRITERS[fmt](out, written_polygons(polygons))
+
+
+def write_cells_json(out: BinaryIO, cells: CellSet, *, precision: int | None = None, threads: int = 0) -> None:
+    """Write one item a polygon, and one for each empty cell."""
+    rows, shapes = rows_of(cells), _written(cells)
+    of_cells = shapes.nesting.cells
+    sizes = np.maximum(np.diff(of_cells), 1)
+    cell = owners(sizes, dtype=np.int32)
+    part = within(sizes)
+    polygons = np.append(of_cells[cell] + part, of_cells[-1])
+    empty = np.diff(of_cells) == 0
+    polygons[:-1][empty[cell]] = of_cells[1:][empty]  # an empty row ends where it begins
+    table = rows.table(has_ids=False).stored()
+    columns = [_looked_up(name, values, cell, precision) for name, values in table.items()]
+    around = object_shape([column.name for column in columns], ',"properties":', ",")
+    head, opening = [_looked_up("id", rows.names, cell, precision)], ['{"id":']
+    if sizes.max(initial=1) > 1:
+        head.append(Column.of("part", part + 1))
+        opening.append(',"part":')
+    shape = RowShape((*opening, *around.around, "}"), ",\n", "null")
+    out.write(f'{{"{Y_AXIS}":"{cells.y_axis}","polygons":['.encode())
+    columns = [*head, *columns, Column("", shapes.texts("json", polygons))]
+    write_list_rows(out, columns, shape, precision=precision, threads=threads)
+    out.write(b"]}\n")
+
+
+def _written(cells: CellSet) -> Any:
+    areas = rows_of(cells).geometry
+    assert isinstance(areas, Areas)
+    return written_areas(areas)
+
+
+def _looked_up(name: str, values: Any, cell: NDArray[np.int32], precision: int | None) -> Column:
+    """The column of the polygons from that of the cells."""
+    column = json_column(placed_column(Column.of(name, values)), precision)
+    if isinstance(column.values, list):
+        missing = None if column.missing is None else column.missing[cell]
+        return Column(name, [column.values[i] for i in cell.tolist()], missing)
+    whole = column.values[:] if isinstance(column.values, Computed) else column.values
+    return Column(name, Lookup(np.asarray(whole), cell), column.missing, column.is_place)
+
+
+def write_cells_arrays(out: BinaryIO, cells: CellSet, *, threads: int = 0) -> None:
+    """Write the columns, and what the cells consist of, as NPZ."""
+    shapes = _written(cells)
+    rings, polygons, of_cells = shapes.nesting
+    x, y = np.ascontiguousarray(shapes.points.T)
+    arrays = {
+        "cell_starts": of_cells,
+        "polygon_starts": polygons,
+        "ring_starts": rings,
+        "vertex_x": x,
+        "vertex_y": y,
+        "frame": np.array(cells.frame.sides),
+        Y_AXIS: np.array([cells.y_axis]),
+    }
+    table = rows_of(cells).table().stored()
+    columns = [placed_column(Column.of(name, values)) for name, values in table.items()]
+    write_npz(out, [*columns, *(Column.of(name, values) for name, values in arrays.items())], threads)

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.formats.text.rings import report_emptied, written_rings
 from vorotool.formats.text.row_writer import Column
-from vorotool.formats.written.report import report_emptied
-from vorotool.formats.written.rings import written_rings
 from vorotool.numeric.coordinate_grid import current_decimals, on_grid
 from vorotool.numeric.ragged import Nesting
 from vorotool.types.features import Areas, Corners, Lines, Rows

@@ -11,8 +11,7 @@ from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results import documents as d
-from vorotool.formats.results import members as m
-from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
+from vorotool.formats.results.documents import LATTICE_STEP, as_read, as_written
 from vorotool.formats.results.rows import Rows
 from vorotool.formats.text.tables import write_arrays
 from vorotool.numeric.ragged import starts_of
@@ -39,30 +38,30 @@ def _parts(offsets: Offsets) -> d.Parts:
     own = {} if offsets.features == "separate" else {"features": offsets.features}
     head = d.head_of(TYPE, own, polygons) | ({LATTICE_STEP: step} if step else {})
     shapes = [
-        m.numbers("distance", offsets.distance),
-        m.indices("polygon", offsets.polygon, len(polygons)),
+        d.numbers("distance", offsets.distance),
+        d.indices("polygon", offsets.polygon, len(polygons)),
         *_ranges("rings", offsets.shape_starts),
     ]
     rings = [
-        m.indices("shape", offsets.shape_of_ring),
-        m.choices("kind", RING_KINDS, offsets.ring_kind),
+        d.indices("shape", offsets.shape_of_ring),
+        d.choices("kind", RING_KINDS, offsets.ring_kind),
         *_ranges("pieces", offsets.ring_starts),
     ]
     pieces = [
-        m.choices("kind", PIECE_KINDS, offsets.is_arc),
-        m.places("start", offsets.start),
-        m.places("end", offsets.end),
-        m.places("center", offsets.center, offsets.is_arc),
-        m.choices("ccw", (False, True), np.where(offsets.is_arc, offsets.piece_distance > 0, -1)),
-        m.indices("site", offsets.site),
+        d.choices("kind", PIECE_KINDS, offsets.is_arc),
+        d.places("start", offsets.start),
+        d.places("end", offsets.end),
+        d.places("center", offsets.center, offsets.is_arc),
+        d.choices("ccw", (False, True), np.where(offsets.is_arc, offsets.piece_distance > 0, -1)),
+        d.indices("site", offsets.site),
     ]
-    sites = m.site_members(offsets.site_table)
+    sites = d.site_members(offsets.site_table)
     return d.Parts(head, polygons, {"sites": sites, "shapes": shapes, "rings": rings, "pieces": pieces})
 
 
-def _ranges(parts: str, start: NDArray[np.int64]) -> list[m.Member]:
+def _ranges(parts: str, start: NDArray[np.int64]) -> list[d.Member]:
     """The first part of each item, and how many it has."""
-    return [m.indices("first", start[:-1]), m.indices(parts, np.diff(start))]
+    return [d.indices("first", start[:-1]), d.indices(parts, np.diff(start))]
 
 
 # ---- reading -------------------------------------------------------------------------------------

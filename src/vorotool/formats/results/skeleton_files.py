@@ -10,8 +10,7 @@ from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.results import documents as d
-from vorotool.formats.results import members as m
-from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
+from vorotool.formats.results.documents import LATTICE_STEP, as_read, as_written
 from vorotool.formats.results.rows import Rows, is_number
 from vorotool.formats.text.tables import write_arrays
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -40,19 +39,19 @@ def _parts(skeleton: Skeleton) -> d.Parts:
     own |= {name: getattr(skeleton, name) for name, value in usual.items() if getattr(skeleton, name) != value}
     head = d.head_of(TYPE, own, polygons) | ({LATTICE_STEP: step} if step else {})
     placed = skeleton.as_given if step else skeleton
-    vertices = [*map(m.numbers, "xy", placed.vertices.T), m.numbers("r", skeleton.radius)]
+    vertices = [*map(d.numbers, "xy", placed.vertices.T), d.numbers("r", skeleton.radius)]
     arcs = [
-        *map(m.indices, ("source", "target"), skeleton.arcs.T),
-        m.choices("kind", KINDS, skeleton.is_parabola),
-        m.places("control", skeleton.control, skeleton.is_parabola),
-        m.index_pairs("sites", skeleton.sites, _SITES),
-        m.choices("side", SIDES, skeleton.side),
-        m.numbers("error_bound", skeleton.error_bound),
-        m.indices("polygon", skeleton.polygon, len(skeleton.polygons)),
-        m.indices("branch", skeleton.branch),
-        m.numbers("length", skeleton.length),
+        *map(d.indices, ("source", "target"), skeleton.arcs.T),
+        d.choices("kind", KINDS, skeleton.is_parabola),
+        d.places("control", skeleton.control, skeleton.is_parabola),
+        d.index_pairs("sites", skeleton.sites, _SITES),
+        d.choices("side", SIDES, skeleton.side),
+        d.numbers("error_bound", skeleton.error_bound),
+        d.indices("polygon", skeleton.polygon, len(skeleton.polygons)),
+        d.indices("branch", skeleton.branch),
+        d.numbers("length", skeleton.length),
     ]
-    return d.Parts(head, polygons, {"sites": m.site_members(skeleton.site_table), "vertices": vertices, "arcs": arcs})
+    return d.Parts(head, polygons, {"sites": d.site_members(skeleton.site_table), "vertices": vertices, "arcs": arcs})
 
 
 # ---- reading -------------------------------------------------------------------------------------

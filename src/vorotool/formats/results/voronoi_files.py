@@ -16,12 +16,10 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note, shortened
 from vorotool.formats.polygons.json import write_items
 from vorotool.formats.results import documents as d
-from vorotool.formats.results import members as m
 from vorotool.formats.results.rows import PREFIXES, ArrayRows, JsonRows, Rows, is_number
-from vorotool.formats.results.voronoi_checks import check_map
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
 from vorotool.formats.text.tables import json_text, write_arrays
-from vorotool.numeric.ragged import starts_of
+from vorotool.numeric.ragged import owners, starts_of
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Lookup
 from vorotool.types.voronoi.tables import KINDS, kinds_of
@@ -47,7 +45,7 @@ def write_json(out: BinaryIO, cells: VoronoiMap, *, precision: int | None = None
     write_list_rows(out, [Column("", texts)], RowShape(("", ""), ",\n", ""), threads=threads)
     out.write(b"]")
     for name, members in _lists(cells).items():
-        m.write_list(out, name, members, precision=precision, threads=threads)
+        d.write_list(out, name, members, precision=precision, threads=threads)
     _write_cells(out, cells, threads)
     out.write(b"}\n")
 
@@ -56,7 +54,7 @@ def write_npz(out: BinaryIO, cells: VoronoiMap, *, threads: int = 0) -> None:
     """Write the same as 1-D arrays; what belongs to no cell is -1."""
     arrays: dict[str, NDArray[Any]] = {}
     for name, members in _lists(cells).items():
-        arrays |= m.arrays_of(PREFIXES[name], members)
+        arrays |= d.arrays_of(PREFIXES[name], members)
     starts = (cells.ring_starts, cells.polygon_starts, cells.cell_starts)
     arrays |= {"cell_ring_arcs": cells.ring_arcs}
     arrays |= {f"cell_{name}": values for name, values in zip(_STARTS, starts, strict=True)}
@@ -86,16 +84,16 @@ def _document(polygons: PolygonSet) -> dict[str, Any]:
     return {name: value for name, value in head.items() if name not in ("type", "version")} | items
 
 
-def _lists(cells: VoronoiMap) -> dict[str, list[m.Member]]:
+def _lists(cells: VoronoiMap) -> dict[str, list[d.Member]]:
     return {
-        "vertices": [*map(m.numbers, "xy", cells.vertices.T), m.numbers("r", cells.radius)],
+        "vertices": [*map(d.numbers, "xy", cells.vertices.T), d.numbers("r", cells.radius)],
         "arcs": [
-            *map(m.indices, ("source", "target"), cells.arcs.T),
-            m.choices("kind", KINDS, kinds_of(cells)),
-            m.places("control", cells.control, cells.is_parabola),
-            m.places("center", cells.center, cells.is_circle),
-            m.index_pairs("sites", cells.sites, _SIDES, none_of=len(cells)),
-            m.truths("cut", cells.is_cut),
+            *map(d.indices, ("source", "target"), cells.arcs.T),
+            d.choices("kind", KINDS, kinds_of(cells)),
+            d.places("control", cells.control, cells.is_parabola),
+            d.places("center", cells.center, cells.is_circle),
+            d.index_pairs("sites", cells.sites, _SIDES, none_of=len(cells)),
+            d.truths("cut", cells.is_cut),
         ],
     }
 
@@ -270,3 +268,55 @@ def _rings_of(place: str, cell: Mapping[str, Any]) -> tuple[list[list[int]], lis
     if not begin or shells[:1] != [0][: len(rings)] or shells != sorted({*shells}) or shells[-1:] > [len(rings) - 1]:
         raise InputError(f"{place}: shells are {shortened(shells)}; number those of the {len(rings)} rings, from 0 up")
     return rings, shells
+
+
+def check_map(name: str, cells: VoronoiMap) -> None:
+    """Check that arcs lead from lower to higher vertices, and that rings are closed and pass each side once."""
+    low, high = cells.arcs.T
+    _refuse(name, "arcs", low >= high, lambda at: f"it is from vertex {low[at]} to {high[at]}; write the smaller first")
+    signed = cells.ring_arcs.astype(np.int64)
+    arc, is_back = np.abs(signed) - 1, signed < 0
+    ring = owners(np.diff(cells.ring_starts))
+    cell = cells.cell_of_polygon[owners(np.diff(cells.polygon_starts))][ring]
+    count = len(cells.arcs)
+    wrong = (signed == 0) | (arc >= count)
+    _refuse(name, "cells", wrong, lambda at: f"a ring has arc {signed[at]}, but there are {count}", cell)
+    own = cells.sites[arc, is_back.astype(int)]
+    _refuse(
+        name,
+        "cells",
+        own != cell,
+        lambda at: f"a ring has arc {signed[at]}, whose side is {_side(int(own[at]))}; correct its sites",
+        cell,
+    )
+    begin, end = np.where(is_back, high[arc], low[arc]), np.where(is_back, low[arc], high[arc])
+    after = np.arange(1, len(arc) + 1)
+    after[cells.ring_starts[1:] - 1] = cells.ring_starts[:-1]
+    _refuse(
+        name,
+        "cells",
+        end != begin[after],
+        lambda at: f"a ring continues at vertex {begin[after[at]]}, but arc {signed[at]} ends at {end[at]}; close it",
+        cell,
+    )
+    passed = np.bincount(2 * arc + is_back, minlength=2 * count)
+    due = (cells.sites != OUTSIDE).ravel()
+    sides = np.repeat(np.arange(count), 2)
+    _refuse(
+        name,
+        "arcs",
+        passed != due,
+        lambda at: f"rings have its {('left', 'right')[at % 2]} side {passed[at]} times; expected {int(due[at])}",
+        sides,
+    )
+
+
+def _side(site: int) -> str:
+    return "null" if site == OUTSIDE else f"of site {site}"
+
+
+def _refuse(name: str, member: str, wrong: NDArray[np.bool_], words: Any, item: NDArray[Any] | None = None) -> None:
+    """Refuse what is wrong first, with the number of its item."""
+    if wrong.any():
+        at = int(wrong.argmax())
+        raise InputError(f"{name}, {member} {at if item is None else item[at]}: {words(at)}")

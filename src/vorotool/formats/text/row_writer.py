@@ -190,3 +190,8 @@ def _core_values(column: Column, texts: dict[int, _core.text.NumberTexts]) -> An
     if isinstance(values, _core.text.PolygonTexts):
         return values
     return values.astype(np.int64) if values.dtype.kind == "b" else values
+
+
+def coordinate_text(value: float) -> str:
+    """Return the text of a coordinate."""
+    return repr(value).removesuffix(".0")

@@ -14,8 +14,7 @@ from vorotool.formats.images.band_reader import plain_values
 from vorotool.formats.images.npy import stored
 from vorotool.formats.io.npy_arrays import NpyHeader, npy_header, npy_values
 from vorotool.formats.io.sources import Source
-from vorotool.formats.volumes.mapping import Spool, mapped
-from vorotool.formats.volumes.slabs import checked_slabs
+from vorotool.formats.volumes.source import Spool, checked_slabs, mapped
 from vorotool.plain import plain
 from vorotool.types.volumes.voxel_grid import VoxelGrid
 

@@ -13,9 +13,8 @@ from vorotool.errors import InputError, UsageError, option
 from vorotool.formats.io.npy_arrays import MAGIC, npy_header, npy_values
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
-from vorotool.formats.points.columns import parse_columns
+from vorotool.formats.points.columns import PointRows, parse_columns
 from vorotool.formats.points.npy import check_coordinates, npy_labels
-from vorotool.formats.points.rows import PointRows
 from vorotool.formats.recognition import recognized
 from vorotool.numeric.checks import checked_threads
 from vorotool.products.formats import resolved

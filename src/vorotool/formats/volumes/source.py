@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any, Protocol
+import mmap
+import os
+import tempfile
+import weakref
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
+from vorotool.formats.io.sources import copy_stream
 from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 SLAB_BYTES = 2**26
@@ -78,3 +84,39 @@ def slabs_of(source: VolumeSource) -> Iterator[tuple[int, NDArray[Any]]]:
     count = whole * max(1, SLAB_BYTES // (whole * height * width * source.dtype.itemsize))
     for first in range(0, depth, count):
         yield first, source.slices(first, min(count, depth - first))
+
+
+def mapped(path: str) -> bytes:
+    """Give the content of a file, as something that can be sliced like bytes."""
+    with Path(path).open("rb") as file:
+        return cast("bytes", memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)))
+
+
+class Spool:
+    """A temporary file with all that comes through a stream; it is removed with this object, or when Python ends."""
+
+    def __init__(self, name: str) -> None:
+        descriptor, self.path = tempfile.mkstemp(prefix="vorotool-")
+        self._remove = weakref.finalize(self, _remove, self.path)
+        with os.fdopen(descriptor, "wb") as out:
+            copy_stream(name, out)
+
+
+def _remove(path: str) -> None:
+    Path(path).unlink(missing_ok=True)
+
+
+def checked_slabs(slabs: Iterable[NDArray[Any]], shape: tuple[int, int, int]) -> Iterator[NDArray[Any]]:
+    """Pass on slabs of shape (slices, H, W), and see that they are D slices together."""
+    depth, height, width = shape
+    seen = 0
+    for item in slabs:
+        slab = np.asarray(item)
+        if slab.ndim != 3 or slab.shape[1:] != (height, width):
+            raise ValueError(f"a slab has shape {slab.shape}: it must be (slices, {height}, {width})")
+        seen += len(slab)
+        if seen > depth:
+            break
+        yield slab
+    if seen != depth:
+        raise ValueError(f"the slabs have {'more than ' * (seen > depth)}{min(seen, depth)} slices, not {depth}")

@@ -11,10 +11,13 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import UsageError, option
+from vorotool.formats.images.ome_xml import ome_document, ome_type, shown_side
+from vorotool.formats.images.tiff_grid import NO_UNIT, NODATA, imagej_unit, ratio_of, resolution, resolution_tags
 from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, encoded, is_compressed, rows_of_strip, uncoded_strips
 from vorotool.formats.volumes.npy_volume import write_npy_volume
-from vorotool.formats.volumes.slabs import checked_slabs
-from vorotool.formats.volumes.stack_tags import stack_tags
+from vorotool.formats.volumes.ome_stack import PIXEL
+from vorotool.formats.volumes.source import checked_slabs
+from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
 from vorotool.types.volumes.voxel_grid import VoxelGrid
@@ -100,3 +103,60 @@ def _strips(slabs: Iterable[NDArray[Any]], shape: tuple[int, int, int], kind: np
     for slab in checked_slabs(slabs, shape):
         for image in slab:
             yield from uncoded_strips([image], shape[1:], kind)
+
+
+_IMAGEJ_TYPES = (np.uint8, np.uint16, np.float32)
+_ASCII = 2
+"""Type of a tag."""
+
+StackForm = Literal["imagej", "ome", "tiff"]
+
+
+def stack_form(grid: VoxelGrid | None, dtype: np.dtype[Any], *, is_large: bool) -> StackForm:
+    """Choose whose description a stack has: that of its input, else ImageJ's."""
+    form = "imagej" if grid is None else grid.form
+    if form == "tiff":
+        return "tiff"
+    if form == "imagej" and dtype in _IMAGEJ_TYPES and not is_large:
+        return "imagej"
+    return "tiff" if ome_type(dtype) is None else "ome"
+
+
+def stack_tags(
+    grid: VoxelGrid | None,
+    shape: tuple[int, int, int],
+    dtype: np.dtype[Any],
+    *,
+    is_large: bool = False,
+    nodata: int | None = None,
+) -> dict[str, Any]:
+    """Arguments of tifffile that say what is known of voxels; the description is on the first page."""
+    more = {} if nodata is None else {"extratags": [(NODATA, _ASCII, 0, str(nodata), True)]}
+    form = stack_form(grid, dtype, is_large=is_large)
+    plane = None if grid is None else PixelGrid(grid.width, grid.height, grid.unit)
+    if form == "imagej":
+        return {**_imagej(grid, shape[0]), **more}
+    tags = {} if plane is None or plane.unit is None else resolution_tags(plane)
+    if form == "ome":
+        sides = {} if grid is None else {"X": grid.width, "Y": grid.height, "Z": grid.depth}
+        tags |= {"description": ome_document(shape, dtype, sides, _ome_unit(grid))}
+    return {**tags, **more}
+
+
+def _imagej(grid: VoxelGrid | None, slices: int) -> dict[str, Any]:
+    """Sides along x and y as resolution, the unit and the distance of slices in the description."""
+    lines = ["ImageJ=1.54f", f"images={slices}", f"slices={slices}"]
+    tags: dict[str, Any] = {}
+    if grid is not None:
+        ratios = [ratio_of(float(1 / side)) for side in (grid.width, grid.height)]
+        if None not in ratios:
+            tags = resolution(ratios, NO_UNIT)
+            lines += [] if grid.unit is None else [f"unit={imagej_unit(grid.unit)}"]
+            lines += [f"spacing={shown_side(grid.depth)}", "loop=false"]
+    return {**tags, "description": "".join(f"{line}\n" for line in lines).encode("ascii")}
+
+
+def _ome_unit(grid: VoxelGrid | None) -> str:
+    if grid is None or grid.unit is None:
+        return PIXEL
+    return "in" if grid.unit == "inch" else grid.unit

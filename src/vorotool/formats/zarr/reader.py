@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.zarr.codecs import overlap, places_within
-from vorotool.formats.zarr.metadata import ZarrMetadata, array_metadata, read_metadata
+from vorotool.formats.zarr.metadata import ZarrMetadata, array_metadata, overlap, places_within, read_metadata
 from vorotool.numeric.parallel import in_order
 
 _WORTH_THREADS = 2**20

@@ -1,1 +1,0 @@
-"""Compressions are undone here, never beyond what is asked for."""

@@ -1,0 +1,219 @@
+"""Features as libraries of maps give them, and the points, polygons and lines that are made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.convert.sites import Sites
+from vorotool.errors import NO_PROPERTIES, InputError, LimitError, option
+from vorotool.formats.io.sources import STANDARD_INPUT, Source
+from vorotool.formats.parsing.json import MOST_CELLS, OF_SITES, not_a_point_advice, not_a_shape_advice
+from vorotool.formats.parsing.reader_options import ReadOptions, no_points
+from vorotool.formats.points.columns import PointRows
+from vorotool.plain import plain
+from vorotool.types.axis import UP
+from vorotool.types.points.conversion import part_numbers, single_points
+from vorotool.types.polygons.conversion import polygons_of_geometry
+from vorotool.types.polygons.polygon_set import PolygonSet
+
+_POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GEOS
+
+
+@plain
+class Features:
+    """The features of one layer."""
+
+    name: str  # the input, for messages
+    geometry: NDArray[np.object_]  # (n,) object array: shapely geometry; None where a feature has none
+    # attributes, one value a feature: numbers, truth values, texts, dates; None where there is none
+    columns: Mapping[str, Sequence[Any]] = field(default_factory=dict)
+    ids: Sequence[Any] | None = None  # the file's own names of its features
+    crs: Any = None  # the `crs` member of GeoJSON
+    place: Callable[[int], str] | None = None  # gives the words for a feature (0-based), for messages
+    is_table: bool = False  # there is no geometry at all: coordinates are among the columns, if anywhere
+    curves: int = 0  # how many curves were flattened
+
+    @property
+    def holds_shapes(self) -> bool:
+        """Whether the first geometry that is not empty is a polygon or a line, or a collection that begins with one."""
+        import shapely
+
+        parts = self.geometry[~shapely.is_missing(self.geometry) & ~shapely.is_empty(self.geometry)][:1]
+        while len(parts) and shapely.get_type_id(parts[0]) == _COLLECTION:
+            parts = shapely.get_parts(parts)
+            parts = parts[~shapely.is_empty(parts)]
+        return len(parts) > 0 and int(shapely.get_type_id(parts[0])) in _SHAPES
+
+    def where(self, index: int) -> str:
+        """Give the words for a feature (0-based)."""
+        return f"{self.name}, feature {index + 1}" if self.place is None else self.place(index)
+
+
+def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet:
+    """Give the polygons and lines of features; those without a geometry are left out."""
+    kept = _kept(features)
+    options.note_left_out(features.name, len(features.geometry) - len(kept))
+    _check_kinds(features, features.geometry[kept], kept, _SHAPES, "not a polygon or line", not_a_shape_advice)
+    return _shapes_of(features, kept, options)
+
+
+def sites_of_features(features: Features, options: ReadOptions) -> Sites:
+    """Give points, lines and polygons, each feature a site; one without a geometry is a site without places."""
+    kept = _kept(features)
+    options.note_empty(features.name, len(features.geometry) - len(kept))
+    expected = (*_POINTS, *_SHAPES)
+    _check_kinds(features, features.geometry[kept], kept, expected, "not a point, line or polygon", lambda _: OF_SITES)
+    polygons = _shapes_of(features, kept, options)
+    assert polygons.feature is not None
+    known: dict[str, Any] = {}
+    if options.properties:
+        known["ids"] = None if features.ids is None else list(features.ids)
+        known["properties"] = {name: list(values) for name, values in features.columns.items()}
+    return Sites(polygons, polygons.feature, len(features.geometry), **known)
+
+
+def _shapes_of(features: Features, kept: NDArray[np.int64], options: ReadOptions) -> PolygonSet:
+    """Polygons, lines and points of some of the features."""
+    import shapely
+
+    geometry = features.geometry[kept]
+    options.note_curves(features.name, features.curves)
+    if shapely.has_z(geometry).any():
+        options.note_heights(features.name)
+    options.check_vertices(features.name, int(shapely.get_num_coordinates(geometry).sum()))
+
+    def described(items: NDArray[np.int64]) -> dict[str, Any]:
+        owners = kept[items].astype(np.int32)
+        fields = {"feature": owners, "y_axis": UP, "crs": features.crs}
+        if not options.properties:
+            return fields
+        _check_attributes(features, len(owners), "polygons")
+        columns = {name: _taken(values, owners) for name, values in features.columns.items()}
+        ids = None if features.ids is None else _taken(features.ids, owners)
+        return {**fields, "ids": ids, "properties": columns}
+
+    try:
+        return polygons_of_geometry(geometry, described, takes_points=True)
+    except InputError:
+        _check_finite(features, geometry, kept)
+        raise
+
+
+def feature_points(features: Features, options: ReadOptions) -> PointRows:
+    """Give the points of features, those of several in one as its parts; those without a geometry are left out."""
+    import shapely
+
+    kept = _kept(features)
+    options.note_left_out(features.name, len(features.geometry) - len(kept))
+    geometry = features.geometry[kept]
+    if not options.wants_z and shapely.has_z(geometry).any():
+        options.note_heights(features.name)
+    _check_kinds(features, geometry, kept, _POINTS, "not a point", not_a_point_advice)
+    points, items = single_points(geometry)
+    owners = kept[items]
+    options.check_sites(features.name, len(points))
+    if not len(points):
+        return PointRows(no_points(options.axes), None, {}, {"y_axis": UP, "crs": features.crs})
+    _check_finite(features, geometry, kept)
+    columns = _point_columns(features, owners) if options.properties else {}
+    found = shapely.get_coordinates(points, include_z=options.wants_z)
+    if options.wants_z and not np.isfinite(found[:, 2]).all():
+        owner = owners[int(np.argmin(np.isfinite(found[:, 2])))]
+        raise InputError(f"{features.name}, feature {owner + 1}: the point has no finite z; give all points one")
+    return PointRows(found, None, columns, {"y_axis": UP, "crs": features.crs})
+
+
+def _point_columns(features: Features, owners: NDArray[np.int64]) -> dict[str, list[Any]]:
+    """The id, if there are any, the attributes, and the number of a point within its feature, if any has several."""
+    _check_attributes(features, len(owners), "points")
+    columns: dict[str, list[Any]] = {}
+    if features.ids is not None:
+        columns["id"] = _taken(features.ids, owners)
+    for name, values in features.columns.items():
+        columns["property_id" if name in columns else name] = _taken(values, owners)
+    part = part_numbers(owners)
+    if part.max(initial=1) > 1:
+        columns["voro_part" if "part" in columns else "part"] = part.tolist()
+    return columns
+
+
+def _taken(values: Sequence[Any], index: NDArray[np.integer]) -> list[Any]:
+    return [values[i] for i in index.tolist()]
+
+
+def _kept(features: Features) -> NDArray[np.int64]:
+    """Features that have a geometry, which is not empty."""
+    import shapely
+
+    return np.flatnonzero(~shapely.is_missing(features.geometry) & ~shapely.is_empty(features.geometry))
+
+
+def _check_kinds(
+    features: Features,
+    geometry: NDArray[np.object_],
+    kept: NDArray[np.int64],
+    expected: tuple[int, ...],
+    is_not: str,
+    advice: Callable[[str], str],
+) -> None:
+    """Refuse geometry of another kind; collections may hold what is expected, at any depth."""
+    import shapely
+
+    parts, owners = geometry, kept
+    while len(parts):
+        kinds = shapely.get_type_id(parts)
+        bad = np.flatnonzero(~np.isin(kinds, (*expected, _COLLECTION)))
+        if bad.size:
+            kind = parts[bad[0]].geom_type
+            raise InputError(f"{features.where(int(owners[bad[0]]))}: a {kind} is {is_not}; {advice(kind)}")
+        nested = kinds == _COLLECTION
+        parts, index = shapely.get_parts(parts[nested], return_index=True)
+        owners = owners[nested][index]
+
+
+def _check_finite(features: Features, geometry: NDArray[np.object_], kept: NDArray[np.int64]) -> None:
+    import shapely
+
+    xy, owners = shapely.get_coordinates(geometry, return_index=True)
+    bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
+    if bad.size:
+        at = int(bad[0])
+        vertex = at - int(np.searchsorted(owners, owners[at])) + 1
+        raise InputError(
+            f"{features.where(int(kept[owners[at]]))}: vertex {vertex} is ({xy[at, 0]}, {xy[at, 1]}): coordinates must "
+            "be finite; correct it"
+        )
+
+
+def _check_attributes(features: Features, count: int, noun: str) -> None:
+    if len(features.columns) * count > MOST_CELLS:
+        raise LimitError(
+            f"{features.name} has {len(features.columns)} different properties on {count} {noun}, more than "
+            f"{MOST_CELLS} fields in all: use {NO_PROPERTIES}"
+        )
+
+
+def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> int:
+    """Give the number of the layer that is wanted, or of the only one that has geometry."""
+    named = {name: number for number, (name, kind) in enumerate(layers) if kind is not None}
+    held = ", ".join(named) or "none"
+    if source.layer is not None:
+        if source.layer not in named:
+            fault = "has no geometry" if source.layer in dict(layers) else "does not exist"
+            raise InputError(
+                f"the layer {source.layer!r} of {source.name} {fault}: the layers with geometry are {held}"
+            )
+        return named[source.layer]
+    if not named:
+        raise InputError(f"{source.name} holds no layer with geometry: name another file")
+    if len(named) > 1:
+        how = f"as {source.name}:{next(iter(named))}"
+        if source.name == STANDARD_INPUT:
+            how = f"by {option('--input-layer', 'layer=...')}"
+        raise InputError(f"{source.name} holds {len(named)} layers: choose one of {held}, {how}")
+    return next(iter(named.values()))
