@@ -129,13 +129,13 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     if chosen == "csv" or "polygons" not in INPUTS[chosen].readers:
         return "points", _points(source, chosen, None)
     source = _with_format(source, chosen)
-    if INPUTS[chosen].features:
+    if INPUTS[chosen].features and chosen != "wkt":
         source = replace(source, document=resolved("formats.gis.reading:features_of")(source))
         return ("polygons" if source.document.holds_shapes else "points"), source
     if chosen == "npz":
         return npz_holds(source.data), source
     if "curves" in INPUTS[chosen].has or chosen == "wkt":
-        has_shapes = chosen != "wkt" or resolved("formats.polygons.wkt:holds_shapes")(source.data)
+        has_shapes = chosen != "wkt" or resolved("formats.gis.well_known:names_shapes")(source.data)
         return ("polygons" if has_shapes else "points"), source
     return _in_json(source, said)
 

@@ -68,12 +68,7 @@ _ALL = (
         polygons="formats.polygons.geojson:read_geojson",
         sites="formats.polygons.geojson:read_sites",
     ),
-    _of(
-        "wkt",
-        points="formats.points.wkt:read_wkt",
-        polygons="formats.polygons.wkt:read_wkt",
-        sites="formats.polygons.wkt:read_sites",
-    ),
+    _of_maps("wkt", reader="well_known:features_of_texts", has=""),
     _of(
         "json",
         points="formats.points.json:read_json",
@@ -118,7 +113,6 @@ SPACE_READERS = {
     "json": "formats.points.json:json_rows",
     "jsonl": "formats.points.json:json_rows",
     "geojson": "formats.points.json:geojson_rows",
-    "wkt": "formats.points.wkt:wkt_rows",
     "npz": "formats.points.tables:npz_rows",
     "node": "formats.points.node:node_rows",
     **{each.name: "formats.gis.reading:point_rows" for each in _ALL if each.features and each.name != "csv"},

@@ -176,7 +176,7 @@ def test_all_layers_are_written_or_none(run, towns, monkeypatch, fault):
         write = geopackage.GeoPackage.gdal_write
 
         def failing(self, out, *args, **options):
-            if self._what == "cells":
+            if self.what == "cells":
                 raise OSError(28, "No space left on device")
             write(self, out, *args, **options)
 

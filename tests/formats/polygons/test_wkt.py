@@ -45,8 +45,8 @@ def test_wkt():
 def test_nothing_and_too_little():
     assert len(read("", "a.wkt")) == 0
     assert notes_of("POLYGON EMPTY\nLINESTRING Z (0 0 1, 1 1 2)", "a.wkt") == [
-        "a.wkt: only x and y are used; z is ignored",
         "a.wkt: 1 feature without geometry skipped",
+        "a.wkt: only x and y are used; z is ignored",
     ]
     small = as_polygons([{"shell": [[1, 2]]}, {"shell": [[1, 2], [3, 4]]}, {"line": [[5, 6]]}])
     assert written(small, "wkt").splitlines() == [
@@ -62,14 +62,14 @@ def test_nothing_and_too_little():
     [
         (
             "LINESTRING (0 0, 1 1)\n\nPOLYGON ((0 0, 1 0, 0 1))",
-            "a.wkt, line 3: 'POLYGON ((0 0, 1 0, 0 1))' is not WKT; write for example POLYGON ((0 0, 4 0, 0 3, 0 0)), "
-            "each ring closed",
+            "a.wkt, line 3: 'POLYGON ((0 0, 1 0, 0 1))' is not WKT; write for example POINT (3 4) or POLYGON ((0 0, "
+            "4 0, 0 3, 0 0)), each ring closed",
         ),
         ("LINESTRING (0 0, 1 1)\nPOINT (1 2)", "a.wkt, line 2"),
         ("GEOMETRYCOLLECTION (MULTIPOINT (1 2))", "a.wkt, line 1"),
         ("LINESTRING (0 0, 1 1)\nLINESTRING (0 0, 1 inf)", "'LINESTRING (0 0, 1 inf)'"),
-        ("POLYGON ((0 0, nan 0, 1 1, 0 0))", "a.wkt, line 1: vertex 2"),
-        ("LINESTRING (0 0, 1 1e999)", "a.wkt, line 1: vertex 2"),
+        ("POLYGON ((0 0, nan 0, 1 1, 0 0))", "a.wkt, line 1: 'POLYGON ((0 0, nan 0, 1 1, 0 0))': vertex 2"),
+        ("LINESTRING (0 0, 1 1e999)", "a.wkt, line 1: 'LINESTRING (0 0, 1 1e999)': vertex 2"),
         ("GEOMETRYCOLLECTION (" * 5000, "a.wkt, line 1"),
     ],
 )

@@ -129,7 +129,7 @@ def test_npz_and_npy(tmp_path):
         ("a.json", "[[1, 2]]", None, r"point 1: \[1"),
         ("a.json", "[[1, 2, 3, 4]]", None, r"has 4 numbers; write \[x, y, z\]"),
         ("a.geojson", collection([[1, 2]]), None, "is not three finite numbers"),
-        ("a.wkt", "POINT Z (1 2 3)\nPOINT (4 5)", None, r"a.wkt, line 2: 'POINT \(4 5\)' has no z"),
+        ("a.wkt", "POINT Z (1 2 3)\nPOINT (4 5)", None, r"a.wkt, line 2: 'POINT \(4 5\)' has no finite z"),
         ("a.wkb", shapely.to_wkb(shapely.Point(1, 2)), None, "feature 1"),
         ("a.node", "1 2 0 0\n1 5 6\n", None, "a.node, line 1"),
     ],

@@ -13,7 +13,7 @@ from vorotool.convert.sites import Sites
 from vorotool.errors import NO_PROPERTIES, InputError, LimitError, option
 from vorotool.formats.io.sources import STANDARD_INPUT, Source
 from vorotool.formats.parsing.json import MOST_CELLS, OF_SITES, not_a_point_advice, not_a_shape_advice
-from vorotool.formats.parsing.reader_options import ReadOptions, no_points
+from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shortened
 from vorotool.formats.points.columns import PointRows
 from vorotool.plain import plain
 from vorotool.types.axis import UP
@@ -37,6 +37,7 @@ class Features:
     place: Callable[[int], str] | None = None  # gives the words for a feature (0-based), for messages
     is_table: bool = False  # there is no geometry at all: coordinates are among the columns, if anywhere
     curves: int = 0  # how many curves were flattened
+    texts: Sequence[str] | None = None  # well-known text of each
 
     @property
     def holds_shapes(self) -> bool:
@@ -53,12 +54,16 @@ class Features:
         """Give the words for a feature (0-based)."""
         return f"{self.name}, feature {index + 1}" if self.place is None else self.place(index)
 
+    def shown(self, index: int) -> str:
+        """Give the words for a feature (0-based), with its text if it is one."""
+        return self.where(index) + ("" if self.texts is None else f": {shortened(self.texts[index])}")
+
 
 def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet:
     """Give the polygons and lines of features; those without a geometry are left out."""
     kept = _kept(features)
     options.note_left_out(features.name, len(features.geometry) - len(kept))
-    _check_kinds(features, features.geometry[kept], kept, _SHAPES, "not a polygon or line", not_a_shape_advice)
+    _check_kinds(features, kept, _SHAPES, "not a polygon or line", not_a_shape_advice)
     return _shapes_of(features, kept, options)
 
 
@@ -67,7 +72,7 @@ def sites_of_features(features: Features, options: ReadOptions) -> Sites:
     kept = _kept(features)
     options.note_empty(features.name, len(features.geometry) - len(kept))
     expected = (*_POINTS, *_SHAPES)
-    _check_kinds(features, features.geometry[kept], kept, expected, "not a point, line or polygon", lambda _: OF_SITES)
+    _check_kinds(features, kept, expected, "not a point, line or polygon", lambda _: OF_SITES)
     polygons = _shapes_of(features, kept, options)
     assert polygons.feature is not None
     known: dict[str, Any] = {}
@@ -113,7 +118,7 @@ def feature_points(features: Features, options: ReadOptions) -> PointRows:
     geometry = features.geometry[kept]
     if not options.wants_z and shapely.has_z(geometry).any():
         options.note_heights(features.name)
-    _check_kinds(features, geometry, kept, _POINTS, "not a point", not_a_point_advice)
+    _check_kinds(features, kept, _POINTS, "not a point", not_a_point_advice)
     points, items = single_points(geometry)
     owners = kept[items]
     options.check_sites(features.name, len(points))
@@ -123,8 +128,8 @@ def feature_points(features: Features, options: ReadOptions) -> PointRows:
     columns = _point_columns(features, owners) if options.properties else {}
     found = shapely.get_coordinates(points, include_z=options.wants_z)
     if options.wants_z and not np.isfinite(found[:, 2]).all():
-        owner = owners[int(np.argmin(np.isfinite(found[:, 2])))]
-        raise InputError(f"{features.name}, feature {owner + 1}: the point has no finite z; give all points one")
+        owner = int(owners[int(np.argmin(np.isfinite(found[:, 2])))])
+        raise InputError(f"{features.shown(owner)} has no finite z; give all points one, such as POINT Z (3 4 5)")
     return PointRows(found, None, columns, {"y_axis": UP, "crs": features.crs})
 
 
@@ -155,7 +160,6 @@ def _kept(features: Features) -> NDArray[np.int64]:
 
 def _check_kinds(
     features: Features,
-    geometry: NDArray[np.object_],
     kept: NDArray[np.int64],
     expected: tuple[int, ...],
     is_not: str,
@@ -164,7 +168,9 @@ def _check_kinds(
     """Refuse geometry of another kind; collections may hold what is expected, at any depth."""
     import shapely
 
-    parts, owners = geometry, kept
+    parts, owners = features.geometry[kept], kept
+    if features.texts is not None:  # which names a kind for empty geometry, too
+        parts, owners = features.geometry, np.arange(len(features.geometry))
     while len(parts):
         kinds = shapely.get_type_id(parts)
         bad = np.flatnonzero(~np.isin(kinds, (*expected, _COLLECTION)))
@@ -184,9 +190,10 @@ def _check_finite(features: Features, geometry: NDArray[np.object_], kept: NDArr
     if bad.size:
         at = int(bad[0])
         vertex = at - int(np.searchsorted(owners, owners[at])) + 1
+        owner = int(kept[owners[at]])
         raise InputError(
-            f"{features.where(int(kept[owners[at]]))}: vertex {vertex} is ({xy[at, 0]}, {xy[at, 1]}): coordinates must "
-            "be finite; correct it"
+            f"{features.shown(owner)}: vertex {vertex} is ({xy[at, 0]}, {xy[at, 1]}): coordinates must be finite; "
+            "correct it"
         )
 
 

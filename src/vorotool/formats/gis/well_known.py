@@ -18,7 +18,48 @@ from vorotool.formats.points.delimited import GEOMETRY_COLUMNS, DelimitedText, d
 from vorotool.numeric.crs import without_number
 from vorotool.numeric.curves.well_known import geometry_of_binary, geometry_of_texts
 
+_COMMENT = re.compile(rb"^\s*#.*$", re.MULTILINE)
+_SHAPE = re.compile(rb"POLYGON|LINESTRING|LINEARRING|CIRCULARSTRING|CURVE|SURFACE|TIN|TRIANGLE", re.IGNORECASE)
 _BINARY = re.compile(r"(00|01)([0-9A-Fa-f]{2}){8,}")
+
+
+def features_of_texts(source: Source) -> Features:
+    """Read geometries of well-known text: each begins a line, and ends when its brackets close."""
+    check_nesting(source.data, name=source.name)
+    texts: list[str] = []
+    lines: list[int] = []
+    srids: list[int] = []
+    depth = 0
+    for number, line in enumerate(source.data.decode("utf-8", "replace").splitlines(), 1):
+        text = line.strip()
+        if not text or (depth == 0 and text.startswith("#")):
+            continue
+        if depth > 0 or (texts and text.startswith("(")):
+            texts[-1] += " " + text
+        else:
+            text, srid = without_number(text)
+            texts.append(text)
+            lines.append(number)
+            srids.append(srid)
+        depth = max(0, depth + text.count("(") - text.count(")"))
+    crs = crs_of_numbers(source.name, srids, lines.__getitem__)
+    geometry, curves = geometry_of_texts(texts, source.flatten)
+    bad = next((row for row, each in enumerate(geometry) if each is None), None)
+    if bad is not None:
+        raise InputError(
+            f"{source.name}, line {lines[bad]}: {shortened(texts[bad])} is not WKT; write for example POINT (3 4) or "
+            "POLYGON ((0 0, 4 0, 0 3, 0 0)), each ring closed"
+        )
+
+    def place(feature: int) -> str:
+        return f"{source.name}, line {lines[feature]}"
+
+    return Features(source.name, geometry, {}, None, crs, place, texts=texts, curves=curves)
+
+
+def names_shapes(data: bytes) -> bool:
+    """Return whether a well-known text names a polygon or a line."""
+    return _SHAPE.search(_COMMENT.sub(b"", data)) is not None
 
 
 def features_of_rows(source: Source) -> Features:

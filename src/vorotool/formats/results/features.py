@@ -8,14 +8,13 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.formats.polygons.geojson import feature_columns, write_geojson
+from vorotool.formats.polygons.geojson import feature_columns, feature_ranges, feature_texts, write_geojson
 from vorotool.formats.polygons.json import write_json
 from vorotool.formats.polygons.poly import write_poly
-from vorotool.formats.polygons.wkt import write_wkt
 from vorotool.formats.results.geometry_text import geometry_text, written_areas
 from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.rings import written_polygons
-from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
+from vorotool.formats.text.row_writer import Column, RowShape, coordinate_text, write_list_rows, write_rows
 from vorotool.formats.text.tables import json_column, json_text, object_shape, placed_column, write_npz
 from vorotool.numeric.ragged import owners, within
 from vorotool.types.axis import MEMBER as Y_AXIS
@@ -87,6 +86,36 @@ def _ids(rows: Rows) -> tuple[list[Column], str, str]:
 
 def _id(value: Any) -> str:
     return "" if value is None else f'"id":{json_text(value)},'
+
+
+def write_wkt(out: BinaryIO, polygons: PolygonSet) -> None:
+    """Write one geometry a line for each feature; WKT has no place for ids and properties."""
+    texts = feature_texts(polygons, "wkt")
+    if texts is not None:
+        write_rows(out, [Column("", texts)], RowShape(("", "\n")))
+        return
+    is_line = polygons.is_line
+    for first, last in feature_ranges(polygons):
+        bodies = [_body(polygons, index) for index in range(first, last)]
+        kinds = ["LINESTRING" if line else "POLYGON" for line in is_line[first:last]]
+        if len(bodies) == 1:
+            text = f"{kinds[0]} {bodies[0]}"
+        elif len(set(kinds)) == 1:
+            text = f"MULTI{kinds[0]} ({', '.join(bodies)})"
+        else:
+            parts = ", ".join(f"{kind} {body}" for kind, body in zip(kinds, bodies, strict=True))
+            text = f"GEOMETRYCOLLECTION ({parts})"
+        out.write(text.encode() + b"\n")
+
+
+def _body(polygons: PolygonSet, index: int) -> str:
+    rings = []
+    for ring in polygons.rings_of(index):
+        positions = [f"{coordinate_text(x)} {coordinate_text(y)}" for x, y in ring.tolist()]
+        if polygons.is_line[index]:  # of a single vertex it would be no line
+            return f"({', '.join(positions * 2 if len(positions) == 1 else positions)})"
+        rings.append(f"({', '.join(positions + positions[:1] * max(1, 4 - len(positions)))})")
+    return f"({', '.join(rings)})"
 
 
 _WRITERS: dict[str, Callable[[BinaryIO, PolygonSet], None]] = {
