@@ -12,11 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 import vorotool
-from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.sampled_skeleton.error_summary import error_summary
-from vorotool.engines.sampled_skeleton.hausdorff import distances_to, exact_skeleton, places_on_arcs, widened
+from vorotool.engines.sampled_skeleton.hausdorff import (
+    distances_to,
+    error_summary,
+    exact_skeleton,
+    places_on_arcs,
+    widened,
+)
 from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of
 from vorotool.render.canvas.palettes import FAINT, INK, PALE, RESULT, SEED
 from vorotool.render.canvas.svg import write_layers_svg

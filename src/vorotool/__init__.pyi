@@ -38,9 +38,6 @@ from vorotool.engines.centerlines.extended_ends import (
 from vorotool.engines.centerlines.verify_extended import (
     verify_extended as verify_extended,
 )
-from vorotool.engines.delaunay.cell_statistics import (
-    cell_statistics as cell_statistics,
-)
 from vorotool.engines.delaunay.cells import (
     cell_colors as cell_colors,
 )
@@ -61,6 +58,9 @@ from vorotool.engines.delaunay.insertion import (
 )
 from vorotool.engines.delaunay.proximity import (
     proximity_graph as proximity_graph,
+)
+from vorotool.engines.delaunay.site_table import (
+    cell_statistics as cell_statistics,
 )
 from vorotool.engines.delaunay.site_table import (
     site_table as site_table,
@@ -84,10 +84,10 @@ from vorotool.engines.digital.verify_digital import (
     verify_digital_triangulation as verify_digital_triangulation,
 )
 from vorotool.engines.distances.hausdorff import (
-    hausdorff as hausdorff,
-)
-from vorotool.engines.distances.smallest import (
     distance as distance,
+)
+from vorotool.engines.distances.hausdorff import (
+    hausdorff as hausdorff,
 )
 from vorotool.engines.distances.verify_distances import (
     verify_distances as verify_distances,
@@ -263,7 +263,7 @@ from vorotool.types.distances.distances import (
 from vorotool.types.mesh.cells import (
     CellSet as CellSet,
 )
-from vorotool.types.mesh.digital_comparison import (
+from vorotool.types.mesh.digital_triangulation import (
     DigitalComparison as DigitalComparison,
 )
 from vorotool.types.mesh.digital_triangulation import (
@@ -272,7 +272,7 @@ from vorotool.types.mesh.digital_triangulation import (
 from vorotool.types.mesh.proximity import (
     ProximityGraph as ProximityGraph,
 )
-from vorotool.types.mesh.statistics import (
+from vorotool.types.mesh.tables import (
     CellStatistics as CellStatistics,
 )
 from vorotool.types.mesh.tables import (
@@ -320,7 +320,7 @@ from vorotool.types.skeleton.critical_values import (
 from vorotool.types.skeleton.discs import (
     Discs as Discs,
 )
-from vorotool.types.skeleton.extended import (
+from vorotool.types.skeleton.extended_lines import (
     ExtendedSkeleton as ExtendedSkeleton,
 )
 from vorotool.types.skeleton.necks import (
@@ -371,7 +371,7 @@ from vorotool.types.volumes.volume_seeds import (
 from vorotool.types.volumes.voxel_frame import (
     VoxelFrame as VoxelFrame,
 )
-from vorotool.types.volumes.voxel_grid import (
+from vorotool.types.volumes.voxel_frame import (
     VoxelGrid as VoxelGrid,
 )
 from vorotool.types.voronoi.voronoi_map import (

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
 

@@ -13,7 +13,7 @@ import vorotool
 from vorotool.errors import UsageError
 from vorotool.numeric.crs import crs_name, member_of_text
 from vorotool.numeric.length_units import meters
-from vorotool.numeric.number_text import NumberText
+from vorotool.numeric.numbers import NumberText
 from vorotool.products.formats import FORMATS
 from vorotool.products.inputs import INPUTS, NAMES_WITH, VOLUME_NAMES
 from vorotool.types.pixel_grid import PixelGrid, map_grid

@@ -17,10 +17,10 @@ from fuzz.runner import Cases, options
 from support.families.polygon_families import FAMILIES as RINGS
 from support.families.skeleton_shapes import DATA
 from vorotool import PolygonSet, VorotoolError, outlines, read, skeleton_exact
-from vorotool.engines.features import sheets as feature_sheets
+from vorotool.engines.features import batches as feature_sheets
 from vorotool.engines.skeleton.exact import interior_skeleton, shape_diagram
 from vorotool.types.polygons.polygon_set import SHELL
-from vorotool.types.polygons.ring_arrays import RingArrays
+from vorotool.types.polygons.used_shapes import RingArrays
 
 PLACES = ("vertices", "radius", "control", "length", "error_bound")
 SITES = ("kind", "ring", "index")

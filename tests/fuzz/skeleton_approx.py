@@ -13,10 +13,10 @@ from fuzz.runner import run_families
 from support.families.skeleton_shapes import FAMILIES
 from vorotool import VorotoolError
 from vorotool.convert.polygons import as_polygons
-from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.sampled_skeleton.refinement import skeleton_within
+from vorotool.engines.sampled_skeleton.per_feature import skeleton_within
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.errors import LimitError
 

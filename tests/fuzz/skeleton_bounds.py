@@ -19,9 +19,8 @@ import shapely
 from PIL import Image
 
 import vorotool
-from vorotool.engines.arrangement.corner_sectors import corner_sectors
-from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.sampled_skeleton.approximate import (
     ApproximateSkeleton,
     SamplingOptions,
@@ -29,8 +28,9 @@ from vorotool.engines.sampled_skeleton.approximate import (
     sampled_graph,
 )
 from vorotool.engines.sampled_skeleton.hausdorff import deviation, exact_skeleton
-from vorotool.engines.sampled_skeleton.refinement import skeleton_within
+from vorotool.engines.sampled_skeleton.per_feature import skeleton_within
 from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
+from vorotool.engines.skeleton.shortened_edges import corner_sectors
 from vorotool.types.polygons.conversion import to_shapely
 
 DATA = Path(__file__).parents[2] / "data"

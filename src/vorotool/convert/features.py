@@ -13,7 +13,7 @@ from vorotool.convert.tables import index_of, listed
 from vorotool.errors import InputError, warn
 from vorotool.numeric.crs import crs_member, member_of_text, without_number
 from vorotool.numeric.descriptions import LONGEST
-from vorotool.numeric.row_index import index_of_rows
+from vorotool.numeric.equality import index_of_rows
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.axis import UP, YAxis, y_axis_member

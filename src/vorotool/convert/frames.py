@@ -10,8 +10,8 @@ import numpy as np
 from vorotool.convert.extras import needed
 from vorotool.convert.geometry import geometry_of_rows
 from vorotool.numeric.crs import crs_text
+from vorotool.numeric.equality import index_of_rows
 from vorotool.numeric.numbers import Flatten
-from vorotool.numeric.row_index import index_of_rows
 from vorotool.types.features import Mixture, Rows, features_of, parts_of, rows_of
 from vorotool.types.table import Table
 from vorotool.types.voronoi.tables import neighbor_pairs

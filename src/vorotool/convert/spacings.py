@@ -13,7 +13,7 @@ from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.length_units import ratio
 from vorotool.types.pixel_grid import ALIKE, PixelGrid, rounded_side, sides_of_grid
 from vorotool.types.spacing import PixelSides, pixel_sides
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 AUTO = "auto"
 

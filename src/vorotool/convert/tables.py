@@ -16,10 +16,10 @@ from vorotool.convert.coordinate_names import (
     space_columns,
 )
 from vorotool.errors import InputError
+from vorotool.numeric.checks import is_masked_array
 from vorotool.numeric.coordinates import INEXACT, first_inexact, number_array
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.descriptions import column_names, described
-from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import shown_number
 from vorotool.types.axis import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet, labels_of

@@ -10,9 +10,9 @@ import numpy as np
 from vorotool.convert.features import HeldFeatures, held_features
 from vorotool.convert.tables import is_table, volume_points_of_table
 from vorotool.errors import InputError
+from vorotool.numeric.checks import is_masked_array
 from vorotool.numeric.coordinates import number_array
 from vorotool.numeric.descriptions import described, items_of, naming, refuse_paths
-from vorotool.numeric.masked import is_masked_array
 from vorotool.types.volumes.volume_points import VolumePoints
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from vorotool.errors import InputError, LimitError
+from vorotool.numeric.checks import is_masked_array
 from vorotool.numeric.descriptions import column_names, described, naming, refuse_paths, unexpected
-from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import real_number
 from vorotool.types.pixel_frame import MAX_PIXELS
 from vorotool.types.points.label_image import LabelImage

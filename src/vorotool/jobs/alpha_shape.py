@@ -174,7 +174,7 @@ class ShapeProducts(Results):
             self.run.note(self._standing_regions())
         super().check(target)
         if target.fmt == "html":
-            from vorotool.render.pages.alpha_html import check_html_size
+            from vorotool.render.pages.page_data import check_html_size
 
             check_html_size(self.family)
         empty = {
@@ -227,7 +227,7 @@ class ShapeProducts(Results):
 
     def write_page(self, out: BinaryIO) -> None:
         """Write a page with the shapes of all radii."""
-        from vorotool.render.pages.alpha_html import write_alpha_html
+        from vorotool.render.pages.page_data import write_alpha_html
 
         r = self.shape.r if self.has_shape else self.radius
         r = None if r is None else length_in_units(self.options.pixel_size, r)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.units import PixelSize
     from vorotool.numeric.input_unit import InputUnit
     from vorotool.types.pixel_grid import PixelGrid
-    from vorotool.types.volumes.voxel_grid import VoxelGrid
+    from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 _WITH_SYSTEM = frozenset({"geojson", "jsonl", "json", "npz", "gpkg", "fgb", "shp", "parquet"})
 """Formats that hold a coordinate reference system."""

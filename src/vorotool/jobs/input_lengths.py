@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from vorotool.types.pixel_grid import PixelGrid
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.polygons.polygon_set import PolygonSet
-    from vorotool.types.volumes.voxel_grid import VoxelGrid
+    from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 
 _USUAL = "give --pixel-size, such as 0.325um, or 1m for coordinates in meters"
@@ -146,8 +146,7 @@ def _refused(o: Options, instead: str = "") -> Options:
 
 
 def _refused_degrees(o: Options, crs: Any, xy: Any = ()) -> Options:
-    from vorotool.numeric.crs import crs_name
-    from vorotool.numeric.degrees import projected_advice
+    from vorotool.numeric.crs import crs_name, projected_advice
 
     advice = "reproject it, for example with gdalwarp -t_srs" if isinstance(xy, tuple) else projected_advice(xy)
     where = "" if crs is None else f" ({crs_name(crs)})"

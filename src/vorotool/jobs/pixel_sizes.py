@@ -135,7 +135,7 @@ def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
         polygons = replace(polygons, xy=polygons.xy * steps, frame=frame)
     if size is None or size.origin is None:
         return polygons
-    from vorotool.types.mirroring import mirrored_polygons
+    from vorotool.types.map_frame import mirrored_polygons
 
     return replace(mirrored_polygons(polygons) if size.y_up else polygons, y_axis=UP, crs=size.crs)
 
@@ -151,7 +151,7 @@ def placed_sites(
     o = lengths_in_steps(with_pixel_size(run, o, given, points.grid))
     if o.pixel_size is None or not o.pixel_size.y_up:
         return o, points
-    from vorotool.types.mirroring import mirrored_seeds
+    from vorotool.types.map_frame import mirrored_seeds
 
     return o, mirrored_seeds(points)
 

@@ -126,7 +126,7 @@ def read_cut(run: Run, o: Options, option: str, path: str, first: First) -> tupl
 
     Lines are left out of ``--clip``, with a note.
     """
-    from vorotool.types.polygons.ring_arrays import RingArrays
+    from vorotool.types.polygons.used_shapes import RingArrays
 
     with reading(path):  # messages name the file
         value, size, data = _read(run, o, option, path), o.pixel_size, first.data
@@ -182,8 +182,7 @@ def _polygons_among(run: Run, path: str, value: PolygonSet) -> NDArray[np.int64]
 def in_one_crs(run: Run, cut: tuple[str, PointSet | PolygonSet], data: tuple[str, Data]) -> Data:
     """Check that a second file and data are in one coordinate reference system, as far as they name any."""
     from vorotool.formats.parsing.reference_systems import declared_in
-    from vorotool.numeric.crs import crs_name
-    from vorotool.numeric.degrees import note_degrees
+    from vorotool.numeric.crs import crs_name, note_degrees
 
     (path, polygons), (source, value) = cut, data
     if value.crs is None and polygons.crs is None:

@@ -92,8 +92,8 @@ def _outlines(run: Run, o: Options, image: Raster) -> PolygonSet:
 
 def _simplified(run: Run, o: Options, polygons: PolygonSet, tolerance: float) -> PolygonSet:
     """Simplify polygons once they are cut where they meet."""
-    from vorotool.engines.arrangement.lattice_rings import placed_shapes
     from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
+    from vorotool.engines.arrangement.repaired_polygons import placed_shapes
     from vorotool.engines.label_images.simplification import simplified_polygons
 
     with run.phase("simplify"):

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from vorotool.types.box import Box, Extent
     from vorotool.types.mesh.cells import CellSet
     from vorotool.types.mesh.digital_triangulation import AnyTriangulation
-    from vorotool.types.mesh.statistics import CellStatistics
+    from vorotool.types.mesh.tables import CellStatistics
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.seed_set import SeedSet
 
@@ -140,7 +140,7 @@ class MeshProducts(Results):
 
     def _statistics_in_units(self) -> CellStatistics:
         """Measures of cells, decided in the units of the input, in those of files."""
-        from vorotool.engines.delaunay.cell_statistics import statistics_of
+        from vorotool.engines.delaunay.site_table import statistics_of
 
         o, has_region = self.options, self.options.frame is not None or self.options.clip is not None
         with self.run.phase("statistics") as progress:

@@ -1,18 +1,21 @@
-"""Checks of arguments that several layers share: what cannot be used is named, in words."""
+"""Checks of arguments that several layers share."""
 
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterable
 from operator import index
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError, UsageError
-from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import shown_number
+
+if TYPE_CHECKING:
+    import numpy as np
 
 MOST_THREADS = 1024
 """More help nothing."""
@@ -89,3 +92,9 @@ def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = 
         at = int(np.argmax(bad))
         raise InputError(f"{name} {at + 1} is {array.flat[at]}: it must be an integer from {low} to {limits.max}")
     return np.ascontiguousarray(array, dtype=kind)
+
+
+def is_masked_array(values: Any) -> TypeGuard[np.ma.MaskedArray[Any, Any]]:
+    """Whether values are in a masked array."""
+    module = sys.modules.get("numpy.ma")
+    return module is not None and isinstance(values, module.MaskedArray)

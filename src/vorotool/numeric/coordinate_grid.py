@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError, option
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.plain import plain
 
-Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 MOST_DECIMALS = 17

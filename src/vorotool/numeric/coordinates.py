@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.masked import is_masked_array
+from vorotool.numeric.checks import is_masked_array
 from vorotool.numeric.numbers import nearest_double, shown_number
 
 LARGEST_INTEGER = 2**53

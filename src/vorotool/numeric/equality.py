@@ -1,4 +1,4 @@
-"""Whether two values are equal, whatever they hold: arrays by their elements, NaN equals NaN, and nothing is raised."""
+"""Equality of values that hold arrays (NaN equals NaN), and the row index of data frames."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.masked import is_masked_array
+from vorotool.errors import InputError
+from vorotool.numeric.checks import is_masked_array
 
 
 def is_equal(a: Any, b: Any) -> bool:
@@ -62,3 +63,37 @@ def _equal_items(a: Any, b: Any) -> bool:
         return bool(a == b) or bool(a != a and b != b)  # noqa: PLR0124 - NaN is not itself
     except Exception:  # of a foreign type: NA of pandas, for one, is neither equal nor different
         return False
+
+
+def check_index(index: Any, count: int, noun: str) -> None:
+    """Refuse an index that has not one entry for each of some objects; None is no index."""
+    if index is not None and len(index) != count:
+        raise InputError(f"index must hold one entry a {noun}, {count}, but holds {len(index)}")
+
+
+def index_of_rows(index: Any, rows: NDArray[Any]) -> Any:
+    """Give the entries of chosen rows: an index of pandas stays one, with its type and its name."""
+    if index is None:
+        return None
+    rows = np.asarray(rows, dtype=np.intp)
+    if rows.size and rows.min() < 0:
+        return _objects([index[row] if row >= 0 else None for row in rows.tolist()])
+    if hasattr(index, "take"):
+        return index.take(rows)
+    return _objects([index[row] for row in rows.tolist()])
+
+
+def joined_index(first: Any, count: int, second: Any, more: int) -> Any:
+    """Give the index of objects that follow others; the entries of those without one are None."""
+    if first is None and second is None:
+        return None
+    if all(hasattr(index, "append") and hasattr(index, "take") for index in (first, second)):  # both of pandas
+        return first.append(second)
+    return _objects([*([None] * count if first is None else first), *([None] * more if second is None else second)])
+
+
+def _objects(values: list[Any]) -> NDArray[np.object_]:
+    made = np.empty(len(values), dtype=object)
+    for place, value in enumerate(values):  # a slice would take tuples apart
+        made[place] = value
+    return made

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
-Floats = NDArray[np.float64]
+from vorotool.numeric.arrays import Floats
 
 _SPLIT = 2.0**27 + 1
 """Parts a double into two halves of 26 bits, whose products are exact (Dekker 1971)."""

@@ -1,15 +1,17 @@
-"""Numbers that users give, of any kind that Python knows: taken exactly, or refused in words."""
+"""Numbers from users, of any type of Python or in text: taken exactly, or refused."""
 
 from __future__ import annotations
 
+import re
 from decimal import Decimal
 from fractions import Fraction
 from math import inf, isfinite, isnan
 from numbers import Rational
 from operator import index
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 
@@ -119,3 +121,45 @@ def checked_flatten(tolerance: Flatten) -> float | None:
     """Return a tolerance, None if each curve has its own."""
     is_own = tolerance is None or (isinstance(tolerance, str) and tolerance == "auto")
     return None if is_own else checked_tolerance(tolerance)
+
+
+_COLUMN = re.compile(r"(?:(?:-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?)?\n)*", re.ASCII)
+
+
+class NumberText(str):
+    """A number as it is written, which is a number in JSON, too: no digit of it changes on its way."""
+
+    __slots__ = ()
+
+    @property
+    def number(self) -> int | float:
+        """Its value: an integer where it is written as one, of no more digits than are usual."""
+        return int(self) if len(self) < 64 and not any(mark in self for mark in ".eE") else float(self)
+
+
+def typed_texts(values: list[str]) -> list[Any]:
+    """Give the texts of a column as numbers if all are, but for empty ones, which are None then."""
+    text = "\n".join(values)
+    if text.count("\n") + 1 != len(values) or not any(values) or not _COLUMN.fullmatch(text + "\n"):
+        return values
+    return [NumberText(value) if value else None for value in values]
+
+
+Integer = TypeVar("Integer", bound=np.integer[Any])
+
+
+def distinct(values: NDArray[Integer]) -> NDArray[Integer]:
+    """Each value once, increasing."""
+    found = np.sort(values, axis=None)
+    is_new = np.ones(len(found), dtype=bool)
+    np.not_equal(found[1:], found[:-1], out=is_new[1:])
+    return found[is_new]
+
+
+def is_among(values: NDArray[Integer], chosen: NDArray[Integer]) -> NDArray[np.bool_]:
+    """Whether each value is one of those that are chosen."""
+    found = distinct(chosen)
+    if not len(found):
+        return np.zeros(np.shape(values), dtype=bool)
+    place = np.searchsorted(found, values)
+    return np.asarray(found[np.minimum(place, len(found) - 1)] == values)

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-Indices = NDArray[np.int64]
+from vorotool.numeric.arrays import Indices
+
 Lengths = NDArray[Any] | Sequence[int]
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.numbers import Flatten, checked_flatten
 from vorotool.numeric.ragged import Nesting
 from vorotool.plain import plain
@@ -20,7 +21,6 @@ from vorotool.types.table import Table
 if TYPE_CHECKING:
     from vorotool.types.polygons.polygon_set import PolygonSet
 
-Floats = NDArray[np.float64]
 Indices = NDArray[np.integer]
 
 

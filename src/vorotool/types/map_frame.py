@@ -1,7 +1,8 @@
-"""A frame of square cells over a part of a map."""
+"""A frame of square cells over a part of a map, and coordinates mirrored from y down to y up."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from math import ceil, floor
 from typing import Any
@@ -10,9 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, UsageError, option
+from vorotool.numeric.ragged import within
 from vorotool.types.axis import DOWN, UP, YAxis
 from vorotool.types.pixel_frame import FARTHEST, Frame
 from vorotool.types.pixel_grid import PixelGrid, map_grid
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
 MapWindow = tuple[Fraction, Fraction, Fraction, Fraction]
 
@@ -67,3 +71,27 @@ def in_cells(xy: NDArray[np.float64], grid: PixelGrid) -> NDArray[np.float64]:
     assert grid.transform is not None
     a, _, c, _, e, f = grid.transform
     return (xy - (c, f)) / (a, e) - 0.5
+
+
+def mirrored_polygons(polygons: PolygonSet) -> PolygonSet:
+    """Mirror polygons; closed rings begin at the same vertex, and run the other way, so that areas keep their signs."""
+    sizes = np.diff(polygons.ring_starts)
+    place = within(sizes)
+    size, first = np.repeat(sizes, sizes), np.repeat(polygons.ring_starts[:-1], sizes)
+    is_line = np.repeat(polygons.ring_kind == LINE, sizes)
+    taken = first + np.where(is_line, place, (size - place) % np.maximum(size, 1))
+    frame = None if polygons.frame is None else polygons.frame.stretched(1.0, -1.0)
+    return replace(polygons, xy=polygons.xy[taken] * (1.0, -1.0) + 0.0, y_axis=UP, frame=frame)
+
+
+def mirrored_seeds(seeds: SeedSet) -> SeedSet:
+    """Mirror seeds and the frame that they bring."""
+    frame, sites = seeds.frame, seeds.sites
+    if frame is not None:
+        frame = replace(frame, y=-(frame.y + frame.height - 1))
+    return replace(
+        seeds,
+        y=-seeds.y,
+        frame=frame,
+        sites=None if sites is None else sites * (1.0, -1.0) + 0.0,
+    )

@@ -9,8 +9,8 @@ import tifffile
 from PIL import Image
 
 import vorotool
-from vorotool.engines.features import sheets as feature_sheets
-from vorotool.engines.features.sheets import Features, batches_of
+from vorotool.engines.features import batches as feature_sheets
+from vorotool.engines.features.batches import Features, batches_of
 
 DATA = Path(__file__).parents[3] / "data"
 BLOBS, CELLS = DATA / "blobs.png", DATA / "cells.png"

@@ -7,8 +7,8 @@ import pytest
 
 import vorotool
 from support.families.skeleton_shapes import FAMILIES
-from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph, verify_planar_graph
+from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.errors import VorotoolWarning
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 

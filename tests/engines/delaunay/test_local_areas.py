@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from support.few import few
-from vorotool.engines.delaunay.local_areas import Rings, cut_out
+from vorotool.engines.delaunay.cells import Rings, cut_out
 
 
 def coast(count, seed, holes=3):

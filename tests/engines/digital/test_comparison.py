@@ -15,8 +15,7 @@ from support.few import few
 from support.oracles.delaunay_oracle import circle, cross
 from support.oracles.digital_oracle import edge_is_delaunay, paper_rule, parts
 from vorotool import InputError, LimitError, compare_digital, delaunay
-from vorotool.engines.delaunay.cocircular_ties import CocircularTies
-from vorotool.engines.delaunay.voronoi_edges import voronoi_lengths
+from vorotool.engines.digital.comparison import CocircularTies, voronoi_lengths
 
 
 def rational(seeds):

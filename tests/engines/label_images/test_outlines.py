@@ -16,8 +16,7 @@ from support.oracles.outline_oracle import (
     ring_areas,
     unit_sides,
 )
-from vorotool.engines.label_images.marching_squares import gray_level
-from vorotool.engines.label_images.outlines import outlines
+from vorotool.engines.label_images.outlines import gray_level, outlines
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.raster import Raster

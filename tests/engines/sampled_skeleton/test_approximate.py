@@ -11,10 +11,10 @@ from fuzz.skeleton_approx import failure
 from fuzz.skeleton_bounds import TOLERANCES, Shape, check_steps, check_tolerances, random_shapes
 from support.families.skeleton_shapes import FAMILIES, regular, small, under_symmetries
 from support.readers.written import assert_same
-from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.sampled_skeleton.refinement import skeleton_within
+from vorotool.engines.sampled_skeleton.per_feature import skeleton_within
 from vorotool.engines.sampled_skeleton.verify_approximate import check_samples, verify_approximate
 from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
 from vorotool.errors import LimitError, UsageError

@@ -9,7 +9,7 @@ import vorotool
 from fuzz.features import FAMILIES, as_set, chosen, differing, inside_of
 from vorotool import _core
 from vorotool.convert.polygons import as_polygons
-from vorotool.engines.features import sheets as feature_sheets
+from vorotool.engines.features import batches as feature_sheets
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation_of_sides, feature_approximation
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate

@@ -10,8 +10,8 @@ import vorotool
 from support.families.skeleton_shapes import FAMILIES, TOUCHING
 from support.readers.written import differing
 from vorotool import _core
-from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_voronoi, unwanted_sides
 from vorotool.engines.skeleton.exact import ShapeDiagram, shape_diagram, skeleton_of
 

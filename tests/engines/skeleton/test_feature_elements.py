@@ -10,8 +10,8 @@ import vorotool
 from fuzz import features as fuzz
 from support.few import few
 from support.readers.written import ARCS, differing
-from vorotool.engines.skeleton import feature_elements as engine
-from vorotool.engines.skeleton.feature_elements import feature_elements
+from vorotool.engines.skeleton import diagrams as engine
+from vorotool.engines.skeleton.diagrams import feature_elements
 from vorotool.errors import InputError, VerificationError, VorotoolWarning
 
 EXACT = [name for name in ARCS if name not in ("polygon", "error_bound")]

@@ -17,8 +17,8 @@ from support.processes.heard_signals import stop
 from support.readers.written import differing
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import placed_vertices
-from vorotool.engines.features import sheets as feature_sheets
-from vorotool.engines.features.sheets import Features, batches_of, sheets_of_boxes, sheets_of_cracks
+from vorotool.engines.features import batches as feature_sheets
+from vorotool.engines.features.batches import Features, batches_of, sheets_of_boxes, sheets_of_cracks
 from vorotool.engines.skeleton.exact import shape_diagram, skeleton_of
 from vorotool.engines.skeleton.per_feature import feature_skeleton
 from vorotool.errors import InputError, VorotoolWarning

@@ -18,8 +18,7 @@ from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
 from vorotool.types.volumes.volume_points import VolumePoints
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelFrame, VoxelGrid
 
 FORMS = {26: np.ones((3, 3, 3)), 6: ndimage.generate_binary_structure(3, 1)}
 

@@ -8,7 +8,7 @@ import shapely
 import vorotool
 from vorotool.errors import InputError
 from vorotool.numeric.crs import crs_name
-from vorotool.numeric.number_text import NumberText
+from vorotool.numeric.numbers import NumberText
 
 LAKE = shapely.box(0, 0, 4, 3)
 

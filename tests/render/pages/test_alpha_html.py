@@ -16,7 +16,7 @@ from support.families.point_families import draw
 from support.few import few
 from vorotool import LimitError, alpha_complex, alpha_curves, alpha_shape
 from vorotool.render.canvas.palettes import BOUNDARY, CELLS, SEED, SINGULAR
-from vorotool.render.pages.alpha_html import MOST_POINTS, check_html_size, write_alpha_html
+from vorotool.render.pages.page_data import MOST_POINTS, check_html_size, write_alpha_html
 from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.fields import with_y_axis
 

@@ -7,7 +7,7 @@ import shapely
 
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import LINE
-from vorotool.types.polygons.ring_arrays import RingArrays
+from vorotool.types.polygons.used_shapes import RingArrays
 
 QUADRANT = 64
 """Chords of a quarter of shapely's circles."""

@@ -9,8 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.alpha.components import fill_and_drop
-from vorotool.engines.alpha.digital import linked_digital
 from vorotool.engines.alpha.few_points import (
     GIVE_R,
     allows_empty,
@@ -23,7 +21,7 @@ from vorotool.engines.alpha.few_points import (
 from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.errors import InputError, UsageError, option
 from vorotool.numeric.checks import checked_threads, is_choice
-from vorotool.numeric.numbers import real_number, shown_number, whole_number
+from vorotool.numeric.numbers import nearest_double, real_number, shown_number, whole_number
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import ranges, starts_of
 from vorotool.types.alpha.complex import AlphaComplex, Radius, checked_radius
@@ -31,6 +29,7 @@ from vorotool.types.alpha.shape import AlphaShape
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.points.point_set import known_of_points
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.table import Table
 
@@ -397,3 +396,87 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
         progress,
     )
     return Table({"r": family.spectrum, **curves})
+
+
+def fill_and_drop(
+    family: AlphaComplex,
+    inside: NDArray[np.bool_],
+    component: NDArray[np.int32],
+    hole_threshold: Fraction | None,
+    region_threshold: Fraction | None,
+    progress: Progress = None,
+) -> NDArray[np.bool_]:
+    """Fill holes of at most one area, then drop regions of at most another."""
+    mesh = family.mesh
+    if hole_threshold is not None:
+        holes = np.where(inside, np.int32(-1), component)
+        inside = inside | _in_small(mesh, holes, hole_threshold)
+        component = _core.alpha.connected_triangles(inside.view(np.uint8), family.sides, progress)
+    if region_threshold is not None:
+        regions = np.where(inside, component, np.int32(-1))
+        inside = inside & ~_in_small(mesh, regions, region_threshold)
+    return inside
+
+
+def _in_small(mesh: Triangulation, component: NDArray[np.int32], threshold: Fraction) -> NDArray[np.bool_]:
+    """(t,) whether each triangle is in a component (from 0) of at most this area."""
+    chosen = component >= 0
+    numbers = component[chosen]
+    areas = np.bincount(numbers, weights=mesh.areas[chosen])
+    # A triangle's area is off by about 1e-15 times the product of two sides at most, a sum of n terms by n 2^-53 of it.
+    corners = mesh.points[mesh.triangles[chosen]]
+    limit = nearest_double(threshold)
+    with np.errstate(over="ignore", invalid="ignore"):
+        extent = np.ptp(corners, axis=1).max(axis=1, initial=0.0)
+        scale = np.bincount(numbers, weights=extent * extent)
+        doubt = 2.0**-48 * (8 + np.bincount(numbers)) * scale + 2.0**-1000  # what underflows is far less
+        small = areas < limit - doubt
+        unclear = ~(np.abs(areas - limit) > doubt)
+    for number in np.flatnonzero(unclear).tolist():
+        small[number] = _exact_area(mesh, component == number) <= threshold
+    result = np.zeros(len(component), dtype=bool)
+    result[chosen] = small[numbers]
+    return result
+
+
+def _exact_area(mesh: Triangulation, chosen: NDArray[np.bool_]) -> Fraction:
+    total = Fraction(0)
+    for triangle in mesh.points[mesh.triangles[chosen]].tolist():
+        (ax, ay), (bx, by), (cx, cy) = ((Fraction(x), Fraction(y)) for x, y in triangle)
+        total += (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    return total / 2
+
+
+def linked_digital(found: DigitalTriangulation) -> tuple[Triangulation, NDArray[np.int32], NDArray[np.int32]]:
+    """Link edges of a digital triangulation, those of its triangles too, with the triangles on their two sides."""
+    points = found.points
+    turn = _core.kernel.orient2d(np.ascontiguousarray(points[found.triangles]))
+    triangles = np.ascontiguousarray(found.triangles[turn > 0])
+    edges = np.unique(np.concatenate([np.sort(found.edges, axis=1), found.sides]), axis=0).astype(np.int32)
+    count = len(points)
+    keys = edges[:, 0].astype(np.int64) * count + edges[:, 1]
+    sides = np.full((len(edges), 2), -1, dtype=np.int32)
+    for k in range(3):
+        a, b = triangles[:, (k + 1) % 3].astype(np.int64), triangles[:, (k + 2) % 3].astype(np.int64)
+        edge = np.searchsorted(keys, np.minimum(a, b) * count + np.maximum(a, b))
+        left = np.where(a < b, 0, 1)
+        for t, (e, side) in enumerate(zip(edge.tolist(), left.tolist(), strict=True)):
+            held = int(sides[e, side])
+            if held < 0 or _is_nearer(points, triangles, held, int(triangles[t, k])):
+                sides[e, side] = t
+    mesh = Triangulation(
+        points,
+        triangles,
+        np.full(triangles.shape, -1, dtype=np.int32),
+        edges,
+        np.empty(0, np.int32),
+        np.arange(count, dtype=np.int32),
+        **known_of_points(found),
+    )
+    return mesh, edges, sides
+
+
+def _is_nearer(points: NDArray[np.float64], triangles: NDArray[np.int32], held: int, corner: int) -> bool:
+    """Whether a corner is strictly inside the circle of the triangle that an edge has so far."""
+    four = np.ascontiguousarray(points[[*triangles[held], corner]][None])
+    return bool(_core.kernel.incircle(four)[0] > 0)

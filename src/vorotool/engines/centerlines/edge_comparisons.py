@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.exact_products import difference, product
-
-Floats = NDArray[np.float64]
 
 TIE = 2.0**-20
 """A millionth: far more than equal lengths differ by once vertices are placed on a lattice of 2^-30 of the extent."""

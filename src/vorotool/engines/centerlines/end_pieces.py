@@ -17,18 +17,14 @@ from dataclasses import replace
 from math import sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
+from vorotool.numeric.arrays import Booleans, Numbers
 from vorotool.numeric.progress import Progress
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
-
-Floats = NDArray[np.float64]
-Numbers = NDArray[np.intp]
-Booleans = NDArray[np.bool_]
 
 TIP = sqrt(4 + 2 * sqrt(2))
 """1 over the sine of half of 45 degrees: the way along the bisector of such a corner in which radii fall by 1."""

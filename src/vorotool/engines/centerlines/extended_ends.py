@@ -1,21 +1,67 @@
-"""Skeletons to the ends of strokes: what forks there is left out, and its stem is led on straight to the boundary.
-
-The skeleton of a stroke ends where the disc touches its end, a radius before it, and forks to both corners from there.
-In outlines of pixels one of both may be left when small side branches are pruned: a *hook*, which leads up to a radius
-beside the axis. `vorotool.engines.centerlines.end_pieces` tells both from branches.
-"""
+"""Lines extended from ends inside a polygon to its boundary: to the middle of the end ahead, or straight on."""
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.end_pieces import without_end_pieces
-from vorotool.engines.centerlines.leading_on import led_on, rounded
+from vorotool.engines.from_skeleton.boundary_rays import first_crossings, first_hits
 from vorotool.engines.skeleton.parts import with_arcs
+from vorotool.numeric.arrays import Booleans, Floats, Numbers
 from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners, starts_of, within
+from vorotool.plain import plain
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.extended import ExtendedSkeleton
-from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.types.skeleton.extended_lines import ExtendedSkeleton, LedOn
+from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+
+
+def led_on(lines: LedOn, wanted: NDArray[np.bool_], *, to_middles: bool | NDArray[np.bool_]) -> Floats:
+    """Lead ends of lines that are inside to the middle of the end ahead, or straight on."""
+    path, ends = lines.path, lines.ends.copy()
+    origin = path.vertices[lines.end_nodes]
+    wanted = wanted & (path.radius[lines.end_nodes] > 0)
+    if not wanted.any():
+        return ends
+    places = np.full((np.count_nonzero(wanted), 2), np.nan)
+    is_led = (wanted & to_middles)[wanted]
+    places[is_led] = end_middles(path, lines.end_nodes[wanted][is_led].astype(np.intp)).places
+    rest = np.isnan(places[:, 0])
+    way, origin = (origin - _places_before(lines))[wanted], origin[wanted]
+    polygon = np.stack([lines.polygon] * 2, axis=1)[wanted]
+    places[rest], _ = first_hits(path.polygons, polygon[rest], origin[rest], way[rest])
+    ends[wanted] = places
+    return ends
+
+
+def _places_before(lines: LedOn) -> Floats:
+    """(k, 2, 2) places on each path, one radius after its start and before its end, or its other end."""
+    path, start = lines.path, lines.arc_starts
+    along = np.concatenate([[0], np.cumsum(path.length)])
+    first, last = along[start[:-1]], along[start[1:]]
+    radius = path.radius[lines.end_nodes]
+    position = np.stack([np.minimum(first + radius[:, 0], last), np.maximum(last - radius[:, 1], first)], axis=1)
+    arc = np.clip(np.searchsorted(along, position, side="right") - 1, start[:-1, None], start[1:, None] - 1).reshape(-1)
+    measures = path.measures(arc)
+    places: Floats = measures.place(measures.parameter(position.reshape(-1) - along[arc]))
+    return places.reshape(-1, 2, 2)
+
+
+def rounded(lines: LedOn) -> tuple[Floats, Floats]:
+    """Give nodes and ends to as many binary places as doubles have at the largest coordinate of their polygon."""
+    polygons, path = lines.path.polygons, lines.path
+    if not len(lines):
+        return path.vertices, lines.ends
+    largest = np.maximum.reduceat(np.abs(polygons.xy), polygons.ring_starts[polygons.polygon_starts[:-1]], axis=0)
+    shift = 53 - np.frexp(largest.max(axis=1))[1]  # 53 binary places: the largest coordinates are what they were
+    of_nodes = np.zeros(len(path.vertices), dtype=np.int64)
+    of_nodes[path.arcs] = shift[path.polygon][:, None]
+
+    def to_places(values: Floats, by: NDArray[np.integer]) -> Floats:
+        return np.asarray(np.ldexp(np.rint(np.ldexp(values, by)), -by) + 0.0)
+
+    return to_places(path.vertices, of_nodes[:, None]), to_places(lines.ends, shift[lines.polygon][:, None, None])
 
 
 def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ExtendedSkeleton:
@@ -25,7 +71,7 @@ def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
     whose radii fall as fast as into a corner of 45 degrees or more. No branch is left out, not even of a stroke on a
     blob: beyond each node of it the skeleton goes on for more than its own radius accounts for. Then each leaf that
     is inside is led on along a straight line to the middle of its end: the piece of outline between both sides of the
-    stroke (see `vorotool.engines.centerlines.end_middles`). Leaves at corners, of less than 45 degrees, stay; and so
+    stroke (see `vorotool.engines.centerlines.extended_ends`). Leaves at corners, of less than 45 degrees, stay; and so
     do single places that are left of round shapes.
 
     Parameters
@@ -58,3 +104,234 @@ def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
     wanted = (stems.degree[lines.end_nodes] == 1) & has_length[:, None]
     lines = ExtendedSkeleton(stems, led_on(lines, wanted, to_middles=True))
     return ExtendedSkeleton(stems, rounded(lines)[1])
+
+
+FLAT = 0.9
+"""How far ahead the point half-way between shoulders is where an end is flat, as a part of the way to the outline. In a
+semicircle it is at 0.7."""
+
+SINGLE = 1.75
+"""In radii of the leaf: an edge of pixels that is longer is no step, but nearly as long as the strip is wide."""
+
+TIMES = 3
+"""How often directions are taken."""
+
+
+@plain(eq=False)
+class EndMiddles:
+    """Middles of ends."""
+
+    places: Floats  # (k, 2) float64 array: NaN where there is none
+    vertices: Numbers  # (k,) integer array: where the edges begin that they are on; -1 for none
+
+
+@plain(eq=False)
+class _Outlines:
+    """The outline of each end: a place on a side, vertices of the polygon, a place on the other side."""
+
+    start: Numbers  # (k + 1,) integer array: where the points of each begin
+    points: Floats  # (n, 2) float64 array: from the leaf
+    vertex: Numbers  # (n,) integer array: the vertices that points are, or at first places those before
+    is_vertex: Booleans  # (n,) bool array: whether they are
+    is_left: Booleans  # (k,) bool array: whether each turns to the left at corners that the inside goes into
+
+
+def end_middles(skeleton: Skeleton, leaves: Numbers) -> EndMiddles:
+    """Find the middles of the ends of strips beyond leaves inside."""
+    walks = Walks(skeleton, leaves)
+    origin, arcs, at_target = skeleton.vertices[leaves], walks.arcs, walks.at_target
+    sites = np.where(at_target[:, None], skeleton.sites[arcs], skeleton.sites[arcs][:, ::-1]).astype(np.intp)
+    ways = walks.directions(is_smooth=skeleton.polygons.connectivity is None)
+    places, vertices = np.full((len(arcs), 2), np.nan), np.full(len(arcs), -1, dtype=np.intp)
+    table = skeleton.site_table
+    own = (table.polygon[sites] == skeleton.polygon[arcs][:, None]).all(axis=1) & (ways != 0).any(axis=1)
+    chosen = np.flatnonzero(own & (table.ring[sites[:, 0]] == table.ring[sites[:, 1]]))
+    if len(chosen):
+        outlines = _outlines(skeleton, sites[chosen], origin[chosen])
+        to_middle, corners = _half_way(outlines, ways[chosen])
+        if skeleton.polygons.connectivity is not None:  # of pixels: shoulders are steps
+            _set_single_edges(outlines, skeleton.radius[leaves[chosen]], to_middle, corners)
+        met, edges = _met(skeleton, outlines, origin[chosen], to_middle, corners)
+        is_round = _square(to_middle) < FLAT * FLAT * _square(met - origin[chosen])
+        axis, beyond = _met(skeleton, outlines, origin[chosen], ways[chosen], corners)
+        places[chosen] = np.where(is_round[:, None], axis, met)
+        vertices[chosen] = np.where(is_round, beyond, edges)
+    return EndMiddles(places, vertices)
+
+
+# ---- outlines -------------------------------------------------------------------------------------
+def _touched(skeleton: Skeleton, sites: Numbers, origin: Floats) -> Floats:
+    """(k, 2, 2) the places on both sites that are nearest to some places."""
+    a, b = skeleton._ends_of(sites).transpose(2, 0, 1, 3)
+    way = b - a
+    square = (way * way).sum(axis=-1)
+    along = ((origin[:, None] - a) * way).sum(axis=-1)
+    at = np.clip(np.divide(along, square, out=np.zeros_like(along), where=square > 0), 0, 1)
+    places: Floats = a + at[..., None] * way
+    return places
+
+
+def _outlines(skeleton: Skeleton, sites: Numbers, origin: Floats) -> _Outlines:
+    """Outlines in the order of their rings, from the one of two sites to the other."""
+    touched = _touched(skeleton, sites, origin) - origin[:, None]
+    polygons, table = skeleton.polygons, skeleton.site_table
+    ring = (polygons.polygon_starts[table.polygon[sites[:, 0]]] + table.ring[sites[:, 0]]).astype(np.intp)
+    # what is inside is on the left of shells that go counterclockwise, and of holes that do not
+    is_forward = (_areas(skeleton)[ring] > 0) == (table.ring[sites[:, 0]] == 0)
+    order = np.where(is_forward[:, None], [1, 0], [0, 1])
+    rows = np.arange(len(sites))[:, None]
+    (begin, end), touched = sites[rows, order].T, touched[rows, order]
+    size = np.diff(polygons.ring_starts)[ring]
+    steps = (table.index[end].astype(np.intp) - table.index[begin]) % size
+    count = np.maximum(steps - (table.kind[end] != EDGE), 0)
+    start, outline, along = starts_of(count + 2), owners(count + 2), within(count + 2)
+    vertex = polygons.ring_starts[ring][outline] + (table.index[begin][outline] + along) % size[outline]
+    points = polygons.xy[vertex] - origin[outline]
+    points[start[:-1]], points[start[1:] - 1] = touched[:, 0], touched[:, 1]
+    is_vertex = np.ones(len(points), dtype=bool)
+    is_vertex[start[:-1]] = is_vertex[start[1:] - 1] = False
+    return _Outlines(start, points, vertex, is_vertex, is_forward)
+
+
+def _areas(skeleton: Skeleton) -> Floats:
+    """Twice the signed area of each ring."""
+    polygons = skeleton.polygons
+    start = polygons.ring_starts
+    xy = polygons.xy - np.repeat(polygons.xy[start[:-1]], np.diff(start), axis=0)
+    x, y = xy.T
+    behind = polygons.following
+    areas: Floats = np.add.reduceat(x * y[behind] - x[behind] * y, start[:-1])
+    return areas
+
+
+# ---- shoulders ------------------------------------------------------------------------------------
+def _half_way(outlines: _Outlines, ways: Floats) -> tuple[Floats, Numbers]:
+    """(k, 2) points half-way between shoulders; and (k, 2) the points that both are, -1 where they are none."""
+    axis = _unit(ways)
+    for _ in range(TIMES):
+        left = np.stack([-axis[:, 1], axis[:, 0]], axis=1)
+        (one, at_one), (other, at_other) = (_shoulder(outlines, axis, side) for side in (left, -left))
+        across = one - other
+        normal = _unit(np.stack([across[:, 1], -across[:, 0]], axis=1))
+        axis = _unit(axis + normal)
+    return one / 2 + other / 2, np.stack([at_one, at_other], axis=1)
+
+
+def _set_single_edges(outlines: _Outlines, radius: Floats, to_middle: Floats, corners: Numbers) -> None:
+    """Take, where it is the only one, a long edge between corners that stick out."""
+    way = np.diff(outlines.points, axis=0)
+    turn = way[:-1, 0] * way[1:, 1] - way[:-1, 1] * way[1:, 0]
+    outline = owners(np.diff(outlines.start))
+    sticks_out = np.zeros(len(outlines.points), dtype=bool)
+    sticks_out[1:-1] = outlines.is_vertex[1:-1] & (np.where(outlines.is_left[outline[1:-1]], turn, -turn) > 0)
+    edge = np.flatnonzero(sticks_out[:-1] & sticks_out[1:])
+    least = SINGLE * radius[outline[edge]]
+    edge = edge[_square(way[edge]) > least * least]
+    edge = edge[np.bincount(outline[edge], minlength=len(radius))[outline[edge]] == 1]
+    to_middle[outline[edge]] = outlines.points[edge] / 2 + outlines.points[edge + 1] / 2
+    corners[outline[edge]] = np.stack([edge, edge + 1], axis=1)
+
+
+def _shoulder(outlines: _Outlines, axis: Floats, side: Floats) -> tuple[Floats, Numbers]:
+    """The shoulders on one side; and which points they are."""
+    first, second = (_farthest(outlines, a * axis + b * side) for a, b in ((4, 3), (3, 4)))
+    return outlines.points[first] / 2 + outlines.points[second] / 2, np.where(first == second, first, -1)
+
+
+def _farthest(outlines: _Outlines, way: Floats) -> Numbers:
+    """The point of each outline that is farthest in a direction, the first of several."""
+    start, outline = outlines.start, owners(np.diff(outlines.start))
+    reach = (outlines.points * way[outline]).sum(axis=1)
+    at = np.flatnonzero(reach == np.maximum.reduceat(reach, start[:-1])[outline])
+    first: Numbers = at[np.diff(outline[at], prepend=-1) > 0]
+    return first
+
+
+def _square(ways: Floats) -> Floats:
+    squares: Floats = (ways * ways).sum(axis=1)
+    return squares
+
+
+def _unit(ways: Floats) -> Floats:
+    size = np.sqrt((ways * ways).sum(axis=1))[:, None]
+    units: Floats = np.divide(ways, size, out=np.zeros_like(ways), where=size > 0)
+    return units
+
+
+# ---- rays -----------------------------------------------------------------------------------------
+def _met(
+    skeleton: Skeleton, outlines: _Outlines, origin: Floats, way: Floats, corners: Numbers
+) -> tuple[Floats, Numbers]:
+    """Where rays meet outlines first, and where the edges begin that they meet; midpoints of whole edges exactly."""
+    polygons = skeleton.polygons
+    edge = np.delete(np.arange(len(outlines.points)), outlines.start[1:] - 1)
+    ray = owners(np.diff(outlines.start) - 1)
+    at, met = first_crossings(ray, outlines.points[edge], outlines.points[edge + 1], way)
+    places, vertices = np.full((len(way), 2), np.nan), np.full(len(way), -1, dtype=np.intp)
+    hit = np.flatnonzero(met >= 0)
+    places[hit] = origin[hit] + at[hit]
+    one = edge[met[hit]]
+    vertices[hit] = outlines.vertex[one]
+    a, b = polygons.xy[vertices[hit]], polygons.xy[polygons.following[vertices[hit]]]
+    places[hit] = np.where(a == b, a, places[hit])  # exactly on edges along an axis
+    is_whole = (np.sort(corners[hit], axis=1) == np.stack([one, one + 1], axis=1)).all(axis=1)
+    is_whole &= outlines.is_vertex[one] & outlines.is_vertex[np.minimum(one + 1, len(outlines.vertex) - 1)]
+    places[hit[is_whole]] = a[is_whole] / 2 + b[is_whole] / 2
+    return places, vertices
+
+
+BACK = (0.0625, 0.125, 0.1875, 1.0)
+"""In radii of the leaf: how far back directions are taken from. Nearer there are the corners of ends that are round."""
+
+
+class Walks:
+    """Walks from leaves to the first node that is no end of two arcs, or one radius far."""
+
+    def __init__(self, skeleton: Skeleton, leaves: Numbers) -> None:
+        self.skeleton, self.leaves = skeleton, leaves
+        ends = skeleton.arcs.astype(np.intp)
+        joined = np.zeros(len(skeleton.vertices), dtype=np.intp)  # the sum of the numbers of the arcs at each node
+        np.add.at(joined, ends.reshape(-1), np.repeat(np.arange(len(ends)), 2))
+        self.arcs = joined[leaves]
+        self.at_target = ends[self.arcs, 1] == leaves
+        at = self._places(ends, joined, np.outer(skeleton.radius[leaves], BACK).tolist())
+        measures = skeleton.measures(at[:, 0].astype(np.intp))
+        distance = np.minimum(at[:, 2], measures.length)
+        parameter = measures.parameter(np.where(at[:, 1] > 0, distance, measures.length - distance))
+        self.back = measures.place(parameter).reshape(len(leaves), len(BACK), 2).swapaxes(0, 1)
+
+    def _places(self, ends: Numbers, joined: Numbers, wanted: list[list[float]]) -> Floats:
+        """(4 k, 3) the arcs that places are on, whether these are gone through from their sources, and how far."""
+        both, source = ends.sum(axis=1).tolist(), ends[:, 0].tolist()
+        lengths, degree, others = self.skeleton.length.tolist(), self.skeleton.degree.tolist(), joined.tolist()
+        found: list[tuple[int, bool, float]] = []
+        for leaf, first, reaches in zip(self.leaves.tolist(), self.arcs.tolist(), wanted, strict=True):
+            node, arc, far = leaf, first, 0.0
+            for reach in reaches:
+                while far + lengths[arc] < reach and degree[both[arc] - node] == 2:
+                    far += lengths[arc]
+                    node = both[arc] - node
+                    arc = others[node] - arc
+                found.append((arc, source[arc] == node, reach - far))
+        return np.array(found, dtype=np.float64).reshape(-1, 3)
+
+    def directions(self, *, is_smooth: bool) -> Floats:
+        """(k, 2) where branches look at leaves, of any length."""
+        straight = self.skeleton.vertices[self.leaves] - self.back[-1]
+        if not is_smooth:
+            return np.asarray(straight)
+        ways = -np.diff(self.back, axis=0)
+        size = np.sqrt((ways * ways).sum(axis=2))
+        is_long = (size > 0).all(axis=0)
+        last, before, far = ways / np.where(is_long, size, 1)[:, :, None]
+        # at 0.09375, 0.15625 and 0.59375 radii: the smaller bend of both, none if they differ in sign
+        bends = _cross(before, last) / 0.0625, _cross(far, last) / 0.5
+        bend = np.where(bends[0] * bends[1] > 0, np.minimum(*np.abs(bends)) * np.sign(bends[0]), 0.0)
+        turned = last + 0.09375 * bend[:, None] * np.stack([-last[:, 1], last[:, 0]], axis=1)
+        directions: Floats = np.where(is_long[:, None], turned, straight)
+        return directions
+
+
+def _cross(u: Floats, v: Floats) -> Floats:
+    crossed: Floats = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    return crossed

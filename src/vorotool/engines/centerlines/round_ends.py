@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.corner_twigs import Branches, Pairs, Twigs
+from vorotool.numeric.arrays import Numbers
 from vorotool.numeric.ragged import starts_of
 from vorotool.plain import plain
 from vorotool.types.skeleton.tables import connected_roots
-
-Numbers = NDArray[np.intp]
 
 NEAR = 0.5
 """In radii of the junction that an end grows to: how far other junctions of the end may be from it."""

@@ -12,8 +12,8 @@ from vorotool.convert.points import as_points
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, core_mesh, delaunay, report_duplicates
 from vorotool.errors import InputError, LimitError
 from vorotool.numeric.checks import checked_threads, whole_numbers
+from vorotool.numeric.equality import joined_index
 from vorotool.numeric.progress import Progress
-from vorotool.numeric.row_index import joined_index
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.points.point_set import PointSet, known_of_points

@@ -1,24 +1,131 @@
-"""Table of points: measures by a triangulation and its Voronoi cells."""
+"""Measures of cells and their summary, of points and of label images: cellular sociology (paper, section 2.3)."""
 
 from __future__ import annotations
 
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.delaunay.cells import voronoi_cells
-from vorotool.errors import InputError
+from vorotool.engines.delaunay.delaunay import delaunay
+from vorotool.engines.delaunay.proximity import proximity_graph
+from vorotool.errors import InputError, UsageError
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.progress import Progress
+from vorotool.products.formats import resolved
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.cells import CellSet
+from vorotool.types.mesh.tables import CellStatistics
 from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.points.label_image import LabelImage
 from vorotool.types.table import Table
 
 if TYPE_CHECKING:
-    from vorotool.typing import FrameLike
+    from vorotool.typing import FrameLike, MeshLike, PolygonsLike
+
+_COLUMNS = ("label", "x", "y", "area", "perimeter", "roundness", "neighbors", "nearest_distance", "whole")
+
+
+def cell_statistics(
+    points: MeshLike | LabelImage,
+    *,
+    frame: FrameLike | None = None,
+    clip: PolygonsLike | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> CellStatistics:
+    """Measure the Voronoi cells of points, or the regions of a label image, and summarize the whole ones.
+
+    A cell is whole if nothing cuts it: its point is not on the hull, whose cells are unbounded, it does not touch the
+    frame, and it lies inside the polygons of ``clip``. A region of a label image is whole if it does not touch the
+    frame. Others have their measures, but do not count in the summary; empty cells and duplicates do not either.
+
+    Parameters
+    ----------
+    points : LabelImage, Triangulation, PointSet, SeedSet, (n, 2) array, data frame, GeoSeries, …
+        A triangulation is used as it is. Of a label image area and perimeter are those of `region_table`, in pixels and
+        their sides.
+    frame, clip : optional
+        As for `voronoi_cells`; not for label images.
+    threads : int
+        Number of threads; 0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    CellStatistics
+        ``cells``, a table with one row a point or region, and ``summary``, one with a row a measure. The area that the
+        spanning tree is normalized by is that of the frame, the polygons or the image where there are any, else that
+        of the convex hull; of a label image that of its regions.
+
+    Raises
+    ------
+    InputError
+        As for `voronoi_cells`.
+    UsageError
+        If there is a label image and a frame or polygons.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.3; Marcelpoil and Usson 1992; Dussert and
+    others 1986.
+
+    Examples
+    --------
+    >>> import vorotool
+    >>> summary = cell_statistics(vorotool.read(vorotool.sample("dots.csv"))).summary
+    >>> summary["measure"][3], summary["count"][3], round(summary["mean"][3], 2)
+    ('neighbors', np.int64(32), np.float64(5.75))
+    """
+    threads = checked_threads(threads)
+    if isinstance(points, LabelImage):
+        if frame is not None or clip is not None:
+            raise UsageError("frame and clip are for points: leave them out with a label image")
+        return _of_image(points, threads, progress)
+    mesh = points if isinstance(points, Triangulation) else delaunay(points, threads=threads, progress=progress)
+    cells = voronoi_cells(mesh, frame=frame, clip=clip, threads=threads, progress=progress)
+    has_region = frame is not None or clip is not None
+    return statistics_of(mesh, cells, has_region=has_region, threads=threads, progress=progress)
+
+
+def statistics_of(
+    mesh: Triangulation, cells: CellSet, *, has_region: bool, threads: int = 0, progress: Progress = None
+) -> CellStatistics:
+    """Measure cells that are there already."""
+    table = site_table(mesh, cells, properties=False, threads=threads, progress=progress)
+    area = np.ma.filled(table["area"], 0.0)
+    touches, on_hull = (np.ma.filled(table[name], True).astype(bool) for name in ("touches_frame", "on_hull"))
+    whole = (area > 0) & ~touches & ~on_hull
+    if cells.polygon_starts is not None:
+        uncut = voronoi_cells(mesh, frame=cells.frame, threads=threads, progress=progress)
+        whole &= area >= uncut.areas
+    tree = proximity_graph(mesh, "mst", threads=threads, progress=progress)
+    region = float(area.sum()) if has_region or mesh.frame is not None else float(mesh.areas.sum())
+    return CellStatistics(_measured(table, whole), tree.edge_lengths(), region, mesh.properties)
+
+
+def _of_image(image: LabelImage, threads: int, progress: Progress) -> CellStatistics:
+    measure = resolved("engines.label_images.regions:region_table")
+    table: Table = measure(image, properties=False, threads=threads, progress=progress)
+    area = np.ma.filled(table["area"], 0)
+    whole = (area > 0) & ~np.ma.filled(table["touches_frame"], True).astype(bool)
+    sites = np.stack([table["x"], table["y"]], axis=1)
+    sites = np.unique(sites, axis=0)  # objects may have one centroid
+    tree = proximity_graph(sites, "mst", threads=threads, progress=progress)
+    properties = {} if image.seeds is None else image.seeds.properties
+    return CellStatistics(_measured(table, whole), tree.edge_lengths(), float(area.sum()), properties)
+
+
+def _measured(table: Table, whole: NDArray[np.bool_]) -> Table:
+    area, perimeter = (np.ma.asanyarray(table[name]).astype(float) for name in ("area", "perimeter"))
+    ratio = np.ma.masked_invalid(np.ma.divide(4 * pi * area, perimeter * perimeter))
+    made: dict[str, Any] = {**table, "roundness": ratio, "whole": whole}
+    return Table({name: made[name] for name in _COLUMNS})
 
 
 def site_table(

@@ -4,24 +4,26 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
+from functools import cached_property
 from math import ceil
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.delaunay.cocircular_ties import CocircularTies
+from vorotool import _core
 from vorotool.engines.delaunay.delaunay import delaunay
-from vorotool.engines.digital.causes import SHORT, Causes, Members, members_of
 from vorotool.engines.digital.triangulation import digital_triangulation, one_seed_a_label
 from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.frames import as_seeds, asked_frame, default_frame, require_memory
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import Message, option
 from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.progress import Progress
 from vorotool.plain import plain
-from vorotool.types.mesh.digital_comparison import DigitalComparison
+from vorotool.types.mesh.digital_triangulation import DigitalComparison, DigitalTriangulation
+from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.pixel_frame import MAX_PIXELS, Frame
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.table import Table
@@ -216,3 +218,193 @@ def _larger_scale(differences: list[Difference]) -> list[str]:
     return [
         f"at {ceil(SHORT / chosen)} times the scale {held} of {len(lengths)} short Voronoi edges have {SHORT} pixels"
     ]
+
+
+SHORT = 1.5
+"""Pixels. The centers of the four pixels around a corner lie within √2 of each other: a Voronoi edge that is no longer
+can pass between them unseen. The rest is for edges that end just beside the pixels that would show them."""
+
+Members = tuple[int, ...]
+"""Indices of the two sites of an edge, or the three of a triangle, increasing."""
+
+Cause = tuple[str, float | None]
+"""Its name, and the length of the Voronoi edge that explains it, where there is one."""
+
+
+def members_of(rows: NDArray[np.int32]) -> list[Members]:
+    """Rows of indices as tuples, each in increasing order."""
+    return [tuple(row) for row in np.sort(rows, axis=1).tolist()]
+
+
+def sides_of(triangle: Members) -> tuple[tuple[int, int], ...]:
+    """Edges of a triangle."""
+    a, b, c = triangle
+    return (a, b), (a, c), (b, c)
+
+
+class Causes:
+    """Explains single differences."""
+
+    def __init__(
+        self,
+        digital: DigitalTriangulation,
+        exact: Triangulation,
+        frame: Frame,
+        has_region: NDArray[np.bool_],
+        split: NDArray[np.bool_],
+    ) -> None:
+        self._digital, self._exact = digital, exact
+        self._has_region, self._split = has_region, split
+        low = np.array([frame.x, frame.y], dtype=np.float64)
+        high = low + np.array([frame.width - 1, frame.height - 1])  # corners lie between the outermost pixel centers
+        centers = self._centers = exact.circumcenters
+        beyond = np.maximum(low - centers, centers - high).max(axis=1, initial=-np.inf)
+        edges, triangles = members_of(exact.edges), members_of(exact.triangles)
+        self.beyond: dict[Members, float] = dict(zip(triangles, beyond.tolist(), strict=True))
+        """How far each Voronoi vertex lies beyond the frame, in pixels."""
+        whole, inside = voronoi_lengths(exact, centers, low, high) if triangles else (np.full(len(edges), np.inf),) * 2
+        self._whole: dict[Members, float] = dict(zip(edges, whole.tolist(), strict=True))
+        self._inside: dict[Members, float] = dict(zip(edges, inside.tolist(), strict=True))
+
+    def of_missing(self, members: Members) -> Cause:
+        """Tell why an edge or a triangle of every exact triangulation was not found."""
+        sides = [members] if len(members) == 2 else list(sides_of(members))
+        inside, whole = min((self._inside[side], self._whole[side]) for side in sides)
+        if not self._has_region[list(members)].all():
+            return "no_region", inside
+        if inside == 0 or inside < SHORT <= whole or self.beyond.get(members, 0) > 0:
+            return "off_frame", inside
+        if members in self._sides_at_four:
+            return "four_labels", inside
+        return self._in_sight(members, inside)
+
+    def of_false(self, members: Members) -> Cause:
+        """Tell why an edge or a triangle was found that no exact triangulation has."""
+        if members in self._triangles_at_four:
+            return "four_labels", None
+        sides = [members] if len(members) == 2 else list(sides_of(members))
+        return self._in_sight(
+            members, min((self._gap(side) for side in sides if side not in self._whole), default=None)
+        )
+
+    def _in_sight(self, members: Members, length: float | None) -> Cause:
+        if self._split[list(members)].any():
+            return "split_region", length
+        return ("short_edge" if length is not None and length < SHORT else "other"), length
+
+    def _gap(self, edge: Members) -> float:
+        """Distance between the nearest vertices of two Voronoi cells that do not touch."""
+        one, other = (self._vertices(v) for v in edge)
+        return float(hypotenuse(*(one[:, None] - other[None]).T).min(initial=np.inf))
+
+    @cached_property
+    def _triangles_at_four(self) -> set[Members]:
+        return set(members_of(self._digital.triangles[self._digital.at_four]))
+
+    @cached_property
+    def _sides_at_four(self) -> set[Members]:
+        return {side for triangle in self._triangles_at_four for side in sides_of(triangle)}
+
+    @cached_property
+    def _star(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Triangles of all sites one after the other, and where each one's begin."""
+        corners = self._exact.triangles.ravel()
+        order = np.argsort(corners, kind="stable")
+        return np.searchsorted(corners[order], np.arange(len(self._exact.points) + 1)), order // 3
+
+    def _vertices(self, v: int) -> NDArray[np.float64]:
+        """(k, 2) vertices of a Voronoi cell."""
+        start, triangles = self._star
+        return self._centers[triangles[start[v] : start[v + 1]]]
+
+
+class CocircularTies:
+    """The polygons of cocircular points, which may be triangulated in any way."""
+
+    def __init__(self, mesh: Triangulation) -> None:
+        one, corner = np.nonzero(mesh.neighbors > np.arange(len(mesh))[:, None])
+        other = mesh.neighbors[one, corner]
+        a, b = (mesh.triangles[one, (corner + k) % 3] for k in (1, 2))
+        apex = mesh.triangles[other].sum(axis=1, dtype=np.int64) - a - b
+        quads = np.concatenate([mesh.triangles[one], apex[:, None]], axis=1)
+        tie = _core.kernel.incircle(np.ascontiguousarray(mesh.points[quads])) == 0
+        polygon = _components(len(mesh), one[tie], other[tie])
+        self.unique_triangles = np.bincount(polygon, minlength=len(mesh))[polygon] == 1
+        diagonals = np.sort(np.stack([a, b], axis=1)[tie], axis=1)
+        self._edges, self._triangles = (
+            {tuple(row) for row in np.sort(rows, axis=1).tolist()} for rows in (mesh.edges, mesh.triangles)
+        )
+        inner = {tuple(row) for row in diagonals.tolist()}
+        self.unique_edges = np.array([tuple(row) not in inner for row in mesh.edges.tolist()], dtype=bool)
+        self._polygons: dict[int, set[int]] = {}
+        for number in np.flatnonzero(~self.unique_triangles).tolist():
+            for v in mesh.triangles[number].tolist():
+                self._polygons.setdefault(v, set()).add(int(polygon[number]))
+
+    def has_edge(self, edge: tuple[int, ...]) -> bool:
+        """Whether some Delaunay triangulation has an edge; indices in increasing order."""
+        return edge in self._edges or bool(self._shared(edge))
+
+    def has_triangle(self, triangle: tuple[int, ...]) -> bool:
+        """Whether some Delaunay triangulation has a triangle; indices in increasing order."""
+        return triangle in self._triangles or bool(self._shared(triangle))
+
+    def _shared(self, vertices: tuple[int, ...]) -> set[int]:
+        return set.intersection(*(self._polygons.get(v, set()) for v in vertices))
+
+
+def _components(count: int, one: NDArray[Any], other: NDArray[Any]) -> NDArray[np.intp]:
+    """Number of the component of each vertex of a graph: its smallest vertex."""
+    number = np.arange(count)
+    while True:
+        least = np.minimum(number[one], number[other])
+        before = number.copy()
+        for end in (one, other):
+            np.minimum.at(number, number[end], least)
+            np.minimum.at(number, end, least)
+        number = number[number]
+        if np.array_equal(number, before):
+            return number
+
+
+def voronoi_lengths(
+    mesh: Triangulation, centers: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Length of the Voronoi edge of every edge of a triangulation, and of its part inside a rectangle."""
+    triangle, corner = np.nonzero(mesh.neighbors < np.arange(len(mesh))[:, None])  # each edge once
+    other = mesh.neighbors[triangle, corner]
+    a, b = (mesh.triangles[triangle, (corner + k) % 3] for k in (1, 2))
+    on_hull = other < 0
+    start = centers[triangle]
+    along = mesh.points[b] - mesh.points[a]
+    outward = np.stack([along[:, 1], -along[:, 0]], axis=1) / hypotenuse(along[:, 0], along[:, 1])[:, None]
+    # Far enough to cross the whole rectangle from wherever the ray begins.
+    reach = np.abs(start - low).sum(axis=1) + np.abs(start - high).sum(axis=1) + 1
+    step = np.where(on_hull[:, None], outward * reach[:, None], centers[other] - start)
+    size = hypotenuse(step[:, 0], step[:, 1])
+    order = _order_of(mesh, a, b)
+    return np.where(on_hull, np.inf, size)[order], (_share_inside(start, step, low, high) * size)[order]
+
+
+def _order_of(mesh: Triangulation, a: NDArray[np.int32], b: NDArray[np.int32]) -> NDArray[np.intp]:
+    """Where each edge of the mesh is among the pairs of ends."""
+    count = len(mesh.points)
+    ends = np.minimum(a, b).astype(np.int64) * count + np.maximum(a, b)
+    sorter = np.argsort(ends, kind="stable")
+    wanted = mesh.edges[:, 0].astype(np.int64) * count + mesh.edges[:, 1]
+    order: NDArray[np.intp] = sorter[np.searchsorted(ends[sorter], wanted)]
+    return order
+
+
+def _share_inside(
+    start: NDArray[np.float64], step: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Share of each segment that lies in a rectangle (Liang and Barsky 1984)."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one, other = (low - start) / step, (high - start) / step
+    within = (start >= low) & (start <= high)
+    parallel = step == 0
+    enters = np.where(parallel, np.where(within, -np.inf, np.inf), np.minimum(one, other)).max(axis=1)
+    leaves = np.where(parallel, np.where(within, np.inf, -np.inf), np.maximum(one, other)).min(axis=1)
+    share: NDArray[np.float64] = np.maximum(0.0, np.minimum(leaves, 1.0) - np.maximum(enters, 0.0))
+    return share

@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.arguments import check_value
 from vorotool.types.distances.distances import FROM_A, FROM_B, SMALLEST, Distances, PlacePair
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 from vorotool.types.polygons.used_shapes import used_shapes
-
-Floats = NDArray[np.float64]
 
 TOLERANCE = 1e-9
 """Of the extent: shapely computes in floating point, and parts of edges are halved until they are as short."""

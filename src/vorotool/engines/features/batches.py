@@ -11,8 +11,8 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import with_flat_shells_as_lines
-from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import (
     MOST_VERTICES,
     Arrangement,
@@ -20,23 +20,22 @@ from vorotool.engines.arrangement.planar_graph import (
     arranged,
     placed_vertices,
 )
+from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.reports import Found, report_repairs, report_small
-from vorotool.engines.features.crack_corners import OwnCorners, own_corners
-from vorotool.engines.features.sheets import Features, batches_of, sheets_of_boxes, sheets_of_cracks, touching_features
 from vorotool.errors import LimitError, warn
+from vorotool.numeric.arrays import Indices
 from vorotool.numeric.checks import available_threads
+from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import in_threads
 from vorotool.numeric.progress import Progress
-from vorotool.numeric.ragged import owners, starts_of
-from vorotool.numeric.sorted_sets import distinct
+from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
 from vorotool.types.box import bounds
 from vorotool.types.magnitude import check_magnitude
 from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
-from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.polygons.ring_arrays import RingArrays
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
+from vorotool.types.polygons.used_shapes import RingArrays
 
-Indices = NDArray[np.int64]
 Result = TypeVar("Result")
 
 
@@ -339,3 +338,148 @@ def _all_repairs(parts: Sequence[BatchShapes], corners: OwnCorners | None) -> Fo
             edge, other = (int(corners.vertex[k]) if k >= 0 else -1 for k in (edge, other))
         total[name] = (count, edge, other)
     return total
+
+
+@plain(eq=False)
+class OwnCorners:
+    """Polygons without vertices in which they go straight on."""
+
+    polygons: PolygonSet  # with the same rings
+    vertex: Indices  # (n,) int64 array: the number of each vertex among those that were given
+
+
+def own_corners(polygons: PolygonSet) -> OwnCorners | None:
+    """Leave out vertices in which rings go straight on; None if there are none."""
+    if not len(polygons.xy):
+        return None
+    candidates = _between_likes(polygons)
+    before, after = (polygons.xy[k] for k in _neighbors(polygons, candidates))
+    here = polygons.xy[candidates]
+    (ux, uy), (vx, vy) = (here - before).T, (after - here).T
+    straight = candidates[(ux * vy == uy * vx) & (ux * vx + uy * vy > 0)]
+    if not straight.size:
+        return None
+    is_straight = np.zeros(len(polygons.xy), dtype=bool)
+    is_straight[straight] = True
+    start = polygons.ring_starts
+    kept = np.flatnonzero(~is_straight)
+    sizes = np.add.reduceat(~is_straight, start[:-1])
+    return OwnCorners(replace(polygons, xy=polygons.xy[kept], ring_starts=starts_of(sizes)), kept)
+
+
+def _between_likes(polygons: PolygonSet) -> Indices:
+    """Vertices between two edges that are both along the rows, or both not; those of lines have none on one side."""
+    xy, start = polygons.xy, polygons.ring_starts
+    is_along = np.empty(len(xy), dtype=bool)
+    np.equal(xy[1:, 1], xy[:-1, 1], out=is_along[:-1])
+    is_along[start[1:] - 1] = xy[start[:-1], 1] == xy[start[1:] - 1, 1]
+    is_like = np.empty(len(xy), dtype=bool)
+    np.equal(is_along[1:], is_along[:-1], out=is_like[1:])
+    is_like[start[:-1]] = is_along[start[:-1]] == is_along[start[1:] - 1]
+    candidates = np.flatnonzero(is_like)
+    ring = np.searchsorted(start, candidates, side="right") - 1
+    return candidates[~np.equal(polygons.ring_kind, LINE)[ring]]
+
+
+def _neighbors(polygons: PolygonSet, vertices: Indices) -> tuple[Indices, Indices]:
+    """The vertices before and after some."""
+    start = polygons.ring_starts
+    ring = np.searchsorted(start, vertices, side="right") - 1
+    first, last = start[ring], start[ring + 1] - 1
+    return np.where(vertices == first, last, vertices - 1), np.where(vertices == last, first, vertices + 1)
+
+
+BATCH = 1 << 13
+"""Vertices of a batch or more: some megabytes of its diagram, which stay in the cache, and soon done by any thread."""
+APART = 1
+"""Lattice steps around each feature: what snap rounding may move is nearer than one to it."""
+
+
+@plain(eq=False)
+class Features:
+    """The features of polygons, numbered without gaps."""
+
+    polygon_starts: Indices  # (f + 1,) int64 array: the first polygon of each, and the number of polygons
+    vertex_starts: Indices  # (f + 1,) int64 array: the first vertex of each, and the number of vertices
+
+    @classmethod
+    def of(cls, polygons: PolygonSet) -> Features:
+        """Find them."""
+        assert polygons.feature is not None
+        first = np.flatnonzero(np.diff(polygons.feature, prepend=-1))
+        start = np.append(first, len(polygons))
+        return cls(start, polygons.ring_starts[polygons.polygon_starts[start]])
+
+    def __len__(self) -> int:
+        return len(self.polygon_starts) - 1
+
+    @property
+    def of_vertex(self) -> Indices:
+        """(n,) the feature of each vertex."""
+        return owners(np.diff(self.vertex_starts))
+
+    def polygons_of(self, chosen: Indices) -> Indices:
+        """Polygons of some features."""
+        return ranges(self.polygon_starts[chosen], np.diff(self.polygon_starts)[chosen])
+
+
+def sheets_of_boxes(
+    features: Features,
+    vertices: NDArray[np.int32],
+    *,
+    reach: NDArray[np.int64] | None = None,
+    progress: Progress = None,
+) -> NDArray[np.int32]:
+    """(f,) sheets of features: on the lattice the bounds of those of one sheet have a gap between them."""
+    if len(features) < 2:
+        return np.zeros(len(features), dtype=np.int32)
+    first = features.vertex_starts[:-1]
+    low, high = (bound.reduceat(vertices, first, axis=0).astype(np.int64) for bound in (np.minimum, np.maximum))
+    wide = (APART if reach is None else reach + APART) * np.ones((len(features), 1), dtype=np.int64)
+    return _core.spatial.disjoint_sheets(np.hstack([low - wide, high + wide]), progress)
+
+
+def sheets_of_cracks(
+    features: Features, vertices: NDArray[np.int32], *, progress: Progress = None
+) -> NDArray[np.int32]:
+    """(f,) sheets of features that are outlines of pixels: those of one sheet have no vertex in common."""
+    sheet = np.zeros(len(features), dtype=np.int32)
+    pairs = touching_features(features, vertices, progress=progress)
+    if len(pairs):
+        touching, index = np.unique(pairs, return_inverse=True)
+        a, b = np.ascontiguousarray(index.reshape(-1, 2).T.astype(np.uint32))
+        sheet[touching] = _core.graphs.color_graph(len(touching), a, b, progress).astype(np.int32) - 1
+    return sheet
+
+
+def touching_features(features: Features, vertices: NDArray[np.int32], *, progress: Progress = None) -> Indices:
+    """(k, 2) pairs of features that have a vertex in common, each once: the smaller number first."""
+    first = _core.arrangement.first_at_place(vertices, progress)
+    again = np.flatnonzero(first != np.arange(len(first)))
+    if not again.size:
+        return np.empty((0, 2), dtype=np.int64)
+    owner = features.of_vertex
+    count = len(features)
+    at = distinct(np.concatenate([first[again] * count + owner[again], first[again] * count + owner[first[again]]]))
+    place, own = at // count, at % count
+    pairs = []
+    for step in range(1, int(np.bincount(np.unique(place, return_inverse=True)[1]).max())):
+        same = place[step:] == place[:-step]
+        pairs.append(own[:-step][same] * count + own[step:][same])
+    if not pairs:
+        return np.empty((0, 2), dtype=np.int64)
+    keys = distinct(np.concatenate(pairs))
+    return np.stack([keys // count, keys % count], axis=1)
+
+
+def batches_of(features: Features, sheet: NDArray[np.int32]) -> list[Indices]:
+    """Features of each batch: of one sheet, ascending, and about `BATCH` vertices or more."""
+    if not len(features):
+        return []
+    order = np.argsort(sheet, kind="stable")
+    sizes = np.diff(features.vertex_starts)[order]
+    begin = starts_of(sizes)[:-1]
+    new_sheet = np.diff(sheet[order], prepend=-1) != 0
+    of_sheet = begin - np.maximum.accumulate(np.where(new_sheet, begin, 0))
+    cut = new_sheet | (np.diff(of_sheet // BATCH, prepend=0) > 0)
+    return np.split(order, np.flatnonzero(cut)[1:])

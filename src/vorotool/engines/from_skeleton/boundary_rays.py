@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.ragged import owners, ranges
 from vorotool.types.polygons.polygon_set import PolygonSet
-
-Floats = NDArray[np.float64]
 
 PART = 1 << 18
 """Edges that are looked at together, or those of one polygon."""

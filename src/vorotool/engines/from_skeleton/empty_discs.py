@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from vorotool.convert.boxes import as_extent
 from vorotool.convert.polygons import as_polygons
 from vorotool.convert.sites import as_sites
-from vorotool.engines.from_skeleton.disc_candidates import Candidates
-from vorotool.engines.from_skeleton.disc_places import bernstein_roots
+from vorotool.engines.from_skeleton.disc_places import Candidates, bernstein_roots
 from vorotool.engines.from_skeleton.largest_discs import Axis, check_count
 from vorotool.engines.skeleton.diagrams import diagram_of_all, skeleton_in
 from vorotool.errors import InputError
+from vorotool.numeric.arrays import Floats, Numbers
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import starts_of
@@ -26,9 +26,6 @@ from vorotool.types.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, PointsLike, PolygonsLike
-
-Floats = NDArray[np.float64]
-Numbers = NDArray[np.intp]
 
 
 def largest_empty_discs(

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.from_skeleton.disc_candidates import Candidates, Plateaus, node_candidates
-from vorotool.engines.from_skeleton.disc_places import DiscPlaces
+from vorotool.engines.from_skeleton.disc_places import Candidates, DiscPlaces, Plateaus, node_candidates
 from vorotool.engines.skeleton.clearance import clearance_course, is_maximum, plateaus
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
+from vorotool.numeric.arrays import Numbers
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import whole_number
 from vorotool.numeric.progress import Progress
@@ -22,9 +22,6 @@ from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, PolygonsLike
-
-Floats = NDArray[np.float64]
-Numbers = NDArray[np.intp]
 
 
 def largest_discs(

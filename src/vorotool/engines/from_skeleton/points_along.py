@@ -1,19 +1,26 @@
-"""Places at equal steps along the branches of a skeleton, or along centerlines."""
+"""Places at equal steps along skeletons or centerlines, and the sections of the polygon across them."""
 
 from __future__ import annotations
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.from_skeleton.sections import sections_along
+from vorotool.engines.from_skeleton.boundary_rays import first_crossings
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.errors import LimitError, UsageError
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.numbers import finite_double
 from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners, within
+from vorotool.plain import plain
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import Skeleton
 
@@ -86,3 +93,167 @@ def _counts(length: NDArray[np.float64], every: float) -> NDArray[np.int64]:
             "steps"
         )
     return counts.astype(np.int64)
+
+
+_TOUCH = 8
+"""Ulp of the largest coordinate: discs that are smaller are on the outline, but for rounding."""
+
+
+def sections_along(lines: LedOn, counts: Indices, every: float) -> SkeletonPoints:
+    """Give places at 0, 1, 2, … steps from where each line begins, and the ends of the section across it there."""
+    pieces = _pieces(lines)
+    line: Indices = owners(counts)
+    along: Floats = np.asarray(every * within(counts), dtype=np.float64)
+    piece, reached = _found(pieces, line, along)
+    xy, way = _places(lines, pieces, piece, reached)
+    radius, given = _radii(lines, pieces, piece, reached, xy, line), lines.as_given
+    for at, is_end in enumerate((along == 0, along >= lines.length[line])):
+        led_on, nodes = given.ends[line, at][is_end], lines.end_nodes[line, at][is_end]
+        is_led_on = ~np.isnan(led_on[:, :1])
+        xy[is_end] = np.where(is_led_on, led_on, given.path.vertices[nodes])
+        radius[is_end] = np.where(is_led_on[:, 0], 0, lines.path.radius[nodes])
+    polygons = given.path.polygons
+    inside = (radius > _TOUCH * np.spacing(np.abs(polygons.xy).max(initial=0.0))) & way.any(axis=1)
+    feet, rings = np.repeat(xy[:, None], 2, axis=1), np.full((len(xy), 2), -1, dtype=np.int32)
+    own = None if lines.path.features == "together" else lines.polygon[line][inside]
+    feet[inside], rings[inside] = section_ends(polygons, own, xy[inside], way[inside], radius[inside])
+    arc = pieces.nearest_arc[piece]
+    return SkeletonPoints(lines.path, arc, along, xy, radius, feet, rings)
+
+
+@plain(eq=False)
+class _Pieces:
+    """Arcs of lines and the straight lines that lead on, line by line."""
+
+    arc: Indices  # (p,) int64 array: -1 for what leads on; the first or the last arc of its line
+    nearest_arc: Indices  # (p,) int64 array: -1 for what leads on; the first or the last arc of its line
+    ends: Floats  # (p, 2, 2) float64 array: where each begins and ends
+    length: Floats  # (p,) float64 array: and how far from the beginning of its line it begins
+    begin: Floats  # (p,) float64 array: and how far from the beginning of its line it begins
+    line: Indices  # (p,) int64 array: not decreasing
+
+
+def _pieces(lines: LedOn) -> _Pieces:
+    path, (first, last) = lines.path, lines.extended
+    arcs = np.arange(len(path))
+    start = lines.arc_starts
+    nodes = path.vertices[lines.end_nodes]
+    of_first = np.stack([lines.ends[first, 0], nodes[first, 0]], axis=1)
+    of_last = np.stack([nodes[last, 1], lines.ends[last, 1]], axis=1)
+    line = np.concatenate([first, owners(np.diff(start)), last])
+    order = np.argsort(line, kind="stable")
+    line = line[order]
+    arc = np.concatenate([np.full(len(first), -1), arcs, np.full(len(last), -1)])[order]
+    nearest = np.concatenate([start[:-1][first], arcs, start[1:][last] - 1])[order]
+    ends = np.concatenate([of_first, path.vertices[path.arcs], of_last])[order]
+    extension = lines.extension_length
+    length = np.concatenate([extension[first, 0], path.length, extension[last, 1]])[order]
+    whole = np.concatenate([[0.0], np.cumsum(length)])
+    begin = whole[:-1] - whole[np.searchsorted(line, line)]
+    return _Pieces(arc, nearest, ends, length, begin, line)
+
+
+def _found(pieces: _Pieces, line: Indices, along: Floats) -> tuple[Indices, Floats]:
+    """The piece that each place is on, the last that begins there or before, and how far along it."""
+    count = len(pieces.line)
+    keys = np.concatenate([pieces.begin, along]), np.concatenate([pieces.line, line])
+    order = np.lexsort(keys)  # stable: pieces come before the places where they begin
+    piece = np.empty(len(order), dtype=np.int64)
+    piece[order] = np.maximum.accumulate(np.where(order < count, order, -1))
+    found = piece[count:]
+    return found, np.minimum(along - pieces.begin[found], pieces.length[found])
+
+
+def _places(lines: LedOn, pieces: _Pieces, piece: Indices, reached: Floats) -> tuple[Floats, Floats]:
+    """Places, and the directions of their lines; where two pieces meet half-way between theirs."""
+    arc = pieces.arc[piece]
+    length = pieces.length[piece]
+    u = np.divide(reached, length, out=np.zeros(len(piece)), where=length > 0)
+    a, b = pieces.ends[piece].swapaxes(0, 1)
+    xy = a + u[:, None] * (b - a)
+    on_arc = np.flatnonzero(arc >= 0)
+    measures = lines.path.measures(arc[on_arc])
+    u[on_arc] = measures.parameter(reached[on_arc])
+    xy[on_arc] = measures.place(u[on_arc])
+    way = _directions(lines, pieces, piece, u)
+    before = piece - 1
+    meets = np.flatnonzero((reached == 0) & (pieces.line[np.maximum(before, 0)] == pieces.line[piece]) & (before >= 0))
+    both = way[meets] + _directions(lines, pieces, before[meets], np.ones(len(meets)))
+    way[meets] = np.where((both == 0).all(axis=1)[:, None], way[meets], both)  # a way that turns back has no middle
+    return xy, way
+
+
+def _directions(lines: LedOn, pieces: _Pieces, piece: Indices, u: Floats) -> Floats:
+    """Unit vectors along pieces; where a curve has none, along its chord."""
+    a, b = pieces.ends[piece].swapaxes(0, 1)
+    arc = pieces.arc[piece]
+    control = np.where(arc[:, None] >= 0, lines.path.control[arc], np.nan)
+    v = u[:, None]
+    bent = (1 - v) * (control - a) + v * (b - control)
+    way = np.where(np.isnan(control) | ~bent.any(axis=1)[:, None], b - a, bent)
+    length = hypotenuse(*way.T)[:, None]
+    unit: Floats = np.divide(way, length, out=np.zeros_like(way), where=length > 0)
+    return unit
+
+
+def _radii(lines: LedOn, pieces: _Pieces, piece: Indices, reached: Floats, xy: Floats, line: Indices) -> Floats:
+    """Clearances: of the arcs, and on what leads on the distances from the outline."""
+    arc, polygons = pieces.arc[piece], lines.path.polygons
+    radius = np.empty(len(arc))
+    on_arc, off = np.flatnonzero(arc >= 0), np.flatnonzero(arc < 0)
+    measures = lines.path.measures(arc[on_arc])
+    radius[on_arc] = measures.radius(measures.parameter(reached[on_arc]))
+    outlines, own = shapely.boundary(to_shapely(polygons)), lines.polygon[line[off]]
+    if lines.path.features == "together":
+        outlines, own = np.array([shapely.GeometryCollection(list(outlines))]), np.zeros_like(own)
+    radius[off] = shapely.distance(shapely.points(xy[off]), outlines[own])
+    return radius
+
+
+_GROWTH = 4
+"""By how much a ray is made longer that meets no edge yet."""
+
+
+def section_ends(
+    polygons: PolygonSet, own: NDArray[np.integer] | None, xy: Floats, way: Floats, radius: Floats
+) -> tuple[Floats, NDArray[np.int32]]:
+    """Find where straight lines across some ways meet the outline first, left and right."""
+    left = np.stack([-way[:, 1], way[:, 0]], axis=1)
+    across = np.stack([left, -left], axis=1).reshape(-1, 2)
+    polygon = None if own is None else np.repeat(own, 2)
+    places, vertices = _first_hits(polygons, polygon, np.repeat(xy, 2, axis=0), across, np.repeat(radius, 2))
+    ring = np.searchsorted(polygons.ring_starts, vertices, side="right") - 1
+    rings = np.where(vertices < 0, -1, ring - polygons.polygon_starts[polygons.ring_polygon[ring]])
+    return places.reshape(-1, 2, 2), rings.reshape(-1, 2).astype(np.int32)
+
+
+def _first_hits(
+    polygons: PolygonSet, polygon: NDArray[np.integer] | None, origin: Floats, way: Floats, reach: Floats
+) -> tuple[Floats, Indices]:
+    """Where each ray meets an edge first, and where that edge begins: edges near the ray are looked at first."""
+    way = way / hypotenuse(*way.T)[:, None]
+    edges = np.stack([polygons.xy, polygons.xy[polygons.following]], axis=1)
+    of_edge = polygons.ring_polygon[owners(np.diff(polygons.ring_starts))]
+    tree = shapely.STRtree(shapely.linestrings(edges))
+    most = 2 * float(np.abs(polygons.xy - polygons.xy[:1]).sum(axis=1).max(initial=0.0))
+    places, vertices = origin.copy(), np.full(len(origin), -1, dtype=np.int64)
+    left, reach = np.arange(len(origin)), 2 * reach
+    while left.size:
+        ends = np.stack([origin[left], origin[left] + reach[left, None] * way[left]], axis=1)
+        ray, edge = tree.query(shapely.linestrings(ends))
+        if polygon is not None:
+            is_own = of_edge[edge] == polygon[left[ray]]
+            ray, edge = ray[is_own], edge[is_own]
+        order = np.lexsort((edge, ray))  # of equally near ones the first is met
+        ray, edge = ray[order], edge[order]
+        begin, end = (edges[edge, side] - origin[left[ray]] for side in (0, 1))
+        ahead, met = first_crossings(ray, begin, end, way[left])
+        # what is farther may be behind an edge that was not looked at
+        found = np.flatnonzero((met >= 0) & (hypotenuse(*ahead.T) <= reach[left]))
+        of, hit = left[found], edge[met[found]]
+        vertices[of] = hit
+        a, b = edges[hit].swapaxes(0, 1)
+        places[of] = np.where(a == b, a, origin[of] + ahead[found])  # exactly on edges along an axis
+        left = left[(vertices[left] < 0) & (reach[left] <= most)]
+        reach[left] *= _GROWTH
+    return places, vertices

@@ -3,29 +3,26 @@
 from __future__ import annotations
 
 from itertools import combinations, pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.flat_rings import flat_holes
 from vorotool.engines.from_skeleton.contour_walk import Contours, contours_of, site_points
-from vorotool.engines.from_skeleton.disc_union import Ring, covered_rings
 from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
 from vorotool.errors import UsageError
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.curves.circular_arcs import chords_of, middles_of
 from vorotool.numeric.curves.flatten import circle_tolerances
 from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.equality import index_of_rows
 from vorotool.numeric.numbers import Flatten, checked_flatten
 from vorotool.numeric.ragged import owners, starts_of
-from vorotool.numeric.row_index import index_of_rows
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _ULPS = 8
 """Of the largest coordinate: what two feet of one disc may differ by, times how much each is magnified."""
@@ -319,3 +316,56 @@ def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
         crs=given.crs,
         index=index_of_rows(given.index, polygon[order[~is_hole]]),
     )
+
+
+_QUARTERS = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
+
+
+class Ring(NamedTuple):
+    """Vertices of a ring, the polygon that it is in, and a number of the connected part in it, the same for holes."""
+
+    xy: Floats
+    polygon: int
+    part: int
+
+
+def covered_rings(skeleton: Skeleton, arcs: Indices, tolerance: float | None) -> list[Ring]:
+    """Rings around the discs along some arcs, polygon by polygon."""
+    import shapely
+
+    if not len(arcs):
+        return []
+    to_corner = _to_corner(skeleton, arcs)
+    pairs, others = arcs[to_corner], arcs[~to_corner]
+    single, first = np.unique(skeleton.arcs[others], return_index=True)
+    xy, circle = _circles(skeleton, np.concatenate([single, skeleton.arcs[pairs].reshape(-1)]), tolerance)
+    piece = np.where(circle < len(single), circle, (circle + len(single)) // 2)
+    pieces = shapely.convex_hull(shapely.multipoints(xy, indices=piece))
+    own = skeleton.polygon[np.concatenate([others[first // 2], pairs])]
+    order = np.argsort(own, kind="stable")
+    polygons, start = np.unique(own[order], return_index=True)
+    rings = []
+    for polygon, part_of in zip(polygons.tolist(), np.split(pieces[order], start[1:]), strict=True):
+        whole = shapely.union_all(part_of)
+        for part, shape in enumerate(shapely.get_parts(whole).tolist()):
+            turned = shapely.geometry.polygon.orient(shape)
+            places = [shapely.get_coordinates(ring)[:-1] for ring in (turned.exterior, *turned.interiors)]
+            rings += [Ring(place, polygon, ~part) for place in places]
+    return rings
+
+
+def _to_corner(skeleton: Skeleton, arcs: Indices) -> NDArray[np.bool_]:
+    """(k,) whether the sites of each arc have an end in common."""
+    left, right = skeleton.site_ends[skeleton.sites[arcs].T]
+    found: NDArray[np.bool_] = (left[:, :, None] == right[:, None]).all(axis=-1).any(axis=(1, 2))
+    return found
+
+
+def _circles(skeleton: Skeleton, node: NDArray[np.integer], tolerance: float | None) -> tuple[Floats, Indices]:
+    """Vertices of the circle about each node, and which circle each is of."""
+    center, r = (np.repeat(values[node], 4, axis=0) for values in (skeleton.vertices, skeleton.radius))
+    ways = r[:, None] * np.tile(_QUARTERS, (len(node), 1))
+    ends = r[:, None] * np.tile(np.roll(_QUARTERS, -1, axis=0), (len(node), 1))
+    is_left = np.ones(len(r), dtype=bool)
+    xy, first = chords_of(center + ways, center + ends, center, is_left, circle_tolerances(center, r, tolerance))
+    return xy, np.repeat(np.arange(len(r)) // 4, np.diff(first))

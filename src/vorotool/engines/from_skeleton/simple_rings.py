@@ -5,10 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.ragged import following, owners
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 
 def repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.progress import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -18,7 +19,6 @@ from vorotool.types.skeleton.discs import Discs
 if TYPE_CHECKING:
     from shapely import STRtree
 
-Floats = NDArray[np.float64]
 
 LARGER = 2.0**-8
 """Of the radius: no disc that is larger by more is anywhere, not only near the center that was found."""

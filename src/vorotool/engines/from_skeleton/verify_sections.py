@@ -10,15 +10,13 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import SitePlaces
+from vorotool.numeric.arrays import Booleans, Floats
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.ragged import owners, starts_of
 from vorotool.types.polygons.conversion import to_shapely
-from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import Skeleton
-
-Floats = NDArray[np.float64]
-Booleans = NDArray[np.bool_]
 
 _ROUNDING = 2.0**-26
 """Part of the extent that places may be off: the lattice has 31 bits, and lines are cut into chords."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail
 from vorotool.errors import InputError, UsageError
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import as_array
 from vorotool.numeric.descriptions import described
 from vorotool.numeric.numbers import pair_of_doubles, shown_number, whole_number
@@ -17,8 +18,6 @@ from vorotool.numeric.progress import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.axis import is_up
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
-
-Floats = NDArray[np.float64]
 
 SAMPLES = 128
 """Pixels that are looked at, if there are more."""

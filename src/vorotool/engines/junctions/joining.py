@@ -11,13 +11,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.ragged import ranges
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.skeleton import EDGE, SiteTable, Skeleton
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 SNAP = 2.0**-30
 """Of an arc: what is cut as near to its end is cut there."""

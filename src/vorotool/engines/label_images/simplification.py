@@ -12,13 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.numeric.numbers import finite_double, shown_number
+from vorotool.numeric.arrays import Indices
+from vorotool.numeric.numbers import distinct, finite_double, shown_number
 from vorotool.numeric.ragged import owners, ranges, starts_of, within
-from vorotool.numeric.sorted_sets import distinct
 from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
-
-Indices = NDArray[np.int64]
 
 
 def simplified_polygons(polygons: PolygonSet, tolerance: float) -> PolygonSet:

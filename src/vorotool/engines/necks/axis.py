@@ -6,12 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.clearance import clearance_course, plateaus
+from vorotool.numeric.arrays import Indices
 from vorotool.numeric.progress import Progress
 from vorotool.plain import plain
-from vorotool.types.skeleton.clearance import ClearanceCourse
+from vorotool.types.skeleton.arc_measures import ClearanceCourse
 from vorotool.types.skeleton.skeleton import Skeleton
-
-Indices = NDArray[np.int64]
 
 
 @plain(eq=False)

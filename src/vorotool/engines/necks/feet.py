@@ -8,12 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.necks.axis import Ways
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.plain import plain
-from vorotool.types.skeleton.given_feet import projected
+from vorotool.types.polygons.input_vertices import projected
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _CLOSE = 2.0**-50
 """Part of a width: as a double it is rounded by at most 4 units of 2^-53."""

@@ -5,24 +5,22 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vorotool.engines.necks.axis import Ways, clearance_flow, ways_from_necks
 from vorotool.engines.necks.feet import Feet, by_width, feet_of
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError, option
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.progress import Progress
 from vorotool.plain import plain
-from vorotool.types.skeleton.given_feet import moved_feet
+from vorotool.types.polygons.input_vertices import moved_feet
 from vorotool.types.skeleton.necks import Necks
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, PolygonsLike
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 NARROW = 0.95
 """The ratio of `necks` by default: in bends of constant width each facet has a neck above 0.99."""

@@ -14,19 +14,17 @@ from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.errors import VorotoolWarning
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import owners
 from vorotool.types.arguments import check_value
+from vorotool.types.polygons.input_vertices import moved_feet, places_as_given
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.polygons.vertices_as_given import places_as_given
-from vorotool.types.skeleton.given_feet import moved_feet
 from vorotool.types.skeleton.necks import Necks
 from vorotool.types.skeleton.parts import Parts
 from vorotool.types.skeleton.skeleton import Skeleton
-
-Floats = NDArray[np.float64]
 
 _AREA_ERROR = 1e-9
 """Of areas, beside what a foot that is off its edge by some ulp takes from one piece and gives to another."""

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.errors import UsageError
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import available_threads, checked_threads, is_choice
 from vorotool.numeric.curves.inverse_functions import inverse_sine
-from vorotool.numeric.numbers import finite_double, shown_number
+from vorotool.numeric.numbers import distinct, finite_double, shown_number
 from vorotool.numeric.parallel import in_threads
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import owners, starts_of
-from vorotool.numeric.sorted_sets import distinct
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -28,7 +28,6 @@ from vorotool.types.skeleton.skeleton import Skeleton
 if TYPE_CHECKING:
     from vorotool.typing import Criterion
 
-Floats = NDArray[np.float64]
 
 PART = 1 << 15
 """Arcs of a part or more: what is made of them stays in the cache."""

@@ -6,13 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.ragged import owners, ranges
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.arc_measures import ArcMeasures
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.skeleton.tables import connected_roots
-
-Floats = NDArray[np.float64]
 
 PRECISION = 2.0**-40
 """Of the largest coordinate: how far places may be from the arc that they are a part of. A place on an arc is computed

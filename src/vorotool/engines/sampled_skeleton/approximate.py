@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.arrangement.lattice_rings import PlacedShapes
+from vorotool.engines.arrangement.repaired_polygons import PlacedShapes
 from vorotool.engines.skeleton.contraction import without_equal_nodes
 from vorotool.engines.skeleton.exact import (
     check_skeleton_options,

@@ -11,12 +11,11 @@ from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton
 from vorotool.engines.skeleton.verify_bounds import place_error
 from vorotool.engines.skeleton.verify_skeleton import check_arrays, verify_skeleton
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import owners
 from vorotool.types.skeleton.boundary_samples import BoundarySamples
-
-Floats = NDArray[np.float64]
 
 SEED_ERROR = 2.0**-20
 """Of a lattice step: how far seeds may be from their edges, and gaps from what they should be."""

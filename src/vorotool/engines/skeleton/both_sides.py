@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.arrangement.lattice_rings import PlacedShapes
 from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
+from vorotool.engines.arrangement.repaired_polygons import PlacedShapes
 from vorotool.engines.features.batches import are_apart
 from vorotool.engines.skeleton.exact import ShapeDiagram, diagram_of_graph, skeleton_of, warn_empty
 from vorotool.engines.skeleton.parts import PER_ARC

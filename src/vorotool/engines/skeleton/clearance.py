@@ -9,7 +9,7 @@ from vorotool import _core
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.progress import Progress
-from vorotool.types.skeleton.clearance import ClearanceCourse
+from vorotool.types.skeleton.arc_measures import ClearanceCourse
 from vorotool.types.skeleton.segment_voronoi import LATTICE_LIMIT
 from vorotool.types.skeleton.skeleton import Skeleton
 

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
+from vorotool.numeric.arrays import Indices
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.skeleton.tables import connected_roots
-
-Indices = NDArray[np.int64]
 
 
 @plain(eq=False)

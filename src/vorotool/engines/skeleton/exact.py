@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
+from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi, unwanted_sides
 from vorotool.engines.skeleton.open_border import Opening
 from vorotool.errors import Kind, Message, UsageError, VorotoolWarning, option, warn

@@ -14,14 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
+from vorotool.numeric.arrays import Indices
 from vorotool.plain import plain
 from vorotool.types.box import Extent, is_extent
 from vorotool.types.magnitude import check_lengths
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
-
-Indices = NDArray[np.int64]
 
 ROOM = 1.25
 """Of the sides of the rectangle together: how far around it the lattice has places. What is put away is as far as both

@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.arrangement.corner_sectors import corner_sectors
-from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import Placement, arranged, graph_for_skeletons, placed_vertices
+from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, segment_voronoi_of_groups
 from vorotool.engines.skeleton.exact import (
     ShapeDiagram,
@@ -22,18 +21,20 @@ from vorotool.engines.skeleton.exact import (
     skeleton_of,
     whole_diagram,
 )
-from vorotool.engines.skeleton.short_edges import ShortEdges
+from vorotool.errors import InputError
+from vorotool.numeric.arrays import Indices
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import angle_of, hypotenuse
+from vorotool.numeric.numbers import is_among
 from vorotool.numeric.progress import Progress
-from vorotool.numeric.ragged import owners
-from vorotool.numeric.sorted_sets import is_among
+from vorotool.numeric.ragged import following, owners
 from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
-from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.skeleton import SiteTable, Skeleton
+from vorotool.types.values import counted
 
 DEVIATION_STEPS = 2.0**-14
 """Of the extent: how finely arcs are flattened to measure how far two skeletons are apart."""
@@ -341,3 +342,79 @@ def exact_inside(elements: ElementDiagram) -> Skeleton:
     shapes = elements.shapes
     diagram = segment_voronoi(shapes.points, shapes.segments, threads=1)
     return interior_skeleton(ShapeDiagram(shapes, diagram, elements.placed))
+
+
+@plain(eq=False)
+class ShortEdges:
+    """Segments that are not longer than twice a gap."""
+
+    site: NDArray[np.int64]  # (k,) int array: their numbers among the sites
+    ends: NDArray[np.float64]  # (k, 2, 2) float64 array: where they begin and end
+    length: NDArray[np.float64]  # (k,) float64 array: how long they are
+
+    @classmethod
+    def of(cls, graph: PlanarGraph, gap: float) -> ShortEdges:
+        """Find those of a graph."""
+        ends = graph.coordinates()[graph.segments]
+        length = hypotenuse(*(ends[:, 1] - ends[:, 0]).T)
+        short = np.flatnonzero(~(length > 2 * gap))
+        return cls(len(graph.points) + short, ends[short], length[short])
+
+    def __len__(self) -> int:
+        return len(self.site)
+
+    def refuse(self, polygons: PolygonSet, sites: SiteTable, gap: float) -> None:
+        """Raise InputError if there are any, naming the first along the input."""
+        if not len(self):
+            return
+        first = int(self.site.argmin())
+        site = self.site[first]
+        ring = int(polygons.polygon_starts[sites.polygon[site]] + sites.ring[site])
+        (ax, ay), (bx, by) = self.ends[first].tolist()
+        raise InputError(
+            f"{polygons.ring_place(ring)}, edge {int(sites.index[site]) + 1} from ({ax!r}, {ay!r}) to ({bx!r}, {by!r}) "
+            f"is {self.length[first]:.6g} long, and a gap of {gap:g} at both ends leaves nothing of it "
+            f"({counted(len(self), 'such edge')}): use a gap below {self.length.min() / 2:.6g}"
+        )
+
+
+@plain
+class CornerSectors:
+    """Corners under 180 degrees: counter-clockwise from one segment of the graph to the next."""
+
+    point: Indices
+    right: Indices  # segments
+    left: Indices
+    face: Indices
+
+
+def corner_sectors(graph: PlanarGraph) -> CornerSectors:
+    """Find the corners under 180 degrees, exactly."""
+    count = len(graph)
+    at = graph.segments.T.reshape(-1).astype(np.int64)
+    to = graph.segments[:, ::-1].T.reshape(-1)
+    segment = np.tile(np.arange(count), 2)
+    left_face = graph.segment_faces.T.reshape(-1).astype(np.int64)  # as seen from the point
+    way = graph.points[to].astype(np.int64) - graph.points[at]
+    order = _by_angle(at, way)
+    at, way, segment, left_face = at[order], way[order], segment[order], left_face[order]
+    new = np.flatnonzero(np.diff(at, prepend=-1))
+    after = following(np.append(new, len(at)))
+    cross = way[:, 0] * way[after, 1] - way[:, 1] * way[after, 0]
+    sharp = (cross > 0) & (after != np.arange(len(at)))
+    return CornerSectors(at[sharp], segment[sharp], segment[after[sharp]], left_face[sharp])
+
+
+def _by_angle(at: Indices, way: Indices) -> Indices:
+    """Order by point, then counter-clockwise: by halves of the plane, in them exactly by products."""
+    half = np.where((way[:, 1] > 0) | ((way[:, 1] == 0) & (way[:, 0] > 0)), 0, 1)
+    angle = angle_of(*way.T)
+    order = np.lexsort((np.where(half == 0, angle, angle + 7), half, at))
+    while True:  # rounded angles of neighbors may be out of order
+        a, b = order[:-1], order[1:]
+        swap = (at[a] == at[b]) & (half[a] == half[b]) & (way[a, 0] * way[b, 1] - way[a, 1] * way[b, 0] < 0)
+        swap[1:] &= ~swap[:-1]
+        where = np.flatnonzero(swap)
+        if not where.size:
+            return order
+        order[where], order[where + 1] = order[where + 1].copy(), order[where].copy()

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
-
-Floats = NDArray[np.float64]
 
 ULPS = 32
 """Of the largest coordinate: by how much distances may differ. A node is right to 8 ulp of the radius and 2 of its

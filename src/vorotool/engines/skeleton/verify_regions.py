@@ -7,15 +7,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.arrangement.corner_sectors import corner_sectors
 from vorotool.engines.common.faults import fail, first_wrong
-from vorotool.engines.skeleton.site_distances import Floats, SitePlaces
-from vorotool.numeric.sorted_sets import distinct, is_among
+from vorotool.engines.skeleton.shortened_edges import corner_sectors
+from vorotool.engines.skeleton.site_distances import SitePlaces
+from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.numbers import distinct, is_among
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
-
-Indices = NDArray[np.int64]
 
 AREA = 1e-9
 AREA_ULPS = 8

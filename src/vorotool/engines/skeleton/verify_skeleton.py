@@ -13,9 +13,13 @@ from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.exact import ShapeDiagram, kept_edges
 from vorotool.engines.skeleton.parts import PER_ARC, outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.site_distances import SitePlaces
-from vorotool.engines.skeleton.verify_border import check_cut_regions, without_border
+from vorotool.engines.skeleton.verify_border import (
+    check_cut_regions,
+    check_equal_distances,
+    check_nothing_nearer,
+    without_border,
+)
 from vorotool.engines.skeleton.verify_bounds import check_approximation
-from vorotool.engines.skeleton.verify_distances import check_equal_distances, check_nothing_nearer
 from vorotool.engines.skeleton.verify_regions import (
     SkeletonRegions,
     border_components,
@@ -24,8 +28,8 @@ from vorotool.engines.skeleton.verify_regions import (
 )
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.numbers import distinct
 from vorotool.numeric.progress import Progress
-from vorotool.numeric.sorted_sets import distinct
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton

@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.smoothing.line_samples import LineSamples
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
 
-Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
 ROUNDS = 4

@@ -9,14 +9,14 @@ from vorotool.engines.smoothing.cubic_fits import Stretches, fitted
 from vorotool.engines.smoothing.line_samples import LineSamples, sampled_lines
 from vorotool.engines.smoothing.tangents import closing_tangents, inner_tangents, outer_tangents
 from vorotool.errors import InputError
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.numbers import checked_tolerance
 from vorotool.numeric.progress import Progress
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.skeleton.smooth_lines import SmoothLines
 
-Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
 FINEST = 2.0**-20

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.smoothing.line_samples import LineSamples
+from vorotool.numeric.arrays import Floats
 
-Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
 WINDOW = 8.0

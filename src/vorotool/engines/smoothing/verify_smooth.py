@@ -7,15 +7,14 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.errors import VerificationError
-from vorotool.numeric.curves.cubics import places_at
-from vorotool.numeric.curves.flatten import chained
+from vorotool.numeric.arrays import Floats
+from vorotool.numeric.curves.flatten import chained, places_at
 from vorotool.numeric.ragged import owners
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.skeleton.smooth_lines import SmoothLines, ends_of_lines
 
-Floats = NDArray[np.float64]
 Numbers = NDArray[np.integer]
 
 FINENESS = 64

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import STRICT, InputError, warn
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.numeric.row_index import index_of_rows
+from vorotool.numeric.equality import index_of_rows
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SCALES, SeedSet
 from vorotool.types.spacing import SQUARE, PixelSides

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.tessellation.cleaned_masks import Cleaning
 from vorotool.engines.volumes.volume_objects import VolumeObjects
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 Plane = NDArray[np.uint8]
 """(1, H, W) zeros and ones."""

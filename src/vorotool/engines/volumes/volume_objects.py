@@ -25,7 +25,7 @@ from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import finite_double
 from vorotool.plain import plain
 from vorotool.types.volumes.volume import Volume
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 SLAB_VOXELS = 2**23
 """Voxels that are read at a time, or one slice: each takes up to some 16 bytes while its slab is looked at."""

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
-from vorotool.numeric.sorted_sets import distinct
+from vorotool.numeric.numbers import distinct
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph, shared_elements
 from vorotool.errors import RepairWarning
-from vorotool.numeric.sorted_sets import distinct
+from vorotool.numeric.numbers import distinct
 from vorotool.types.box import Extent
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.voronoi.shapes import cell_polygons

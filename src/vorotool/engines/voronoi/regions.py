@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.voronoi.joint_graph import JointGraph, packed
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
+from vorotool.numeric.numbers import distinct, is_among
 from vorotool.numeric.ragged import owners, ranges, starts_of
-from vorotool.numeric.sorted_sets import distinct, is_among
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 

@@ -15,8 +15,7 @@ from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.alpha.hull import AlphaHull
 from vorotool.types.skeleton.centerline import Centerlines
 from vorotool.types.skeleton.discs import Discs
-from vorotool.types.skeleton.extended import ExtendedSkeleton
-from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.extended_lines import ExtendedSkeleton, LedOn
 from vorotool.types.skeleton.offsets import Offsets
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import Skeleton

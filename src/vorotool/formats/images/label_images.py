@@ -14,7 +14,7 @@ from vorotool.products.formats import resolved
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.raster import Raster
-from vorotool.types.skeleton.thickness import ThicknessImage
+from vorotool.types.skeleton.arc_measures import ThicknessImage
 
 _ANY_IMAGE = option("-o image.tif or image.npy", "the path image.tif or image.npy")
 

@@ -39,7 +39,7 @@ from vorotool.formats.points.columns import (
     point_set,
 )
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
-from vorotool.numeric.number_text import typed_texts
+from vorotool.numeric.numbers import typed_texts
 from vorotool.plain import plain
 from vorotool.types.axis import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet

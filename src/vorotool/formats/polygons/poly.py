@@ -12,7 +12,7 @@ from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.text.row_writer import coordinate_text
-from vorotool.numeric.sorted_sets import distinct
+from vorotool.numeric.numbers import distinct
 from vorotool.plain import plain
 from vorotool.types.box import bounds
 from vorotool.types.polygons.conversion import to_shapely

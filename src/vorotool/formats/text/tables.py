@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, slices, write_list_rows, write_rows
 from vorotool.numeric.coordinate_grid import on_grid
 from vorotool.numeric.length_units import ascii_unit
-from vorotool.numeric.number_text import NumberText
+from vorotool.numeric.numbers import NumberText
 from vorotool.numeric.parallel import in_order
-from vorotool.types.summaries import MEASURE, unit_of_measure
+from vorotool.types.mesh.tables import MEASURE, unit_of_measure
 from vorotool.types.table import Computed, Lookup, Table
 
 if TYPE_CHECKING:

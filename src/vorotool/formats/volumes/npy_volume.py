@@ -16,7 +16,7 @@ from vorotool.formats.io.npy_arrays import NpyHeader, npy_header, npy_values
 from vorotool.formats.io.sources import Source
 from vorotool.formats.volumes.source import Spool, checked_slabs, mapped
 from vorotool.plain import plain
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 
 @plain

@@ -9,7 +9,7 @@ from vorotool.errors import InputError
 from vorotool.formats.images.ome_xml import decimal_side, parse_ome
 from vorotool.formats.volumes.source import refuse_axes
 from vorotool.numeric.length_units import ratio
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 PIXEL = "pixel"
 """What OME calls a length that is in no unit."""

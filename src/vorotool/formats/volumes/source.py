@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
 from vorotool.formats.io.sources import copy_stream
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 SLAB_BYTES = 2**26
 """Of the slices that are read at a time, where whole volumes are."""

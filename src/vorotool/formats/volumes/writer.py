@@ -20,7 +20,7 @@ from vorotool.formats.volumes.source import checked_slabs
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 VolumeFormat = Literal["tiff", "npy"]
 

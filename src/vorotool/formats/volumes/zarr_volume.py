@@ -20,7 +20,7 @@ from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import is_array, is_group
 from vorotool.numeric.length_units import ratio, unit_name
 from vorotool.plain import plain
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 _SPACE = ("z", "y", "x")
 

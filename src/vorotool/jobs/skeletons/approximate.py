@@ -134,7 +134,7 @@ class ApproximateProducts(SkeletonProducts):
         }
         if o.stats is None and not o.compare:
             return found
-        from vorotool.engines.sampled_skeleton.error_summary import error_summary
+        from vorotool.engines.sampled_skeleton.hausdorff import error_summary
 
         found["error"] = error_summary(self.found, step=o.step)
         if o.compare:

@@ -15,12 +15,12 @@ from vorotool.products.formats import resolved
 if TYPE_CHECKING:
     from vorotool.jobs.skeletons.products import SkeletonProducts
     from vorotool.products.registry import Made
+    from vorotool.types.skeleton.arc_measures import ThicknessImage
     from vorotool.types.skeleton.discs import Discs
     from vorotool.types.skeleton.offsets import Offsets
     from vorotool.types.skeleton.parts import Parts
     from vorotool.types.skeleton.points_along import SkeletonPoints
     from vorotool.types.skeleton.skeleton import Skeleton
-    from vorotool.types.skeleton.thickness import ThicknessImage
 
 
 class Derived:
@@ -191,7 +191,7 @@ class Thickness(Derived):
     def _make(self) -> ThicknessImage:
         from vorotool.engines.from_skeleton.thickness import thickness_of_pixels
         from vorotool.jobs.pixel_sizes import written_grid
-        from vorotool.types.skeleton.thickness import ThicknessImage
+        from vorotool.types.skeleton.arc_measures import ThicknessImage
 
         frame, o = self.origin.frame, self.options
         assert frame is not None  # polygons are refused when they are read

@@ -38,8 +38,7 @@ if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.centerline import Centerlines
-    from vorotool.types.skeleton.extended import ExtendedSkeleton
-    from vorotool.types.skeleton.led_on import LedOn
+    from vorotool.types.skeleton.extended_lines import ExtendedSkeleton, LedOn
     from vorotool.types.skeleton.smooth_lines import SmoothLines
 
 LINES = ("skeleton", "centerline")
@@ -240,7 +239,7 @@ class SkeletonProducts(Results, ABC):
         """Check ends that skeletons are extended to, and smooth lines."""
         from vorotool.engines.centerlines.verify_extended import verify_extended
         from vorotool.engines.smoothing.verify_smooth import verify_smooth
-        from vorotool.types.skeleton.extended import ExtendedSkeleton
+        from vorotool.types.skeleton.extended_lines import ExtendedSkeleton
         from vorotool.types.skeleton.smooth_lines import SmoothLines
 
         for value in self._all_lines():

@@ -31,8 +31,7 @@ from vorotool.plain import plain
 from vorotool.products.inputs import VOLUME_NAMES
 from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelFrame, VoxelGrid
 
 _TIFF_HEADS = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 

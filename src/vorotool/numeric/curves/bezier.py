@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import inverse_sinh
-
-Floats = NDArray[np.float64]
 
 
 def areas_beside(source: Floats, control: Floats, target: Floats, center: Floats) -> Floats:

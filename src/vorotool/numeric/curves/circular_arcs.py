@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.coordinate_grid import record_deviation
 from vorotool.numeric.ragged import starts_of
-
-Floats = NDArray[np.float64]
 
 MOST_HALVINGS = 12
 """Of an arc: 4^12 times nearer than its chord."""

@@ -1,16 +1,14 @@
-"""Polylines instead of curves, for formats and pictures that have none."""
+"""Curves as polylines, for formats and pictures that have no curves; cubic Bézier curves."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.coordinate_grid import finest_deviation, record_deviation
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.ragged import owners, starts_of, within
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 CURVE_PART = 1 / 2000
 """How far lines may be from a curve: of the radius of a circular arc, of the extent of another curve."""
@@ -78,3 +76,35 @@ def chained(points: Floats, start: Indices, first: NDArray[np.integer]) -> tuple
     kept[start[:-1]] = False
     kept[start[first]] = True
     return points[kept], starts_of(kept)[np.append(start[first], len(points))]
+
+
+def places_at(control: Floats, t: Floats) -> Floats:
+    """(n, 2) places on curves, each at its parameter."""
+    a, b, c, d = np.moveaxis(control, 1, 0)
+    t = t[:, None]
+    u = 1 - t
+    places: Floats = u * u * u * a + 3 * t * u * (u * b + t * c) + t * t * t * d
+    return places
+
+
+def parts_between(control: Floats, first: Floats, last: Floats) -> Floats:
+    """(n, 4, 2) control points of the parts of curves from one parameter to another."""
+    made = np.empty_like(control)
+    for k, parameters in enumerate(((first,) * 3, (first, first, last), (first, last, last), (last,) * 3)):
+        points = np.moveaxis(control, 1, 0)
+        for t in parameters:  # the blossom
+            points = points[:-1] + t[:, None] * (points[1:] - points[:-1])
+        made[:, k] = points[0]
+    return made
+
+
+def cubic_polylines(control: Floats, tolerance: float | Floats) -> tuple[Floats, NDArray[np.int64]]:
+    """Curves as polylines, divided evenly in their parameter."""
+    second = control[:, 2:] - 2 * control[:, 1:-1] + control[:, :-2]
+    bend = np.sqrt((second * second).sum(axis=2)).max(axis=1, initial=0.0)
+    pieces = np.clip(np.ceil(np.sqrt(0.75 * bend / tolerance)), 1, MOST_PIECES).astype(np.int64)
+    curve = owners(pieces + 1)
+    points = places_at(control[curve], within(pieces + 1) / pieces[curve])
+    start = starts_of(pieces + 1)
+    points[start[:-1]], points[start[1:] - 1] = control[:, 0], control[:, 3]
+    return points, start

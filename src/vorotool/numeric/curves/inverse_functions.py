@@ -8,9 +8,9 @@ from __future__ import annotations
 from math import factorial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Floats = NDArray[np.float64]
+from vorotool.numeric.arrays import Floats
 
 PI = 3.141592653589793
 _QUARTER = (1.5707963267341256, 6.077100506506192e-11)

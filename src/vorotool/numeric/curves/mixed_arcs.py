@@ -7,15 +7,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.curves import bezier
 from vorotool.numeric.curves.circular_arcs import chords_of
 from vorotool.numeric.curves.flatten import polylines
 from vorotool.numeric.curves.inverse_functions import PI, hypotenuse, inverse_sine
 from vorotool.numeric.ragged import ranges, starts_of
 from vorotool.plain import plain
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _SMALL = 0.25
 """Sines of half angles up to which segments of circles are sums of series: beyond, four bits at most are lost."""

@@ -1,4 +1,4 @@
-"""Pages on which lengths of the data have a size on paper, and layers in chosen colors."""
+"""Pages on which lengths of the data have a size on paper, and pages of legends in pixels."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import replace
 from math import isfinite
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.errors import UsageError, option
 from vorotool.render.canvas.layers import MARGIN, Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
@@ -82,3 +83,19 @@ def _styled(layer: Layer, color: str | None, width: float | None) -> Layer:
     if isinstance(layer, Points | Texts) and layer.halo is not None:
         return replace(layer, color=color, halo=edge_color(color))
     return replace(layer, color=color)
+
+
+class PixelPage(Page):
+    """The page of what is placed in px of another page, such as a legend."""
+
+    def __init__(self, page: Page) -> None:
+        super().__init__((0.0, 0.0, float(page.width), float(page.height)), width=page.width, y_up=False)
+        self.width, self.height, self.style, self.decimals = page.width, page.height, page.style, page.decimals
+
+    def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n, 2) px from the left and from the top: the points themselves."""
+        return points
+
+    def length(self, distance: float) -> float:
+        """Px of a distance."""
+        return distance

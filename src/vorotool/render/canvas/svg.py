@@ -14,8 +14,7 @@ from vorotool import _core
 from vorotool.numeric.curves.circular_arcs import middles_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.xml_text import xml_characters
-from vorotool.render.canvas.circles import Circles
-from vorotool.render.canvas.cubic_curves import CubicCurves
+from vorotool.render.canvas.curve_layers import Circles, CubicCurves
 from vorotool.render.canvas.layers import (
     Arcs,
     Backdrop,
@@ -28,7 +27,7 @@ from vorotool.render.canvas.layers import (
     Polygons,
     Texts,
 )
-from vorotool.render.canvas.pixel_page import PixelPage
+from vorotool.render.canvas.scaled_page import PixelPage
 
 PATH_ROWS = 4096
 """Lines or polygons of one path: viewers slow down with longer ones, and with many elements."""

@@ -14,7 +14,7 @@ from vorotool.render.canvas.layers import Backdrop, ImagePage, Layer, Page, Poly
 from vorotool.render.canvas.palettes import FAINT, WHITE
 from vorotool.render.canvas.png import layer_bands
 from vorotool.render.canvas.styles import PictureStyle
-from vorotool.types.skeleton.thickness import ThicknessImage
+from vorotool.types.skeleton.arc_measures import ThicknessImage
 
 COLORS = 255
 """Of amounts; with the ground their numbers fit in a byte."""

@@ -15,7 +15,7 @@ from vorotool.products.formats import AS_PNG
 from vorotool.render.canvas.halos import halo_width
 from vorotool.render.canvas.layers import Backdrop, Layer, Page
 from vorotool.render.canvas.palettes import EDGE, FAINT, INK, SEED, cell_color, edge_color
-from vorotool.render.canvas.pixel_page import PixelPage
+from vorotool.render.canvas.scaled_page import PixelPage
 from vorotool.render.canvas.styles import PictureStyle
 from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element, layer_parts
 from vorotool.render.label_images.crack_outline import Loop, crack_loops

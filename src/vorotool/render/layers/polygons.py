@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.numeric.ragged import starts_of
-from vorotool.render.canvas.circles import circles
+from vorotool.render.canvas.curve_layers import circles
 from vorotool.render.canvas.layers import Arcs, Layer, Lines, Page, Points, Polygons, Texts, bounds_of, name_size
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import FAINT, LIGHT, RESULT, SEED, WHITE

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.render.canvas.cubic_curves import CubicCurves
+from vorotool.render.canvas.curve_layers import CubicCurves
 from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Polygons, Texts, bounds_of, name_size
 from vorotool.render.canvas.names import without_empty
 from vorotool.render.canvas.palettes import EDGE as CELL_EDGE
@@ -19,7 +19,7 @@ from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import feature_names, names_of_features, polygon_layers, polygon_page
 from vorotool.types.axis import is_up
 from vorotool.types.skeleton.centerline import Centerlines
-from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.necks import Necks
 from vorotool.types.skeleton.parts import Parts
 from vorotool.types.skeleton.points_along import SkeletonPoints

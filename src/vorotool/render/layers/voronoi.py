@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.numeric.arrays import Indices
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts, name_size
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import EDGE, INK, WHITE, cell_color
@@ -23,8 +24,6 @@ from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 LAYERS = ("cells", "edges", "objects", "labels")
 """From below: filled cells, all that bounds them as lines, the sites, and their names."""
-
-Indices = NDArray[np.int64]
 
 
 def voronoi_layers(cells: VoronoiMap, page: Page, layers: Iterable[str]) -> list[Layer]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.sorted_sets import distinct
+from vorotool.numeric.numbers import distinct
 from vorotool.types.alpha.complex import CLASSES, AlphaComplex
 from vorotool.types.alpha.shape import POINT_CLASSES, AlphaShape
 from vorotool.types.features import Corners, Mixture, Rows, chosen, of_points, point_rows, without_places

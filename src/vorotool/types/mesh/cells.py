@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.equality import check_index
 from vorotool.numeric.ragged import Nesting, divides, following, starts_of
-from vorotool.numeric.row_index import check_index
 from vorotool.types import fields as f
 from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.box import Box

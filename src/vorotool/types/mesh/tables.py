@@ -1,14 +1,17 @@
-"""Tables of a triangulation: its edges, triangles and points, in labels."""
+"""Tables of a triangulation: its edges, triangles and points, in labels; statistics and summaries of cells."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import field
+from math import sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.features import Corners, Rows, chosen, point_rows, without_places
 from vorotool.types.identity import with_ends
@@ -16,6 +19,7 @@ from vorotool.types.mesh.digital_triangulation import AnyTriangulation, DigitalT
 from vorotool.types.mesh.proximity import ProximityGraph
 from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.table import Computed, Lookup, Table
+from vorotool.types.values import Tabular, Value, counted
 
 
 def edge_table(mesh: AnyTriangulation | ProximityGraph) -> Table:
@@ -147,3 +151,100 @@ def _of_points(mesh: Any) -> Rows:
     if isinstance(mesh, Triangulation):
         columns = without_places(Table(_point_columns(mesh)))
     return point_rows(columns, mesh, mesh.points)
+
+
+MEASURES = ("area", "perimeter", "roundness", "neighbors", "nearest_distance")
+"""Columns of cells that are summarized."""
+
+
+@plain(eq=False, repr=False)
+class CellStatistics(Value, Tabular):
+    """Measures of cells, and their summary.
+
+    Parameters
+    ----------
+    cells : Table
+        ``label, x, y, area, perimeter, roundness, neighbors, nearest_distance, whole``: one row a point or region.
+        ``roundness`` is 4 π area / perimeter², 1 of a circle. Cells that are not whole are left out of the summary.
+    tree_lengths : (k,) float64 array
+        Lengths of the edges of the minimum spanning tree of all points.
+    area : float
+        Of the region that the points lie in.
+    properties : dict of str to sequence, optional
+        Other columns of the input, one value a point or region.
+
+    Examples
+    --------
+    >>> from vorotool import cell_statistics
+    >>> grid = [[x, y] for x in range(4) for y in range(4)]
+    >>> found = cell_statistics(grid)
+    >>> found.cells["whole"].sum(), found.summary["measure"][:3], found.summary["mean"][:3].round(3).tolist()
+    (np.int64(4), ['area', 'perimeter', 'roundness'], [1.0, 4.0, 0.785])
+    """
+
+    cells: Table
+    tree_lengths: NDArray[np.float64]
+    area: float
+    properties: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def measures(self) -> Table:
+        """The cells with the other columns of the input."""
+        return self.cells.with_properties(self.properties)
+
+    @property
+    def summary(self) -> Table:
+        """One row a measure of the whole cells, as `summary_table` has it, and two of the minimum spanning tree.
+
+        The homogeneity of ``roundness`` is the roundness factor homogeneity RFH, the disorder of ``area`` the area
+        disorder AD (Marcelpoil and Usson 1992). ``tree_length`` is of the edges of the tree; ``tree_normalised`` of
+        these over √(A n) / (n - 1), for n places in an area A: its mean and sd are the (m, σ) of Dussert and others
+        (1986).
+        """
+        whole = np.asarray(self.cells["whole"], dtype=bool)
+        chosen = {name: np.ma.filled(np.ma.asanyarray(self.cells[name])[whole].astype(float)) for name in MEASURES}
+        chosen["nearest_distance"] = chosen["nearest_distance"][np.isfinite(chosen["nearest_distance"])]
+        edges = len(self.tree_lengths)
+        unit = sqrt(self.area * (edges + 1)) / edges if edges else 1.0
+        normalized = self.tree_lengths / unit if unit > 0 else self.tree_lengths[:0]
+        return summary_table({**chosen, "tree_length": self.tree_lengths, "tree_normalised": normalized})
+
+    def _rows(self, what: str | None = None) -> Rows:
+        return Rows(self.measures if what == "measures" else self.summary)
+
+    def _summary(self) -> str:
+        whole = int(np.asarray(self.cells["whole"], dtype=bool).sum())
+        return f"{counted(self.cells.rows, 'cell')}, {whole} of them whole"
+
+
+MEASURE = "measure"
+"""The first column of summaries: the name of what a row sums up."""
+_QUANTILES = {"min": 0.0, "lower_quartile": 0.25, "median": 0.5, "upper_quartile": 0.75, "max": 1.0}
+
+
+_POWERS = {"perimeter": "", "nearest_distance": "", "tree_length": "", "area": "2"}
+
+
+def unit_of_measure(name: str, unit: str) -> str | None:
+    """Return the unit of a row: of a length the unit, of an area its square, of counts and ratios none."""
+    return f"{unit}{_POWERS[name]}" if name in _POWERS else None
+
+
+def summary_table(measures: Mapping[str, NDArray[np.float64]]) -> Table:
+    """Return one row a measure."""
+    rows = [_row(np.asarray(values, dtype=np.float64)) for values in measures.values()]
+    names = ("mean", "sd", "cv", *_QUANTILES, "homogeneity", "disorder")
+    columns = np.array(rows).reshape(len(rows), len(names)).T
+    numbers = {name: np.ma.masked_invalid(column) for name, column in zip(names, columns, strict=True)}
+    counts = np.array([len(values) for values in measures.values()], dtype=np.int64)
+    return Table({MEASURE: list(measures), "count": counts, **numbers})
+
+
+def _row(values: NDArray[np.float64]) -> list[float]:
+    if not len(values):
+        return [np.nan] * (5 + len(_QUANTILES))
+    mean, sd = float(values.mean()), float(values.std())
+    cv = sd / mean if mean > 0 else np.nan
+    homogeneity = 1 / (1 + cv)
+    quantiles = np.quantile(values, list(_QUANTILES.values())).tolist()
+    return [mean, sd, cv, *quantiles, homogeneity, 1 - homogeneity]

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.equality import check_index
 from vorotool.numeric.numbers import nearest_double
-from vorotool.numeric.row_index import check_index
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.axis import UNSTATED, YAxis

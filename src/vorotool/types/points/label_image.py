@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.masked import is_masked_array
+from vorotool.numeric.checks import is_masked_array
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.axis import DOWN, YAxis

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.masked import is_masked_array
+from vorotool.numeric.checks import is_masked_array
 from vorotool.types import fields as f
 from vorotool.types.axis import DOWN, YAxis
 from vorotool.types.fields import record

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.checks import whole_numbers
-from vorotool.numeric.row_index import check_index
+from vorotool.numeric.equality import check_index
 from vorotool.types import fields as f
 from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.features import Rows, point_rows

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.coordinates import coordinate_rows
+from vorotool.numeric.equality import check_index
 from vorotool.numeric.ragged import divides, following, starts_of, within
-from vorotool.numeric.row_index import check_index
 from vorotool.types import fields as f
 from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.box import Box

@@ -1,15 +1,20 @@
-"""What polygons bound, as shapely geometry: the one definition for rings that cross, spikes and stray holes."""
+"""The rings of polygons as bare arrays, and what they bound as shapely geometry."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Indices
+from vorotool.numeric.equality import index_of_rows
+from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.plain import plain
 from vorotool.types.polygons.conversion import polygons_of_geometry, to_shapely
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.polygons.ring_arrays import RingArrays
 
 _MANY = 1 << 22
 """Pairs of a place and an edge that are looked at together, in some 100 MB."""
@@ -76,3 +81,49 @@ def _is_within(ring: NDArray[np.float64], places: NDArray[np.float64]) -> NDArra
         is_left = (b[:, 0] - a[:, 0]) * (y - a[:, 1]) < (b[:, 1] - a[:, 1]) * (x - a[:, 0])
         parts.append((passes & is_left).sum(axis=1) % 2 > 0)
     return np.concatenate(parts)
+
+
+@plain(eq=False)
+class RingArrays:
+    """Rings of polygons, in any order."""
+
+    xy: NDArray[Any]  # (n, 2) array: vertices, ring after ring
+    sizes: Indices  # (r,) int64 array: vertices of each ring
+    kind: NDArray[np.int8]  # (r,) int8 array: see `PolygonSet`
+    rings: Indices  # (p,) int64 array: rings of each polygon
+
+    @classmethod
+    def of(cls, polygons: PolygonSet) -> RingArrays:
+        """Return those of a set."""
+        return cls(polygons.xy, np.diff(polygons.ring_starts), polygons.ring_kind, np.diff(polygons.polygon_starts))
+
+    @classmethod
+    def joined(cls, parts: Sequence[RingArrays]) -> RingArrays:
+        """Put those of several sets one after the other."""
+        columns: list[Any] = [
+            np.concatenate([getattr(part, name) for part in parts]) for name in ("xy", "sizes", "kind", "rings")
+        ]
+        return cls(*columns)
+
+    def taken(self, chosen: NDArray[Any]) -> tuple[RingArrays, Indices, Indices]:
+        """Choose polygons; gives the numbers of their rings and vertices, too."""
+        rings = ranges(starts_of(self.rings)[chosen], self.rings[chosen])
+        vertices = ranges(starts_of(self.sizes)[rings], self.sizes[rings])
+        made = RingArrays(self.xy[vertices], self.sizes[rings], self.kind[rings], self.rings[chosen])
+        return made, rings, vertices
+
+    def polygons(self, given: PolygonSet, source: NDArray[Any]) -> PolygonSet:
+        """Make a set of polygons that are described as those of another set: ids, features, properties and index."""
+        assert given.feature is not None
+        own = source.tolist()
+        return replace(
+            given,
+            xy=self.xy,
+            ring_starts=starts_of(self.sizes),
+            ring_kind=self.kind,
+            ring_polygon=owners(self.rings),
+            ids=None if given.ids is None else [given.ids[k] for k in own],
+            feature=given.feature[source],
+            properties={name: [values[k] for k in own] for name, values in given.properties.items()},
+            index=index_of_rows(given.index, source),
+        )

@@ -1,4 +1,4 @@
-"""Along the arcs of a skeleton: places, radii and lengths, and the integral of the radius."""
+"""Measures along the arcs of a skeleton: places, radii, lengths, the integral of the radius, and clearance."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import inverse_sinh
-
-Floats = NDArray[np.float64]
+from vorotool.plain import plain
+from vorotool.types import fields as f
+from vorotool.types.fields import Record, record
+from vorotool.types.pixel_grid import PixelGrid
 
 _FLAT = 0.125
 """Slopes that differ by less along an arc: 8 Gauss nodes integrate it to 2^-60, where closed forms cancel."""
@@ -178,3 +181,29 @@ def _norm(way: Floats) -> Floats:
 def _ratio(a: Floats, b: Floats) -> Floats:
     """Quotients, 0 where the divisor is."""
     return np.divide(a, b, out=np.zeros(np.broadcast(a, b).shape), where=b != 0)
+
+
+@plain(eq=False)
+class ClearanceCourse:
+    """Signs that decide where the clearance has its extremes; along an arc it is convex, or the same everywhere."""
+
+    # (a, 2) int8 array: how the clearance begins to change where the source, and where the target, is left along the
+    # arc: 1 it grows, -1 it shrinks, 0 it is the same on the whole arc. An arc has (1, -1) where it grows from its
+    # source to its target, (-1, 1) where it shrinks, (-1, -1) where it is least inside, (0, 0) between parallel edges
+    slope: NDArray[np.int8]
+    # (a,) float64 array: where it is least on an arc with (-1, -1), from 0 at its source to 1 at its target, by the
+    # parameter of the Bezier curve; NaN on others
+    least: NDArray[np.float64]
+
+
+@record
+class ThicknessImage(Record):
+    """The diameter of the largest inscribed disc over each pixel."""
+
+    values: NDArray[np.float64] = f.length("rows", "columns")  # (H, W) float64 array: 0 where there is no object
+    grid: PixelGrid | None = None  # sides and places of the pixels, where the file says them
+
+    @property
+    def largest(self) -> float:
+        """The largest thickness; 0 without objects."""
+        return float(self.values.max(initial=0.0))

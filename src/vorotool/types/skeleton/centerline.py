@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.plain import plain
-from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.values import counted, placed
 
 

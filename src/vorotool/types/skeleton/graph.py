@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.curves.flatten import chained
-from vorotool.numeric.numbers import shown_number
-from vorotool.numeric.sorted_sets import distinct
+from vorotool.numeric.numbers import distinct, shown_number
 from vorotool.plain import plain
 from vorotool.types.features import Lines, Rows, of_polygons
 from vorotool.types.identity import names_of, part_table

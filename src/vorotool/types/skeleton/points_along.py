@@ -14,7 +14,7 @@ from vorotool.types import fields as f
 from vorotool.types.features import Corners, Rows, chosen, of_points, of_polygons, of_segments, without_places
 from vorotool.types.fields import record
 from vorotool.types.identity import names_of, part_table
-from vorotool.types.skeleton.given_feet import moved_feet
+from vorotool.types.polygons.input_vertices import moved_feet
 from vorotool.types.skeleton.skeleton import SIDES, Skeleton
 from vorotool.types.table import Lookup, Table
 from vorotool.types.values import Pictured, Tabular, Value, WithParts, counted, placed

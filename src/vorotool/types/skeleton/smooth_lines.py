@@ -9,20 +9,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.curves.cubics import cubic_polylines
-from vorotool.numeric.curves.flatten import chained, curve_tolerances
+from vorotool.numeric.arrays import Floats
+from vorotool.numeric.curves.flatten import chained, cubic_polylines, curve_tolerances
 from vorotool.numeric.numbers import checked_flatten
 from vorotool.numeric.ragged import owners
 from vorotool.types import fields as f
 from vorotool.types.features import Lines, Rows, of_polygons
 from vorotool.types.fields import record
 from vorotool.types.identity import names_of, part_table
-from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.table import Table
 from vorotool.types.values import Curved, Pictured, Tabular, Value, counted, placed
-
-Floats = NDArray[np.float64]
 
 
 @record

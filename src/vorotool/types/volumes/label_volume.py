@@ -8,15 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.masked import is_masked_array
+from vorotool.numeric.checks import is_masked_array
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.elements import Elements
 from vorotool.types.spacing import PixelSides
 from vorotool.types.values import Graph, Tabular, Value
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelFrame, VoxelGrid
 
 if TYPE_CHECKING:
     from vorotool.types.features import Rows

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.plain import plain
 from vorotool.types.values import Value
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 
 @plain(eq=False, repr=False)

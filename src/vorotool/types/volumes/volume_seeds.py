@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.checks import whole_numbers
-from vorotool.numeric.row_index import check_index
+from vorotool.numeric.equality import check_index
 from vorotool.types import fields as f
 from vorotool.types.fields import record
 from vorotool.types.values import Value, counted
-from vorotool.types.volumes.voxel_frame import VoxelFrame
-from vorotool.types.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelFrame, VoxelGrid
 
 FINEST_SCALE = 256
 """Lattice steps a voxel at most: coordinates are kept to 1/256 of a voxel."""

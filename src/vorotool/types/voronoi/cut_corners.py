@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
+from vorotool.numeric.numbers import distinct
 from vorotool.numeric.ragged import owners, starts_of
-from vorotool.numeric.sorted_sets import distinct
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 Floats = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""Lines along a skeleton whose ends are led on straight to the boundary."""
+"""Lines along a skeleton whose ends are extended straight to the boundary."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.collinearity import is_straight
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.flatten import chained
+from vorotool.numeric.exact_products import difference, product
 from vorotool.numeric.ragged import owners
+from vorotool.plain import plain
 from vorotool.types import fields as f
 from vorotool.types.features import Lines, Rows, of_polygons
 from vorotool.types.fields import record
 from vorotool.types.identity import names_of, part_table
-from vorotool.types.polygons.vertices_as_given import places_as_given
+from vorotool.types.polygons.input_vertices import places_as_given
 from vorotool.types.skeleton.skeleton import KINDS, Skeleton
 from vorotool.types.table import Lookup, Table
-from vorotool.types.values import Curved, Pictured, Tabular, Value
-
-Floats = NDArray[np.float64]
+from vorotool.types.values import Curved, Pictured, Tabular, Value, counted, placed
 
 EXTENSION = "extension"
 """Kind of the straight lines that lead on to the ends."""
@@ -195,3 +195,48 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
         path.polygons,
         polygon,
     )
+
+
+@plain(eq=False, repr=False)
+class ExtendedSkeleton(LedOn):
+    """Skeleton with straight lines that extend its ends to the boundary; see `vorotool.extend_ends`.
+
+    Parameters
+    ----------
+    path : Skeleton
+        The skeleton, with arcs inside polygons alone. All that is told of widths is of these.
+    ends : (b, 2, 2) float64 array
+        The place on the boundary that the start and the end of each branch are led on to; NaN where they are not: at
+        junctions, and at corners.
+
+    Raises
+    ------
+    InputError
+        If `ends` has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import extend_ends, prune, skeleton_exact
+    >>> extended = extend_ends(prune(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), scale=1.5))
+    >>> extended.ends.tolist(), extended.length.tolist()
+    ([[[0.0, 1.0], [4.0, 1.0]]], [4.0])
+    """
+
+    maker = "extend_ends"
+
+    def _summary(self) -> str:
+        polygons = self.path.polygons
+        text = f"{counted(len(self), 'branch', 'branches')} of {counted(len(polygons), 'polygon')}"
+        return placed(text, polygons.crs, polygons.unit)
+
+
+def is_straight(a: Floats, b: Floats, c: Floats) -> NDArray[np.bool_]:
+    """Tell where b is certainly between a and c: the products compared are exact, where differences are."""
+    (ux, uy), (ux_lost, uy_lost) = (part.T for part in difference(b, a))
+    (vx, vy), (vx_lost, vy_lost) = (part.T for part in difference(c, b))
+    one, lost = product(ux, vy)
+    other, other_lost = product(uy, vx)
+    is_exact = (ux_lost == 0) & (uy_lost == 0) & (vx_lost == 0) & (vy_lost == 0)
+    is_zero = is_exact & (one == other) & (lost == other_lost)
+    is_level = ((ux == 0) & (vx == 0)) | ((uy == 0) & (vy == 0))
+    return np.asarray((is_zero | is_level) & (ux * vx + uy * vy >= 0))
