@@ -19,8 +19,8 @@ from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.opening import Opened, opened
 from vorotool.formats.text.tables import json_text
-from vorotool.formats.volumes.npy_volume import NpyVolume
 from vorotool.formats.volumes.opening import open_volume
+from vorotool.formats.volumes.source import NpyVolume
 from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.formats.volumes.zarr_volume import ZarrVolume
 from vorotool.jobs.inputs import check_streams, is_several

@@ -290,7 +290,7 @@ def test_edges_of_shapes(tmp_path):
         for name in ("a.tif", "a.npy"):
             vorotool.write(vorotool.Volume(values), tmp_path / name)
             np.testing.assert_array_equal(vorotool.read(tmp_path / name, geometry="volume").values, values)
-    with pytest.raises(ValueError, match="the slabs have 1 slices, not 2"):
+    with pytest.raises(ValueError, match="have 1 rows, not 2"):
         write_volume(io.BytesIO(), [np.zeros((1, 2, 2), np.uint8)], shape=(2, 2, 2), dtype=np.uint8, fmt="npy")
     wide = np.full((1, 2, 2), 300)
     with pytest.raises(LimitError, match="does not fit"):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
@@ -16,10 +15,10 @@ from vorotool.formats.images.tiff_grid import PageGrid, grid_of, missing_values,
 from vorotool.formats.images.tiff_layout import TiffLayout, decode_band, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_of
 from vorotool.formats.io.limits import check_pixels, decoding
-from vorotool.formats.zarr.metadata import read_metadata
-from vorotool.formats.zarr.multiscales import Level, full_size, label_images
-from vorotool.formats.zarr.reader import StoredArray
-from vorotool.formats.zarr.store import is_array, is_group
+from vorotool.formats.io.npy_arrays import plain_values
+from vorotool.formats.io.sources import StoredParts
+from vorotool.formats.zarr.reader import StoredArray, ZarrImage
+from vorotool.numeric.length_units import ratio
 from vorotool.plain import plain
 from vorotool.types.pixel_frame import MAX_PIXELS
 from vorotool.types.pixel_grid import PixelGrid
@@ -27,48 +26,28 @@ from vorotool.types.points.raster import Raster
 
 
 @plain
-class ZarrRows:
+class ZarrRows(ZarrImage):
     """The rows of a Zarr array."""
-
-    name: str  # as the user wrote it
-    path: str  # absolute, for processes in other folders
-
-    @cached_property
-    def _level(self) -> Level | None:
-        """The image of an OME-Zarr group."""
-        return None if is_array(self.path) or not is_group(self.path) else full_size(self.name, self.path)
 
     @property
     def grid(self) -> PixelGrid | None:
-        """Sides of the pixels."""
-        return None if self._level is None else self._level.grid
-
-    @property
-    def note(self) -> str:
-        """Where else there are labels."""
-        found = [] if self._level is None else label_images(self.path)
-        return f"{self.name} has label images: {self.name.rstrip(os.sep)}/labels/{found[0]} names one" if found else ""
+        """Sides of the pixels, if there is a unit."""
+        if self.described is None:
+            return None
+        height, width = self.described.scale[-2:]
+        other, unit = (str(each) if each else None for each in self.described.units[-2:])
+        factor = None if unit is None or other is None else ratio(other, unit)
+        if unit is None or factor is None or not all(1e-100 < side < 1e100 for side in (height, width)):
+            return None
+        return PixelGrid(width, height * factor, unit, "ome")
 
     @cached_property
     def _array(self) -> StoredArray:
-        level = self._level
-        if level is not None:
-            return self._image(str(Path(self.path, *level.path.split("/"))), level.axes)
-        if not is_array(self.path):
-            if is_group(self.path):
-                example = f"{self.name.rstrip(os.sep)}/0"
-                raise InputError(f"{self.name} is a Zarr group: name an array in it, such as {example}")
-            try:
-                read_metadata(self.path)
-            except InputError as error:
-                raise InputError(f"{self.name} holds no Zarr array: {error}") from None
-            raise InputError(f"{self.name} holds no Zarr array: the folder of an array has a zarr.json or .zarray")
-        return self._image(self.path, None)
-
-    def _image(self, path: str, axes: tuple[str, ...] | None) -> StoredArray:
-        """Open an array that has two axes, or more of one step each which are named."""
-        with decoding(self.name, "Zarr"):
-            array = StoredArray(self.name, path)
+        """Two axes, or more of one step each which are named."""
+        axes = None if self.described is None else self.described.axes
+        if axes is not None and axes[-2:] != ("y", "x"):
+            raise InputError(f"{self.name} has the axes {', '.join(axes)}: an image has y and x for the last ones")
+        array = self.opened()
         shape, kind = array.shape, array.dtype
         if axes is not None and len(axes) == len(shape):
             for axis, steps in zip(axes[:-2], shape[:-2], strict=True):
@@ -96,23 +75,13 @@ class ZarrRows:
 
     def rows(self, first: int, count: int) -> NDArray[Any]:
         """Read some rows; bool becomes uint8."""
-        with decoding(self.name, "Zarr"):
-            array = self._array
-            plane = (slice(first, first + count), slice(0, self.shape[1]))
-            read = array.read((*[slice(0, 1)] * (len(array.shape) - 2), *plane))
-            return plain_values(read.reshape(read.shape[-2:]))
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Leave out what is open."""
-        return {"name": self.name, "path": self.path}
+        return self.read(self._array, slice(first, first + count), slice(0, self.shape[1]))
 
 
 @plain
-class TiffRows:
+class TiffRows(StoredParts):
     """The rows of a page of a TIFF file with one value a pixel."""
 
-    name: str  # as of `ZarrRows`
-    path: str  # as of `ZarrRows`
     page: int | None = None
 
     @cached_property
@@ -162,10 +131,6 @@ class TiffRows:
         missing = missing_values(values, self._opened[1].nodata)
         return values if missing is None else np.ma.MaskedArray(values, missing)
 
-    def __getstate__(self) -> dict[str, Any]:
-        """Leave out what is open."""
-        return {"name": self.name, "path": self.path, "page": self.page}
-
 
 def read_rows(
     rows: ZarrRows | TiffRows, *, max_pixels: int = MAX_PIXELS, note: Callable[[str], None] | None = None
@@ -176,10 +141,3 @@ def read_rows(
     if note is not None and rows.note:
         note(rows.note)
     return Raster(rows.rows(0, height), rows.grid)
-
-
-def plain_values(values: NDArray[Any]) -> NDArray[Any]:
-    """Native bytes; two-valued images are 0 and 1."""
-    if values.dtype == np.bool_:
-        return values.astype(np.uint8)
-    return values.astype(values.dtype.newbyteorder("="), copy=False)

@@ -1,4 +1,4 @@
-"""Images as NPY files: written row by row, and read without trusting the header."""
+"""Images and volumes as NPY files: written as they come, and images read without trusting the header."""
 
 from __future__ import annotations
 
@@ -15,14 +15,10 @@ from vorotool.formats.io.row_bands import check_fits, checked
 from vorotool.formats.io.sources import Source
 
 
-def write_npy(out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, int], *, dtype: DTypeLike) -> None:
-    """Write an array from bands of rows: the header first, then each band as it comes."""
+def write_npy(out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, ...], *, dtype: DTypeLike) -> None:
+    """Write an array from bands of rows, or slabs of slices: the header first, then each as it comes."""
     kind = np.dtype(dtype).newbyteorder("<")
-    header = {
-        "descr": np.lib.format.dtype_to_descr(kind),
-        "fortran_order": False,
-        "shape": tuple(map(int, shape)),
-    }
+    header = {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": tuple(map(int, shape))}
     np.lib.format.write_array_header_1_0(out, header)
     for band in checked(bands, shape):
         out.write(stored(band, kind).data)

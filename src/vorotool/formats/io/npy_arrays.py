@@ -64,6 +64,13 @@ def npy_values(source: Source, header: NpyHeader) -> NDArray[Any]:
     return flat.reshape(header.shape, order="F" if header.fortran_order else "C")
 
 
+def plain_values(values: NDArray[Any]) -> NDArray[Any]:
+    """Give values in the order of bytes of this machine; truth values become 0 and 1."""
+    if values.dtype == np.bool_:
+        return values.astype(np.uint8)
+    return values.astype(values.dtype.newbyteorder("="), copy=False)
+
+
 def write_array(out: BinaryIO, values: NDArray[Any]) -> None:
     """Write an array of numbers: the same bytes for the same values, little-endian."""
     stored = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))

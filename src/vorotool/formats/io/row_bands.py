@@ -1,4 +1,4 @@
-"""Images that pass by as bands of rows: checking, and regrouping."""
+"""Images that pass by as bands of rows, and volumes as slabs of slices: checking, and regrouping."""
 
 from __future__ import annotations
 
@@ -17,20 +17,19 @@ BLOCK_BYTES = 1 << 20
 """Bytes of a block: its own code tables cost nothing, and it stays in the cache."""
 
 
-def checked(bands: Iterable[NDArray[Any]], shape: tuple[int, int]) -> Iterator[NDArray[Any]]:
-    """Pass on bands of shape (rows, W), and see that they are H rows together."""
-    height, width = shape
+def checked(bands: Iterable[NDArray[Any]], shape: tuple[int, ...]) -> Iterator[NDArray[Any]]:
+    """Pass on bands of rows, or slabs of slices, and see that together they have a shape."""
     seen = 0
     for item in bands:
         band = np.asarray(item)
-        if band.ndim != 2 or band.shape[1] != width:
-            raise ValueError(f"a band has shape {band.shape}: it must be (rows, {width})")
+        if band.shape[1:] != shape[1:] or band.ndim != len(shape):
+            raise ValueError(f"a band has shape {band.shape}: it must be (rows, {', '.join(map(str, shape[1:]))})")
         seen += len(band)
-        if seen > height:
+        if seen > shape[0]:
             break
         yield band
-    if seen != height:
-        raise ValueError(f"the bands have {'more than ' * (seen > height)}{min(seen, height)} rows, not {height}")
+    if seen != shape[0]:
+        raise ValueError(f"the bands have {'more than ' * (seen > shape[0])}{min(seen, shape[0])} rows, not {shape[0]}")
 
 
 def check_fits(band: NDArray[Any], largest: int, target: str) -> None:

@@ -7,6 +7,7 @@ import sys
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -52,6 +53,18 @@ class Source:
     def line_at(self, offset: int) -> int:
         """1-based line of the byte at ``offset``."""
         return self.data.count(b"\n", 0, offset) + 1
+
+
+@plain
+class StoredParts:
+    """A file or folder that is read in parts, by other processes, too."""
+
+    name: str  # as the user wrote it
+    path: str  # absolute, for processes in other folders
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what is open."""
+        return {each.name: getattr(self, each.name) for each in fields(self)}
 
 
 def read_source(path: str | os.PathLike[str], layer: str | None = None) -> Source:

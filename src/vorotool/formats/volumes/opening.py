@@ -13,8 +13,7 @@ from vorotool.errors import INPUT_FORMAT, InputError, option
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import STANDARD_INPUT, explained_reading, reading
-from vorotool.formats.volumes.npy_volume import NpyVolume
-from vorotool.formats.volumes.source import Spool, VolumeSource, check_voxels, slabs_of
+from vorotool.formats.volumes.source import NpyVolume, Spool, VolumeSource, check_voxels, slabs_of
 from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.formats.volumes.zarr_volume import ZarrVolume
 from vorotool.formats.zarr.store import is_folder, is_store

@@ -1,4 +1,4 @@
-"""Volumes that are read some slices at a time: what all of them can do, and what is refused in any."""
+"""Volumes that are read some slices at a time: what all of them can do, what is refused in any, and NPY files."""
 
 from __future__ import annotations
 
@@ -6,15 +6,19 @@ import mmap
 import os
 import tempfile
 import weakref
-from collections.abc import Iterable, Iterator, Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping
+from functools import cached_property
 from pathlib import Path
-from typing import Any, Protocol, cast
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
-from vorotool.formats.io.sources import copy_stream
+from vorotool.formats.io.npy_arrays import NpyHeader, npy_header, npy_values, plain_values
+from vorotool.formats.io.sources import Source, StoredParts, copy_stream
+from vorotool.plain import plain
 from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 SLAB_BYTES = 2**26
@@ -23,35 +27,50 @@ SLAB_BYTES = 2**26
 _PAGES = option("--page N or --page all", "page=N")
 
 
-class VolumeSource(Protocol):
-    """A volume in a file, of which some slices are read at a time; it can be sent to other processes."""
+@plain
+class VolumeSource(StoredParts, ABC):
+    """A volume in a file, of which some slices are read at a time."""
+
+    spool: Spool | None = None  # keeps the file, where it is a temporary one
 
     @property
-    def name(self) -> str:
-        """As the user wrote it, for messages."""
-
-    @property
+    @abstractmethod
     def shape(self) -> tuple[int, int, int]:
         """Slices, rows and columns."""
 
     @property
+    @abstractmethod
+    def stored_dtype(self) -> np.dtype[Any]:
+        """Type of the values in the file."""
+
+    @property
     def dtype(self) -> np.dtype[Any]:
         """Of what is read: native, two-valued volumes are uint8."""
+        kind = self.stored_dtype
+        return np.dtype(np.uint8) if kind.kind == "b" else kind.newbyteorder("=")
 
     @property
     def grid(self) -> VoxelGrid | None:
         """Sides of the voxels, where the file says them."""
+        return None
 
     @property
     def note(self) -> str:
         """What the user should know of how it is read; empty if nothing."""
+        return ""
 
     @property
     def chunk_depth(self) -> int:
         """Slices that are stored together: slabs of so many are read without decoding anything twice."""
+        return 1
 
+    @abstractmethod
     def slices(self, first: int, count: int) -> NDArray[Any]:
         """Read some slices: (count, H, W). They may be a view of the file, which must not be written to."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what is open, and what removes the file."""
+        return super().__getstate__() | {"spool": None}
 
 
 def check_voxels(name: str, shape: tuple[int, int, int], most: int) -> None:
@@ -106,17 +125,46 @@ def _remove(path: str) -> None:
     Path(path).unlink(missing_ok=True)
 
 
-def checked_slabs(slabs: Iterable[NDArray[Any]], shape: tuple[int, int, int]) -> Iterator[NDArray[Any]]:
-    """Pass on slabs of shape (slices, H, W), and see that they are D slices together."""
-    depth, height, width = shape
-    seen = 0
-    for item in slabs:
-        slab = np.asarray(item)
-        if slab.ndim != 3 or slab.shape[1:] != (height, width):
-            raise ValueError(f"a slab has shape {slab.shape}: it must be (slices, {height}, {width})")
-        seen += len(slab)
-        if seen > depth:
-            break
-        yield slab
-    if seen != depth:
-        raise ValueError(f"the slabs have {'more than ' * (seen > depth)}{min(seen, depth)} slices, not {depth}")
+@plain
+class NpyVolume(VolumeSource):
+    """The slices of an array of three axes; in Fortran order each slice is scattered over the whole file."""
+
+    @cached_property
+    def _source(self) -> Source:
+        return Source(self.name, mapped(self.path))
+
+    @cached_property
+    def _header(self) -> NpyHeader:
+        header = npy_header(self._source)
+        if len(header.shape) != 3:
+            raise InputError(
+                f"{self.name} has {len(header.shape)} axes, shape {header.shape}: a volume has three, slices, rows and "
+                "columns; save a part of it that has three"
+            )
+        return header
+
+    @cached_property
+    def _values(self) -> NDArray[Any]:
+        return npy_values(self._source, self._header)
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Slices, rows and columns."""
+        depth, height, width = self._values.shape  # which says if the file ends before
+        return depth, height, width
+
+    @property
+    def stored_dtype(self) -> np.dtype[Any]:
+        """Type of the values in the file."""
+        return self._header.dtype
+
+    @property
+    def note(self) -> str:
+        """That the order of the axes costs time."""
+        if not self._header.fortran_order or 1 in self.shape:
+            return ""
+        return f"{self.name} is in Fortran order, which is read slowly: save it in C order"
+
+    def slices(self, first: int, count: int) -> NDArray[Any]:
+        """Read some slices; bool becomes uint8."""
+        return plain_values(np.ascontiguousarray(self._values[first : first + count]))

@@ -15,14 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, option
-from vorotool.formats.images.band_reader import plain_values
 from vorotool.formats.images.ome_xml import decimal_side
 from vorotool.formats.images.tiff_grid import grid_of, missing_values, side_of_imagej, unescaped
 from vorotool.formats.images.tiff_layout import TiffLayout, decode_band, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout
 from vorotool.formats.io.limits import decoding
+from vorotool.formats.io.npy_arrays import plain_values
 from vorotool.formats.volumes.ome_stack import ome_stack
-from vorotool.formats.volumes.source import Spool, mapped, refuse_axes
+from vorotool.formats.volumes.source import VolumeSource, mapped, refuse_axes
 from vorotool.numeric.parallel import in_order
 from vorotool.plain import plain
 from vorotool.types.volumes.voxel_frame import VoxelGrid
@@ -42,12 +42,8 @@ class _Stack:
 
 
 @plain
-class TiffStack:
+class TiffStack(VolumeSource):
     """The slices of a TIFF file with one value a pixel."""
-
-    name: str  # as the user wrote it
-    path: str  # absolute, for processes in other folders
-    spool: Spool | None = None  # keeps the file, where it is a temporary one
 
     @cached_property
     def _stack(self) -> _Stack:
@@ -78,11 +74,11 @@ class TiffStack:
         return len(pages), pages[0].height, pages[0].width
 
     @property
-    def dtype(self) -> np.dtype[Any]:
-        """Of what is read."""
+    def stored_dtype(self) -> np.dtype[Any]:
+        """Type of the values in the file."""
         kind = self._stack.pages[0].dtype
         assert kind is not None
-        return np.dtype(np.uint8) if kind.kind == "b" else kind.newbyteorder("=")
+        return kind
 
     @property
     def grid(self) -> VoxelGrid | None:
@@ -93,11 +89,6 @@ class TiffStack:
     def note(self) -> str:
         """What of its description is not used."""
         return self._stack.axes.note
-
-    @property
-    def chunk_depth(self) -> int:
-        """Each slice is read by itself."""
-        return 1
 
     def slices(self, first: int, count: int) -> NDArray[Any]:
         """Read some slices; bool becomes uint8, and what has no value is 0."""
@@ -135,10 +126,6 @@ class TiffStack:
 
     def _read(self, offset: int, size: int) -> bytes:
         return self._bytes[offset : offset + size]
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Leave out what is open."""
-        return {"name": self.name, "path": self.path, "spool": None}
 
 
 def _full_pages(file: Any) -> Iterator[Any]:

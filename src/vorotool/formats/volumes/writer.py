@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import UsageError, option
+from vorotool.formats.images.npy import write_npy
 from vorotool.formats.images.ome_xml import ome_document, ome_type, shown_side
 from vorotool.formats.images.tiff_grid import NO_UNIT, NODATA, imagej_unit, ratio_of, resolution, resolution_tags
 from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, encoded, is_compressed, rows_of_strip, uncoded_strips
-from vorotool.formats.volumes.npy_volume import write_npy_volume
+from vorotool.formats.io.row_bands import checked
 from vorotool.formats.volumes.ome_stack import PIXEL
-from vorotool.formats.volumes.source import checked_slabs
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
@@ -42,7 +42,7 @@ def write_volume(
     """Write a volume from slabs of slices, in bounded memory; the bytes do not depend on the slabs or the threads."""
     kind = np.dtype(np.uint8 if np.dtype(dtype) == np.bool_ else dtype).newbyteorder("<")
     if fmt == "npy":
-        write_npy_volume(out, slabs, shape, dtype=kind)
+        write_npy(out, slabs, shape, dtype=kind)
         return
     if fmt != "tiff":
         one = option("-o labels.tif, labels.npy or labels.zarr", "the path labels.tif, labels.npy or labels.zarr")
@@ -100,7 +100,7 @@ def _write_stack(
 
 def _strips(slabs: Iterable[NDArray[Any]], shape: tuple[int, int, int], kind: np.dtype[Any]) -> Iterator[NDArray[Any]]:
     """Strips of all slices; none goes over from one to the next."""
-    for slab in checked_slabs(slabs, shape):
+    for slab in checked(slabs, shape):
         for image in slab:
             yield from uncoded_strips([image], shape[1:], kind)
 

@@ -11,7 +11,6 @@ from typing import Any
 
 from vorotool.errors import InputError
 from vorotool.formats.zarr.metadata import read_json, read_metadata
-from vorotool.numeric.length_units import ratio
 from vorotool.plain import plain
 from vorotool.types.pixel_grid import PixelGrid
 
@@ -33,15 +32,6 @@ _LONG_UNITS |= {"m": "meter", "km": "kilometer", "Å": "angstrom", "inch": "inch
 
 
 @plain
-class Level:
-    """The largest image of a pyramid."""
-
-    path: str  # of its array, from the group
-    axes: tuple[str, ...]  # names of the axes, of which the last two are y and x
-    grid: PixelGrid | None
-
-
-@plain
 class Described:
     """What the metadata of a group say of the largest image in it."""
 
@@ -49,16 +39,6 @@ class Described:
     axes: tuple[str, ...]  # names of the axes
     scale: tuple[Fraction, ...]  # the products of all scales, one for each axis
     units: tuple[Any, ...]  # of the axes: anything, None where there is none
-
-
-def full_size(name: str, folder: str) -> Level | None:
-    """Find the image of an OME-Zarr group; None if the group is none."""
-    found = largest_image(name, folder)
-    if found is None:
-        return None
-    if list(found.axes[-2:]) != _PLANE:
-        raise InputError(f"{name} has the axes {', '.join(found.axes)}: an image has y and x for the last ones")
-    return Level(found.path, found.axes, _grid(found))
 
 
 def largest_image(name: str, folder: str) -> Described | None:
@@ -126,16 +106,6 @@ def _scale(axes: int, changes: list[dict[str, Any]]) -> tuple[Fraction, ...]:
             for axis, factor in enumerate(factors, axes - len(factors)):
                 sides[axis] *= factor
     return tuple(sides)
-
-
-def _grid(found: Described) -> PixelGrid | None:
-    """Sides of the pixels, if there is a unit."""
-    height, width = found.scale[-2:]
-    other, unit = (str(each) if each else None for each in found.units[-2:])
-    factor = None if unit is None or other is None else ratio(other, unit)
-    if unit is None or factor is None or not all(1e-100 < side < 1e100 for side in (height, width)):
-        return None
-    return PixelGrid(width, height * factor, unit, "ome")
 
 
 def write_group(folder: Path, *, grid: PixelGrid | None, name: str, is_labels: bool) -> None:

@@ -6,6 +6,7 @@ import math
 import os
 import stat
 from collections.abc import Iterator
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.formats.io.limits import decoding
+from vorotool.formats.io.npy_arrays import plain_values
+from vorotool.formats.io.sources import StoredParts
 from vorotool.formats.zarr.metadata import ZarrMetadata, array_metadata, overlap, places_within, read_metadata
+from vorotool.formats.zarr.multiscales import Described, label_images, largest_image
+from vorotool.formats.zarr.store import is_array, is_group
 from vorotool.numeric.parallel import in_order
+from vorotool.plain import plain
 
 _WORTH_THREADS = 2**20
 """Bytes from which threads take less time than they cost."""
@@ -106,6 +113,50 @@ class StoredArray:
         for place in _numbers_below(self.folder / within, start, self.metadata.separator, len(self.shape)):
             places.setdefault(place[0], []).append(place)
         return places
+
+
+@plain
+class ZarrImage(StoredParts):
+    """An image or a volume in a store: an array, or the largest one that a group of OME-Zarr describes."""
+
+    @cached_property
+    def described(self) -> Described | None:
+        """What a group of OME-Zarr says of its image."""
+        return None if is_array(self.path) or not is_group(self.path) else largest_image(self.name, self.path)
+
+    @property
+    def note(self) -> str:
+        """Where else there are labels."""
+        found = [] if self.described is None else label_images(self.path)
+        return f"{self.name} has label images: {self.name.rstrip(os.sep)}/labels/{found[0]} names one" if found else ""
+
+    def opened(self) -> StoredArray:
+        """Open the array."""
+        path = Path(self.path)
+        if self.described is not None:
+            path = path.joinpath(*self.described.path.split("/"))
+        elif not is_array(path):
+            self._refuse()
+        with decoding(self.name, "Zarr"):
+            return StoredArray(self.name, path)
+
+    def _refuse(self) -> None:
+        """Say what is there instead of an array."""
+        if is_group(self.path):
+            example = f"{self.name.rstrip(os.sep)}/0"
+            raise InputError(f"{self.name} is a Zarr group: name an array in it, such as {example}")
+        try:
+            read_metadata(self.path)
+        except InputError as error:
+            raise InputError(f"{self.name} holds no Zarr array: {error.marked}") from None
+        raise InputError(f"{self.name} holds no Zarr array: the folder of an array has a zarr.json or .zarray")
+
+    def read(self, array: StoredArray, *last: slice) -> NDArray[Any]:
+        """Read a part of the last axes, where the others have one step each; bool becomes uint8."""
+        with decoding(self.name, "Zarr"):
+            leading = [slice(0, 1)] * (len(array.shape) - len(last))
+            read = array.read((*leading, *last))
+            return plain_values(read.reshape(read.shape[-len(last) :]))
 
 
 def _numbers_below(folder: Path, start: str, separator: str, axes: int) -> Iterator[tuple[int, ...]]:
