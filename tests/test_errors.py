@@ -25,8 +25,8 @@ from vorotool.errors import (
     VorotoolWarning,
     option,
 )
-from vorotool.jobs.failures import explained
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.terminal import explained
 
 WINDOW = option("--window X,Y,W,H", "window=(x, y, w, h)")
 TEXT = f"3..12: use {WINDOW}, or leave out {errors.STRICT}"

@@ -23,7 +23,7 @@ from vorotool.engines.sampled_skeleton.hausdorff import (
     widened,
 )
 from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of
-from vorotool.render.canvas.palettes import FAINT, INK, PALE, RESULT, SEED
+from vorotool.render.canvas.styles import FAINT, INK, PALE, RESULT, SEED
 from vorotool.render.canvas.svg import write_layers_svg
 from vorotool.types.skeleton.skeleton import EDGE
 

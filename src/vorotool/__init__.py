@@ -135,7 +135,7 @@ _HOME = {
     "alpha_hull": "vorotool.engines.alpha.alpha_hull",
     "alpha_shape": "vorotool.engines.alpha.alpha_shape",
     "verify_alpha_shape": "vorotool.engines.alpha.verify_alpha",
-    "local_thickness": "vorotool.engines.peers.local_thickness",
+    "local_thickness": "vorotool.engines.peers.medial_axis",
     "verify_thickness": "vorotool.engines.from_skeleton.verify_thickness",
 }
 

@@ -149,7 +149,7 @@ from vorotool.engines.offsets.offsets import (
 from vorotool.engines.offsets.verify_offsets import (
     verify_offsets as verify_offsets,
 )
-from vorotool.engines.peers.local_thickness import (
+from vorotool.engines.peers.medial_axis import (
     local_thickness as local_thickness,
 )
 from vorotool.engines.pruning.pruning import (

@@ -6,7 +6,7 @@ from pathlib import PurePosixPath
 
 import pytest
 
-from vorotool.cli import documentation
+from vorotool.cli import main as documentation
 from vorotool.cli.main import COMMANDS
 
 MANUAL, README = "../../../share/man/man1/vorotool.1", "../../../share/doc/vorotool/README.md"

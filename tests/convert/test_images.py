@@ -12,9 +12,9 @@ from PIL import Image
 
 import vorotool
 from vorotool import Box, InputError, LabelImage, LimitError, Raster, UsageError
-from vorotool.convert.boxes import as_box, as_extent
 from vorotool.convert.images import as_label_image, as_raster, is_image
 from vorotool.engines.tessellation.raster_objects import numbered_components
+from vorotool.types.box import as_box, as_extent
 
 LABELS = np.array([[0, 1, 1, 0, 5], [0, 0, 1, 0, 5], [3, 0, 0, 0, 5], [3, 3, 0, 0, 0]])
 MASK = LABELS > 0

@@ -11,12 +11,12 @@ import shapely
 import xarray
 
 import vorotool as v
-from vorotool.convert.boxes import as_box, as_extent
 from vorotool.convert.images import as_label_image, as_raster
 from vorotool.convert.points import as_place, as_points
 from vorotool.convert.polygons import as_geometry, as_polygons
 from vorotool.engines.tessellation.frames import as_seeds
 from vorotool.engines.tessellation.raster_objects import numbered_components
+from vorotool.types.box import as_box, as_extent
 
 
 def geometry(kind, coordinates):

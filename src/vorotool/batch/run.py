@@ -24,12 +24,11 @@ from vorotool.formats.io import atomic_output
 from vorotool.formats.io.commit import committed_together
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.temporaries import new_folder, remove_dead, remove_tagged, temporary_beside
-from vorotool.jobs.failures import explained
 from vorotool.jobs.job import Recipe, process_input
 from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.run_log import MakeBar, Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.terminal import print_text, tell
+from vorotool.jobs.terminal import explained, print_text, tell
 from vorotool.jobs.units import unit_stats
 from vorotool.numeric.length_units import unit_name
 from vorotool.signals import end_by_exceptions

@@ -7,15 +7,15 @@ import os
 import re
 import sys
 from contextlib import suppress
-from importlib import import_module
+from importlib import import_module, metadata
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
 
 from vorotool import __version__
 from vorotool.errors import VorotoolError
-from vorotool.jobs.failures import explained
-from vorotool.jobs.terminal import escaped, print_text, tell
+from vorotool.jobs.terminal import escaped, explained, print_text, tell
 from vorotool.products import commands
 from vorotool.signals import handle_termination, ignore_interrupts, insist_on_the_end, received, settled
 
@@ -100,8 +100,6 @@ class LazyGroup(click.Group):
 
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Say where the manual pages and the documents are."""
-        from vorotool.cli.documentation import places
-
         with formatter.section("Documentation"):
             formatter.write_text("vorotool COMMAND --help lists all options of a command, -h the common ones.")
             for name, where in places():
@@ -206,3 +204,34 @@ def _fail(message: str, code: int) -> int:
     with suppress(OSError):  # the exit code remains
         tell(f"error: {message}")
     return code
+
+
+MANUAL, DOCUMENTS = "share/man/man1/vorotool.1", "share/doc/vorotool/README.md"
+"""Ends of the paths of the first manual page and of the first document."""
+
+
+def places() -> list[tuple[str, str]]:
+    """Return what there is to read and where, as rows of the help; nothing for what is not installed."""
+    rows = []
+    manual, documents = _installed(MANUAL), _installed(DOCUMENTS)
+    if manual is not None:
+        rows.append(("man vorotool, man vorotool-COMMAND", f"in {_printable(manual.parents[1])}"))
+    if documents is not None:
+        rows.append((_printable(documents), "the README, and the documents that it links to"))
+    return rows
+
+
+def _installed(end: str) -> Path | None:
+    """Return the path of a file of the package outside the folder of its modules."""
+    try:
+        files = metadata.files("vorotool") or []
+    except metadata.PackageNotFoundError:
+        return None
+    found = (Path(str(file.locate())).resolve() for file in files if file.as_posix().endswith(end))
+    return next((path for path in found if path.is_file()), None)
+
+
+def _printable(path: Path) -> str:
+    """Escape what standard output cannot show."""
+    encoding = sys.stdout.encoding or "ascii"
+    return str(path).encode(encoding, "backslashreplace").decode(encoding)

@@ -17,7 +17,7 @@ from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import check_cluster, check_stats, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels, with_spacing
-from vorotool.numeric.progress import Report
+from vorotool.numeric.parallel import Report
 
 STEPS = 1000
 """Steps of a progress bar."""

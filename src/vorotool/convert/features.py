@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool.convert.tables import index_of, listed
 from vorotool.errors import InputError, warn
+from vorotool.numeric.checks import LONGEST
 from vorotool.numeric.crs import crs_member, member_of_text, without_number
-from vorotool.numeric.descriptions import LONGEST
 from vorotool.numeric.equality import index_of_rows
 from vorotool.plain import plain
 from vorotool.products.formats import resolved

@@ -8,11 +8,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.convert.grids import grid_of
+from vorotool.convert.spacings import grid_of
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.numeric.checks import is_choice, is_masked_array
+from vorotool.numeric.checks import (
+    column_names,
+    described,
+    is_choice,
+    is_masked_array,
+    naming,
+    refuse_paths,
+    unexpected,
+)
 from vorotool.numeric.coordinates import MOST_AXES
-from vorotool.numeric.descriptions import column_names, described, naming, refuse_paths, unexpected
 from vorotool.numeric.numbers import real_number
 from vorotool.types.pixel_frame import MAX_PIXELS
 from vorotool.types.points.label_image import LabelImage

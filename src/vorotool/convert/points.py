@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from vorotool.convert.features import HeldFeatures, held_features, is_shapely, joined_parts, report_missing
 from vorotool.convert.tables import is_table, points_of_table
 from vorotool.errors import InputError, warn
-from vorotool.numeric.checks import is_masked_array
+from vorotool.numeric.checks import described, is_masked_array, items_of, naming, refuse_paths, unexpected
 from vorotool.numeric.coordinates import MOST_AXES, number_array
 from vorotool.numeric.crs import note_degrees
-from vorotool.numeric.descriptions import described, items_of, naming, refuse_paths, unexpected
 from vorotool.numeric.equality import index_of_rows
 from vorotool.numeric.numbers import pair_of_doubles
 from vorotool.products.registry import is_of

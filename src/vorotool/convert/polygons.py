@@ -17,9 +17,9 @@ from vorotool.convert.features import (
 )
 from vorotool.convert.tables import is_table
 from vorotool.errors import InputError, warn
+from vorotool.numeric.checks import described, items_of, naming, refuse_paths, unexpected
 from vorotool.numeric.coordinates import coordinate_rows, number_array
 from vorotool.numeric.crs import note_degrees
-from vorotool.numeric.descriptions import described, items_of, naming, refuse_paths, unexpected
 from vorotool.products.formats import resolved
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.raster import Raster

@@ -16,8 +16,8 @@ from vorotool.convert.points import as_points
 from vorotool.convert.polygons import as_polygons, is_ring
 from vorotool.convert.tables import MISSING_TYPES, is_table, listed
 from vorotool.errors import InputError, UsageError, option, warn
+from vorotool.numeric.checks import items_of, naming, unexpected
 from vorotool.numeric.crs import note_degrees
-from vorotool.numeric.descriptions import items_of, naming, unexpected
 from vorotool.numeric.equality import index_of_rows
 from vorotool.numeric.numbers import shown_number
 from vorotool.plain import plain

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from vorotool.convert.boxes import as_extent
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation
@@ -17,9 +16,8 @@ from vorotool.engines.skeleton.diagrams import (
 from vorotool.engines.skeleton.exact import check_features, check_skeleton_options
 from vorotool.engines.skeleton.open_border import check_border
 from vorotool.numeric.checks import checked_flag, checked_threads
-from vorotool.numeric.progress import Progress
-from vorotool.types.box import Box, Extent
-from vorotool.types.magnitude import check_lengths
+from vorotool.numeric.parallel import Progress
+from vorotool.types.box import Box, Extent, as_extent, check_lengths
 from vorotool.types.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:

@@ -30,7 +30,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import length_in_units, measured
 from vorotool.numeric.numbers import nearest_double
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.products.registry import OF_ONE_SHAPE, PLOTS
 from vorotool.render.drawing import Drawing, Plot, drawing_of
 from vorotool.types.alpha.complex import Radius
@@ -174,9 +174,9 @@ class ShapeProducts(Results):
             self.run.note(self._standing_regions())
         super().check(target)
         if target.fmt == "html":
-            from vorotool.render.pages.page_data import check_html_size
+            from vorotool.render.pages.html import check_family_size
 
-            check_html_size(self.family)
+            check_family_size(self.family)
         empty = {
             "edges": lambda: not len(self.shape.edge_index),
             "polygons": lambda: not len(self.shape.polygons),
@@ -227,7 +227,7 @@ class ShapeProducts(Results):
 
     def write_page(self, out: BinaryIO) -> None:
         """Write a page with the shapes of all radii."""
-        from vorotool.render.pages.page_data import write_alpha_html
+        from vorotool.render.pages.html import write_alpha_html
 
         r = self.shape.r if self.has_shape else self.radius
         r = None if r is None else length_in_units(self.options.pixel_size, r)

@@ -28,7 +28,7 @@ from vorotool.jobs.options import Options
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.terminal import escaped, tell
 from vorotool.numeric.crs import crs_name
-from vorotool.numeric.input_unit import unit_of
+from vorotool.numeric.length_units import unit_of
 from vorotool.products.inputs import NAMES_WITH, TAKEN_BY, VOLUME_NAMES, VOLUMES_TAKEN_BY
 from vorotool.types.axis import UNSTATED
 from vorotool.types.box import bounds

@@ -18,7 +18,7 @@ from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import coordinates_of, in_first_unit, unit_of_vectors
 from vorotool.numeric.crs import crs_name, same_crs
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.distances.distances import SMALLEST, Distances
 
 if TYPE_CHECKING:

@@ -28,7 +28,7 @@ from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize
-from vorotool.numeric.input_unit import unit_of
+from vorotool.numeric.length_units import unit_of
 from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
 from vorotool.products.registry import PRODUCTS, Product
 from vorotool.render.canvas.layers import Backdrop
@@ -89,7 +89,7 @@ class DrawnInput(Results):
     def write_page(self, out: BinaryIO) -> None:
         """Write a page that shows labels."""
         from vorotool.engines.label_images.regions import region_table
-        from vorotool.render.pages.cells_html import write_labels_html
+        from vorotool.render.pages.html import write_labels_html
 
         assert isinstance(self._value, LabelImage)  # there are no pages of others
         table = region_table(self._value, threads=self.options.threads)

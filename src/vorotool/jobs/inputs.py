@@ -66,10 +66,10 @@ def read_opened(
 
     The options that come back have lengths in its coordinates.
     """
-    from vorotool.jobs.contradictions import check_image_size, check_unit
-    from vorotool.jobs.input_lengths import lengths_of_image, lengths_of_vectors, side_of_pixel
+    from vorotool.jobs.pixel_sizes import lengths_of_image, lengths_of_vectors, side_of_pixel
+    from vorotool.jobs.refusals import check_image_size, check_unit
     from vorotool.jobs.second_files import coordinates_of
-    from vorotool.numeric.input_unit import unit_of
+    from vorotool.numeric.length_units import unit_of
 
     wants_unit = (
         wants_unit or bool(measured(o)) or (o.pixel_size is not None and o.pixel_size.is_auto)
@@ -120,7 +120,7 @@ def _tolerances(o: Options, source: Opened, read: Callable[..., Any]) -> tuple[O
     """Give the tolerances of reading as numbers; where these have a unit, a first reading tells that of the input."""
     names = ("flatten", "join_tolerance")
     if any(isinstance(getattr(o, name), Measured) for name in names):
-        from vorotool.jobs.input_lengths import lengths_of_vectors
+        from vorotool.jobs.pixel_sizes import lengths_of_vectors
         from vorotool.types.points.raster import Raster
 
         source = source.fetched()

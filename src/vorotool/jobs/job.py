@@ -81,7 +81,7 @@ def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets
     from vorotool.formats.io.commit import committed_together
     from vorotool.formats.text.feature_collection import unit_member
     from vorotool.formats.text.tables import safe_texts, unit_column
-    from vorotool.jobs.contradictions import check_system
+    from vorotool.jobs.refusals import check_system
     from vorotool.numeric.coordinate_grid import coordinates_written
     from vorotool.types.identity import columns_wanted
 

@@ -14,7 +14,7 @@ from vorotool.jobs.units import PixelSize, unit_stats
 from vorotool.types.axis import DOWN, UNSTATED
 
 if TYPE_CHECKING:
-    from vorotool.numeric.input_unit import InputUnit
+    from vorotool.numeric.length_units import InputUnit
     from vorotool.types.pixel_frame import Frame
     from vorotool.types.pixel_grid import PixelGrid
     from vorotool.types.points.point_set import PointSet
@@ -98,7 +98,7 @@ def _cells_of_raster(
 
 def _check_units(path: str, given: JobInput, crs: Any, unit: InputUnit | None, grid: PixelGrid | None) -> None:
     """Refuse coordinates that state another unit than those of a raster, which may be its pixels."""
-    from vorotool.jobs.input_lengths import unit_of_grid
+    from vorotool.jobs.pixel_sizes import unit_of_grid
     from vorotool.numeric.crs import crs_name
     from vorotool.numeric.length_units import ratio
 

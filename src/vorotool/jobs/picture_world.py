@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from vorotool.jobs.checked_columns import check_column
 from vorotool.numeric.crs import is_geographic
-from vorotool.numeric.input_unit import InputUnit, unit_of_crs
-from vorotool.numeric.length_units import ratio, unit_name
+from vorotool.numeric.length_units import InputUnit, ratio, unit_name, unit_of_crs
 from vorotool.products.registry import is_of
 from vorotool.render.looks import World
 from vorotool.types.values import input_of

@@ -13,7 +13,7 @@ from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, table_in_units
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import ANIMATIONS, PICTURES, picture_format
 from vorotool.products.registry import PRODUCTS, Product, is_of
 from vorotool.products.writing import write_product

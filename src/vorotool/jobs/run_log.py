@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 from vorotool import __version__
 from vorotool.errors import Kind, Message, VorotoolWarning
 from vorotool.jobs.terminal import tell
-from vorotool.numeric.progress import Progress, Report
+from vorotool.numeric.parallel import Progress, Report
 from vorotool.signals import end_by_exceptions
 
 if TYPE_CHECKING:
-    from vorotool.numeric.input_unit import InputUnit
+    from vorotool.numeric.length_units import InputUnit
     from vorotool.types.pixel_grid import PixelGrid
 
 PROGRESS_AFTER = 1.0

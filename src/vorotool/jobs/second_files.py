@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vorotool.errors import InputError, Kind, Message
 from vorotool.formats.io.sources import reading
-from vorotool.jobs.input_lengths import side_of_pixel, unit_of_grid
+from vorotool.jobs.pixel_sizes import side_of_pixel, unit_of_grid
 from vorotool.types.values import counted
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from vorotool.jobs.options import Options
     from vorotool.jobs.run_log import Run
-    from vorotool.numeric.input_unit import InputUnit
+    from vorotool.numeric.length_units import InputUnit
     from vorotool.types.pixel_grid import PixelGrid
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.polygons.polygon_set import PolygonSet
@@ -27,7 +27,7 @@ Data = TypeVar("Data", "PointSet", "PolygonSet")
 
 def unit_of_vectors(o: Options, value: Any) -> InputUnit | None:
     """Return the unit of the coordinates of an input: of ``--pixel-size``, else as it states."""
-    from vorotool.numeric.input_unit import InputUnit, unit_of
+    from vorotool.numeric.length_units import InputUnit, unit_of
 
     size = o.pixel_size
     if size is not None and size.unit is not None:
@@ -59,7 +59,7 @@ def side_of_backdrop(run: Run, o: Options, grid: PixelGrid | None) -> float:
 
 def unit_of_image(o: Options, grid: PixelGrid | None) -> InputUnit | None:
     """Return what 1 is in the coordinates that files beside an image are in: those of its map, else pixels."""
-    from vorotool.numeric.input_unit import InputUnit
+    from vorotool.numeric.length_units import InputUnit
 
     size = o.pixel_size
     is_of_map = size is not None and (size.origin is not None or size.sides is not None)
@@ -83,8 +83,7 @@ def in_first_unit(
     (path, value), (source, unit) = second, first
     if value.crs is not None:
         return value
-    from vorotool.numeric.input_unit import unit_of
-    from vorotool.numeric.length_units import ratio
+    from vorotool.numeric.length_units import ratio, unit_of
 
     own = unit_of(value)
     if own is None:

@@ -21,7 +21,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.streams import Stream, Streamed, check_chunks, scale_of_squares
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, unit_text
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 
 if TYPE_CHECKING:
     from vorotool.formats.images.band_reader import TiffRows, ZarrRows

@@ -20,20 +20,18 @@ from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.engines.tessellation.tessellate import labeled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
-from vorotool.jobs.contradictions import check_image_size
-from vorotool.jobs.input_lengths import lengths_of_image
+from vorotool.jobs.checked_columns import tell_outside
 from vorotool.jobs.inputs import JobInput, asked_frame, frame_of, no_seeds, opened_input, read_opened, seeds_of_image
 from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import Options
-from vorotool.jobs.pixel_sizes import with_pixel_size, written_grid
-from vorotool.jobs.refusals import refuse
+from vorotool.jobs.pixel_sizes import lengths_of_image, with_pixel_size, written_grid
+from vorotool.jobs.refusals import check_image_size, refuse
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.silent_losses import tell_outside
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
 from vorotool.jobs.streams import STREAMED, Limits, Tessellated, check_chunks, scale_of_squares
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, table_in_units, unit_columns, unit_text
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import ANIMATIONS
 from vorotool.types.axis import is_up
 from vorotool.types.pixel_frame import Frame
@@ -214,7 +212,7 @@ class Products(Tessellated):
         largest = {"labels": self.seeds.largest_label, "diagram": 1, "distance": 0}.get(what)
         made = {"tiled": self.options.tiled, "largest_label": np.iinfo(dtype).max if largest is None else largest}
         if what == "diagram":
-            from vorotool.render.canvas.palettes import LINE_ON_PAPER
+            from vorotool.render.canvas.styles import LINE_ON_PAPER
 
             made |= {"palette": LINE_ON_PAPER, "bit_depth": 1}
         return made if what != "distance2" else {**made, "scale": scale_of_squares(self._exact_rows().step)}
@@ -257,7 +255,7 @@ class Products(Tessellated):
 
     def write_page(self, out: BinaryIO) -> None:
         """Write a page that shows the regions."""
-        from vorotool.render.pages.cells_html import write_labels_html
+        from vorotool.render.pages.html import write_labels_html
 
         more = unit_columns(self.options.pixel_size, len(self.colors[0]))
         write_labels_html(out, self.image, self.colors, self.written("table", "html"), more, y_up=is_up(self.image))

@@ -174,7 +174,7 @@ def in_coordinates(o: Options, sides: Sides) -> Options:
 
 def check_frame(frame: Sequence[float]) -> None:
     """Refuse a frame too far away to compute with."""
-    from vorotool.types.magnitude import LARGEST
+    from vorotool.types.box import LARGEST
 
     if max(map(abs, frame)) > LARGEST:
         raise UsageError(f"--frame is too large to compute with: use numbers of at most {LARGEST:g}")

@@ -11,7 +11,7 @@ import numpy as np
 
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
-from vorotool.jobs.checked_columns import check_columns
+from vorotool.jobs.checked_columns import check_columns, tell_empty_cells
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_polygons
@@ -20,11 +20,10 @@ from vorotool.jobs.refusals import refuse
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
-from vorotool.jobs.silent_losses import tell_empty_cells
 from vorotool.jobs.skeleton_input import outlined
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, unit_columns
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
@@ -135,9 +134,9 @@ class VoronoiProducts(Results):
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
         super().check(target)
         if target.fmt == "html":
-            from vorotool.render.pages.cells_html import check_html_size
+            from vorotool.render.pages.html import check_cells_size
 
-            check_html_size(len(self.cells), len(self.cells.ring_arcs))
+            check_cells_size(len(self.cells), len(self.cells.ring_arcs))
         if target.what == "discs" and not len(self.discs):
             self.run.warn(Message("the result has no discs: no point is outside of all sites", Kind.EMPTY_RESULT))
         if not self.features:
@@ -164,7 +163,7 @@ class VoronoiProducts(Results):
     def write_page(self, out: BinaryIO) -> None:
         """Write a page that shows the cells."""
         from vorotool.render.layers.voronoi import map_colors
-        from vorotool.render.pages.cells_html import shapes_of_map, write_cells_html
+        from vorotool.render.pages.html import shapes_of_map, write_cells_html
 
         cells = in_units(self.options.pixel_size, self.cells)
         shapes = shapes_of_map(cells)

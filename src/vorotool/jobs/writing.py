@@ -117,7 +117,7 @@ def write(
     >>> write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), "build/skeleton.svg")
     """
     from vorotool.numeric.checks import checked_flag, checked_threads
-    from vorotool.numeric.input_unit import own_unit
+    from vorotool.numeric.length_units import own_unit
 
     path, flatten = _checked_path(path), checked_flatten(flatten)
     if not isinstance(fmt, str | None):
@@ -209,7 +209,7 @@ def to_geojson(
 
     import orjson
 
-    from vorotool.numeric.input_unit import own_unit
+    from vorotool.numeric.length_units import own_unit
 
     out, tolerance = io.BytesIO(), checked_flatten(flatten)
     with columns_wanted(with_columns), unit_member(own_unit(value)):

@@ -1,14 +1,13 @@
-"""Work on several threads: items in order, chunks of long arrays, and tasks that tell how far they are."""
+"""Threads for work that releases the lock of the interpreter, and the progress of long work."""
 
 from __future__ import annotations
 
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from vorotool.numeric.checks import available_threads, checked_threads
-from vorotool.numeric.progress import Progress
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -101,3 +100,14 @@ def start(work: Callable[[], Result], future: Future[Result]) -> None:
                 future.set_exception(error)
 
     threading.Thread(target=run, daemon=True).start()
+
+
+class Report(Protocol):
+    """Called now and then with the fraction done, from 0 to 1; what it raises stops the work."""
+
+    def __call__(self, fraction: float, /) -> object:
+        """Take notice."""
+
+
+Progress = Report | None
+"""None where nobody asks."""

@@ -52,8 +52,7 @@ class Looks(NamedTuple):
 
     def style(self, scale_bar: ScaleBar | None = None) -> PictureStyle:
         """What is chosen, as what draws takes it, with the lengths that a scale bar may have."""
-        from vorotool.render.canvas.palettes import WHITE
-        from vorotool.render.canvas.styles import PictureStyle
+        from vorotool.render.canvas.styles import WHITE, PictureStyle
 
         ground = WHITE if self.background is None else self.background
         return PictureStyle(

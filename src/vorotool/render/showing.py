@@ -185,7 +185,7 @@ def _show_image(ax: Axes, image: LabelImage | Raster, style: dict[str, Any]) -> 
 def _colored(image: LabelImage) -> NDArray[np.uint8]:
     """(H, W, 3) colors of the pixels, as pictures of label images have them."""
     from vorotool.engines.label_images.object_colors import object_colors
-    from vorotool.render.canvas.palettes import picture_palette
+    from vorotool.render.canvas.styles import picture_palette
 
     labels, classes = object_colors(image)
     palette = picture_palette(int(classes.max(initial=0))).colors

@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import Any
 
 from vorotool.errors import InputError
-from vorotool.numeric.descriptions import described
+from vorotool.numeric.checks import described
 from vorotool.products.registry import is_of
 
 

@@ -1,15 +1,16 @@
-"""A rectangle with sides along the axes."""
+"""Rectangles, from whatever a caller holds, and the magnitude of coordinates that engines compute with."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
-from vorotool.numeric.numbers import finite_double, nearest_double, real_number
+from vorotool.errors import InputError, UsageError
+from vorotool.numeric.numbers import finite_double, nearest_double, real_number, shown_number
 from vorotool.plain import plain
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ Sides = tuple[float, float, float, float]
 FRAME_MARGIN = 0.1
 """Of the larger side of the bounds, on each side of the default frame."""
 
-LARGEST = float(np.finfo(np.float64).max)
+_LARGEST_DOUBLE = float(np.finfo(np.float64).max)
 
 
 def bounds(points: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -120,8 +121,8 @@ class Box:
             tenth = float((high * margin - low * margin).max())
             wide = np.maximum(tenth, np.spacing(np.maximum(np.abs(low), np.abs(high)) / 2) * 2)
         with np.errstate(over="ignore"):
-            left, bottom = np.maximum(low - wide, -LARGEST)
-            right, top = np.minimum(high + wide, LARGEST)
+            left, bottom = np.maximum(low - wide, -_LARGEST_DOUBLE)
+            right, top = np.minimum(high + wide, _LARGEST_DOUBLE)
         return Box(left, bottom, right, top)
 
 
@@ -163,3 +164,51 @@ def corners_of(frame: Extent) -> NDArray[np.float64]:
     """Return the corners of a frame, counter-clockwise from the smallest."""
     left, bottom, right, top = extent_sides(frame)
     return np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
+
+
+LARGEST = 1e70
+"""Magnitude of lengths and coordinates: products of four of these, or of parts of them, are floating-point numbers."""
+
+
+def check_magnitude(xy: NDArray[np.float64]) -> None:
+    """Refuse vertices so far away, or so near each other, that products of distances are no numbers."""
+    if not len(xy):
+        return
+    low, high = bounds(xy)
+    largest = float(max(-low.min(), high.max()))
+    if largest > LARGEST:
+        raise InputError(f"a coordinate is {largest:g}, too large to compute with: scale them to {LARGEST:g} at most")
+    extent = float((high - low).max())
+    if 0 < extent < 1 / LARGEST:
+        raise InputError(f"the extent is {extent:g}, too small to compute with: scale it to {1 / LARGEST:g} at least")
+
+
+def check_lengths(values: Iterable[float], noun: str) -> None:
+    """Refuse lengths and coordinates of options that are beyond those of shapes."""
+    for value in values:
+        if not abs(value) <= LARGEST:
+            raise UsageError(f"a {noun} of {value:g} is too large to compute with: use at most {LARGEST:g}")
+
+
+EXPECTED = "expected a Box or four finite numbers x, y, width, height with width and height above 0"
+
+
+def as_box(source: Any, name: str) -> Box:
+    """Give a box from one, or from four numbers: its smallest corner, its width and its height."""
+    if isinstance(source, Box):
+        return source
+    try:
+        return Box.of_size(*as_extent(source, name))
+    except UsageError as error:
+        raise InputError(error.marked) from None
+
+
+def as_extent(source: Any, name: str) -> Extent:
+    """Give the smallest corner of a rectangle, its width and its height, digit by digit as they were given."""
+    if isinstance(source, Box):
+        return source.extent
+    try:
+        x, y, width, height = (finite_double(side, name) for side in source)
+    except (TypeError, ValueError):  # a UsageError is one of the latter
+        raise UsageError(f"invalid {name} {shown_number(source)}: {EXPECTED}") from None
+    return x, y, width, height

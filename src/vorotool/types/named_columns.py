@@ -40,7 +40,7 @@ def chosen_column(columns: Mapping[str, Any], name: str, option: str) -> Any:
 
 def check_plain(values: Iterable[Any], option: str) -> None:
     """Refuse a column that holds objects or lists where texts or numbers are expected."""
-    from vorotool.numeric.descriptions import described
+    from vorotool.numeric.checks import described
     from vorotool.numeric.numbers import shown_number
 
     for value in values:

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from vorotool.render.canvas.glyphs import text_cells
-from vorotool.render.canvas.palettes import CELLS, INK, LINE, RESULT, SEED, WHITE, edge_color
+from vorotool.render.canvas.styles import CELLS, INK, LINE, RESULT, SEED, WHITE, edge_color
 
 NAMESPACE = "{http://www.w3.org/2000/svg}"
 DARK = (34, 34, 34)

@@ -11,7 +11,7 @@ from skimage.draw import disk
 from skimage.segmentation import find_boundaries
 
 import vorotool
-from vorotool.render.canvas.palettes import CELLS, SEED
+from vorotool.render.canvas.styles import CELLS, SEED
 
 NS = "{http://www.w3.org/2000/svg}"
 PALETTE = {tuple(ImageColor.getrgb(name)) for name in CELLS}

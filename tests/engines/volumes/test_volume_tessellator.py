@@ -11,7 +11,7 @@ import vorotool
 from support.few import few
 from vorotool import _core
 from vorotool.engines import peers
-from vorotool.engines.peers.arguments import bare_seeds
+from vorotool.engines.peers.distance_transform import bare_seeds
 from vorotool.engines.volumes.inner_voxels import outer_voxels
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, LimitError, UsageError

@@ -5,7 +5,7 @@ import pytest
 from skimage.color import deltaE_ciede2000, rgb2lab
 
 from vorotool.errors import LimitError
-from vorotool.render.canvas.palettes import CELLS, LINE, SEED, WHITE, cell_color, picture_palette
+from vorotool.render.canvas.styles import CELLS, LINE, SEED, WHITE, cell_color, picture_palette
 
 # normal vision, severe protanopia, deuteranopia and tritanopia, on linear RGB (Machado et al. 2009, table 1)
 DEFICIENCIES = [

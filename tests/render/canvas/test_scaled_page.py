@@ -10,9 +10,8 @@ from vorotool.formats.drawing.svg_reader import read_svg
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.render.canvas.layers import Arcs, Curves, Lines, Points, Polygons, Texts
-from vorotool.render.canvas.palettes import WHITE
 from vorotool.render.canvas.scaled_page import ScaledPage, styled_layers
-from vorotool.render.canvas.styles import PictureStyle
+from vorotool.render.canvas.styles import WHITE, PictureStyle
 from vorotool.render.canvas.svg import write_layers_svg
 from vorotool.types.polygons.conversion import to_shapely
 

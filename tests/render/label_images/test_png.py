@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vorotool.errors import UsageError
-from vorotool.render.canvas.palettes import picture_palette
+from vorotool.render.canvas.styles import picture_palette
 from vorotool.render.label_images.png import disc_radius, picture_bands
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SeedSet

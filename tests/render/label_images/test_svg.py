@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vorotool.errors import LimitError, UsageError
-from vorotool.render.canvas.palettes import CELLS
+from vorotool.render.canvas.styles import CELLS
 from vorotool.render.label_images.svg import write_label_svg
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.label_image import LabelImage

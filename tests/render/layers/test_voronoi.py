@@ -19,7 +19,7 @@ import vorotool
 from vorotool import voronoi
 from vorotool.errors import RepairWarning, UsageError
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Texts
-from vorotool.render.canvas.palettes import cell_color
+from vorotool.render.canvas.styles import cell_color
 from vorotool.render.canvas.svg import write_layers_svg
 from vorotool.render.layers.voronoi import LAYERS, map_colors, voronoi_layers, voronoi_page
 

@@ -15,8 +15,8 @@ from PIL import Image
 from support.families.point_families import draw
 from support.few import few
 from vorotool import LimitError, alpha_complex, alpha_curves, alpha_shape
-from vorotool.render.canvas.palettes import BOUNDARY, CELLS, SEED, SINGULAR
-from vorotool.render.pages.page_data import MOST_POINTS, check_html_size, write_alpha_html
+from vorotool.render.canvas.styles import BOUNDARY, CELLS, SEED, SINGULAR
+from vorotool.render.pages.html import MOST_POINTS, check_family_size, write_alpha_html
 from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.fields import with_y_axis
 
@@ -121,4 +121,4 @@ def test_y_upwards():
 def test_too_many_points():
     family = alpha_complex(draw("uniform", MOST_POINTS + 1, 0))
     with pytest.raises(LimitError, match=r'100001 points are too many for a page, .* use fmt="svg" or "png"'):
-        check_html_size(family)
+        check_family_size(family)

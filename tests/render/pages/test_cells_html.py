@@ -15,10 +15,10 @@ from PIL import Image
 
 import vorotool
 from vorotool import LimitError, voronoi_cells
-from vorotool.render.canvas.palettes import CELLS
-from vorotool.render.pages.cells_html import (
+from vorotool.render.canvas.styles import CELLS
+from vorotool.render.pages.html import (
     MOST_CELLS,
-    check_html_size,
+    check_cells_size,
     shapes_of_cells,
     shapes_of_labels,
     shapes_of_map,
@@ -115,7 +115,7 @@ def test_few_cells(labels):
 
 def test_too_many():
     with pytest.raises(LimitError, match="100001 cells are too many for a page"):
-        check_html_size(MOST_CELLS + 1)
+        check_cells_size(MOST_CELLS + 1)
 
 
 def test_nothing_is_loaded_from_elsewhere():

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from vorotool import LimitError
-from vorotool.render.pages.volume_html import (
+from vorotool.render.pages.html import (
     MOST_RUNS,
     MOST_VOXELS,
     check_volume_page,

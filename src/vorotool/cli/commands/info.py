@@ -6,8 +6,7 @@ from typing import Any
 
 import click
 
-from vorotool.cli.command import option
-from vorotool.cli.suggestions import candidates
+from vorotool.cli.command import candidates, option
 from vorotool.products.options import options_of
 
 _FILES = candidates("info", "inputs")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from vorotool.cli.suggestions import candidates, words
+from vorotool.cli.command import candidates, words
 from vorotool.products.samples import SAMPLES
 
 

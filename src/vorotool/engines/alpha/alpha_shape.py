@@ -22,7 +22,7 @@ from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.errors import InputError, UsageError, option
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import nearest_double, real_number, shown_number, whole_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import ranges, starts_of
 from vorotool.types.alpha.complex import AlphaComplex, Radius, checked_radius
 from vorotool.types.alpha.shape import AlphaShape

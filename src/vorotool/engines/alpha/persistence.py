@@ -10,7 +10,7 @@ from vorotool import _core
 from vorotool.engines.alpha.alpha_shape import alpha_complex, automatic_rank
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.errors import UsageError
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.alpha.complex import AlphaComplex
 from vorotool.types.alpha.persistence import RegionPersistence
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.engines.delaunay.delaunay import verify_triangulation
 from vorotool.errors import VerificationError
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import owners
 from vorotool.types.alpha.complex import CLASSES, AlphaComplex, Radius
 from vorotool.types.alpha.shape import AlphaShape

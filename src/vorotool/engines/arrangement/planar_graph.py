@@ -15,11 +15,11 @@ from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells
 from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.errors import LimitError, VerificationError
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import divides, owners, ranges
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
-from vorotool.types.magnitude import check_magnitude
+from vorotool.types.box import check_magnitude
 from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 

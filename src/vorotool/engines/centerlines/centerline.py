@@ -20,10 +20,10 @@ from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError, UsageError, warn
 from vorotool.numeric.arrays import Booleans, Floats, Numbers
 from vorotool.numeric.checks import is_choice
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import starts_of
 from vorotool.types.arguments import check_value
-from vorotool.types.magnitude import check_lengths
+from vorotool.types.box import check_lengths
 from vorotool.types.skeleton.centerline import Centerlines, without_centerline
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 

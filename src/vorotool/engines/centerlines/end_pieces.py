@@ -21,7 +21,7 @@ import numpy as np
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.numeric.arrays import Booleans, Numbers
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 from vorotool.types.skeleton.tables import connected_roots

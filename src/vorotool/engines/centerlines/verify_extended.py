@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.end_pieces import HAIR, TIP
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.pruning.verify_pruning import check_counts
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.types.arguments import check_value

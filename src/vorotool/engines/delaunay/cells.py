@@ -9,18 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.convert.boxes import as_box
 from vorotool.convert.polygons import as_geometry
 from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
 from vorotool.errors import InputError, VerificationError, warn
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import owners, starts_of
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
-from vorotool.types.box import Box
+from vorotool.types.box import Box, as_box
 from vorotool.types.mesh.cells import CellSet
 from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.points.point_set import known_of_points

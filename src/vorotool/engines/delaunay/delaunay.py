@@ -10,7 +10,7 @@ from vorotool import _core
 from vorotool.convert.points import as_points
 from vorotool.errors import STRICT, InputError, LimitError, VerificationError, warn
 from vorotool.numeric.checks import checked_flag, checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.points.point_set import known_of_points

@@ -13,7 +13,7 @@ from vorotool.engines.delaunay.delaunay import MOST_POINTS, core_mesh, delaunay,
 from vorotool.errors import InputError, LimitError
 from vorotool.numeric.checks import checked_threads, whole_numbers
 from vorotool.numeric.equality import joined_index
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.points.point_set import PointSet, known_of_points

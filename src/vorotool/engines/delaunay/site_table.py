@@ -15,7 +15,7 @@ from vorotool.engines.delaunay.proximity import proximity_graph
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.cells import CellSet

@@ -20,7 +20,7 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import Message, option
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.mesh.digital_triangulation import DigitalComparison, DigitalTriangulation
 from vorotool.types.mesh.triangulation import Triangulation

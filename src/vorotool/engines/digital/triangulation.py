@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.spacings import asked_sides
-from vorotool.engines.common.label_arrays import label_array
+from vorotool.engines.common import label_array
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, delaunay, triangulation_fault
 from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.frames import (
@@ -23,7 +23,7 @@ from vorotool.engines.tessellation.frames import (
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, option, warn
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.types.mesh.triangulation import Triangulation

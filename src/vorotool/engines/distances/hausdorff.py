@@ -17,11 +17,11 @@ from vorotool.errors import InputError, RepairWarning
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import ranges
 from vorotool.plain import plain
+from vorotool.types.box import check_magnitude
 from vorotool.types.distances.distances import Distances, PlacePair
-from vorotool.types.magnitude import check_magnitude
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import HOLE, LINE, PolygonSet
 from vorotool.types.polygons.used_shapes import with_used_rings

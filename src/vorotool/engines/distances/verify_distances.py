@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.faults import fail
+from vorotool.engines.common import fail
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.arguments import check_value

@@ -26,12 +26,10 @@ from vorotool.errors import LimitError, warn
 from vorotool.numeric.arrays import Indices
 from vorotool.numeric.checks import available_threads
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.parallel import in_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress, in_threads
 from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
-from vorotool.types.box import bounds
-from vorotool.types.magnitude import check_magnitude
+from vorotool.types.box import bounds, check_magnitude
 from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 from vorotool.types.polygons.used_shapes import RingArrays

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.convert.boxes import as_extent
 from vorotool.convert.polygons import as_polygons
 from vorotool.convert.sites import as_sites
 from vorotool.engines.from_skeleton.disc_places import Candidates, bernstein_roots
@@ -16,9 +15,9 @@ from vorotool.engines.skeleton.diagrams import diagram_of_all, skeleton_in
 from vorotool.errors import InputError
 from vorotool.numeric.arrays import Floats, Numbers
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import starts_of
-from vorotool.types.box import Box, Extent, bounds, corners_of, default_frame, extent_sides, is_extent
+from vorotool.types.box import Box, Extent, as_extent, bounds, corners_of, default_frame, extent_sides, is_extent
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.used_shapes import used_shapes
 from vorotool.types.skeleton.discs import Discs

@@ -15,7 +15,7 @@ from vorotool.errors import UsageError
 from vorotool.numeric.arrays import Numbers
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import whole_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import starts_of, within
 from vorotool.types.skeleton.discs import Discs
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton

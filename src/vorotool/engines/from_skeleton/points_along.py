@@ -14,7 +14,7 @@ from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.numbers import finite_double
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import owners, within
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value

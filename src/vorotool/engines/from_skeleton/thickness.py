@@ -12,7 +12,7 @@ from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.axis import is_up
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
 from vorotool.numeric.arrays import Floats
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.used_shapes import used_shapes

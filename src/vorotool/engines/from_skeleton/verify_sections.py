@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.numeric.arrays import Booleans, Floats
 from vorotool.numeric.curves.inverse_functions import hypotenuse

@@ -8,13 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.faults import fail
+from vorotool.engines.common import fail
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.arrays import Floats
-from vorotool.numeric.checks import as_array
-from vorotool.numeric.descriptions import described
+from vorotool.numeric.checks import as_array, described
 from vorotool.numeric.numbers import pair_of_doubles, shown_number, whole_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.axis import is_up
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.pruning.verify_pruning import PRECISION, are_parts, check_counts
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.skeleton import Skeleton

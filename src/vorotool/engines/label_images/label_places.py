@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import label_array
+from vorotool.engines.common import label_array
 from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.pixel_frame import Frame

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import label_array
+from vorotool.engines.common import label_array
 from vorotool.engines.label_images.regions import region_colors
 from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
 from vorotool.engines.tessellation.tessellator import Tessellator

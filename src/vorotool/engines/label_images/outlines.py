@@ -25,7 +25,7 @@ from vorotool.engines.tessellation.raster_objects import (
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import shown_number, whole_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import following, owners, starts_of, within
 from vorotool.plain import plain
 from vorotool.types.pixel_frame import Frame

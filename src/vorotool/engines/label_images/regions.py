@@ -10,13 +10,22 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.convert.images import as_label_image
 from vorotool.convert.volumes import is_of_space
-from vorotool.engines.common.label_arrays import described, label_array, next_row, refuse_negative
-from vorotool.engines.common.site_rows import in_unit, largest_by_label, nearest_sites, rows_of, spread
+from vorotool.engines.common import (
+    described,
+    in_unit,
+    label_array,
+    largest_by_label,
+    nearest_sites,
+    next_row,
+    refuse_negative,
+    rows_of,
+    spread,
+)
 from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.errors import InputError, LimitError
 from vorotool.numeric.checks import as_array, checked_flag, checked_threads
 from vorotool.numeric.numbers import finite_double
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.points.label_image import LabelImage

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.clearance import clearance_course, plateaus
 from vorotool.numeric.arrays import Indices
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.skeleton.arc_measures import ClearanceCourse
 from vorotool.types.skeleton.skeleton import Skeleton

@@ -12,7 +12,7 @@ from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError, option
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import finite_double, shown_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.polygons.input_vertices import moved_feet
 from vorotool.types.skeleton.necks import Necks

@@ -15,7 +15,7 @@ from vorotool.engines.necks.axis import Ways
 from vorotool.engines.necks.feet import Feet
 from vorotool.engines.necks.necks import FoundNecks, check_neck, found_necks, whole_skeleton
 from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import following, owners, ranges
 from vorotool.plain import plain
 from vorotool.types.polygons.input_vertices import moved_feet, places_as_given

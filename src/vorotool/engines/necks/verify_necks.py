@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import owners
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.input_vertices import moved_feet, places_as_given

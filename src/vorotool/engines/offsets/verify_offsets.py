@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.offsets.offsets import listed_distances
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
@@ -23,7 +23,7 @@ from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.circular_arcs import middles_of
 from vorotool.numeric.numbers import distinct, finite_double
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import following, ranges, starts_of
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.conversion import to_shapely

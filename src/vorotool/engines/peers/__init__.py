@@ -1,7 +1,6 @@
 """What other libraries have by other names; `vorotool.compat` gives it theirs."""
 
-from vorotool.engines.peers.distance_transform import distance_transform
-from vorotool.engines.peers.expand_labels import expand_labels
+from vorotool.engines.peers.distance_transform import distance_transform, expand_labels
 from vorotool.engines.peers.medial_axis import medial_axis
 from vorotool.engines.peers.voronoi_polygons import voronoi_polygons
 

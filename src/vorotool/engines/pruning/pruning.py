@@ -18,8 +18,7 @@ from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import available_threads, checked_threads, is_choice
 from vorotool.numeric.curves.inverse_functions import inverse_sine
 from vorotool.numeric.numbers import distinct, finite_double, shown_number
-from vorotool.numeric.parallel import in_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress, in_threads
 from vorotool.numeric.ragged import owners, starts_of
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.ragged import owners, ranges
 from vorotool.types.arguments import check_value

@@ -23,7 +23,7 @@ from vorotool.engines.skeleton.exact import (
 from vorotool.errors import LimitError, UsageError
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.box import Extent, default_frame
 from vorotool.types.polygons.planar_graph import PlanarGraph

@@ -37,7 +37,7 @@ from vorotool.engines.skeleton.per_feature import joined_with_places
 from vorotool.errors import LimitError, VorotoolWarning
 from vorotool.numeric.arrays import Indices
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import starts_of
 from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolError
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.segment_voronoi import LATTICE_LIMIT, SegmentVoronoiDiagram
 

@@ -6,7 +6,7 @@ from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.errors import VerificationError
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 

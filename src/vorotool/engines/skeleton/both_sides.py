@@ -16,7 +16,7 @@ from vorotool.engines.skeleton.exact import ShapeDiagram, diagram_of_graph, skel
 from vorotool.engines.skeleton.parts import PER_ARC
 from vorotool.engines.skeleton.per_feature import feature_skeleton
 from vorotool.errors import VorotoolWarning
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.box import Extent
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.skeleton.arc_measures import ClearanceCourse
 from vorotool.types.skeleton.segment_voronoi import LATTICE_LIMIT
 from vorotool.types.skeleton.skeleton import Skeleton

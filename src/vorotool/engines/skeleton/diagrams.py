@@ -27,7 +27,7 @@ from vorotool.engines.skeleton.shortened_edges import (
 )
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import Skeleton

@@ -16,7 +16,7 @@ from vorotool.engines.skeleton.open_border import Opening
 from vorotool.errors import Kind, Message, UsageError, VorotoolWarning, option, warn
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.box import Extent, default_frame, is_extent
 from vorotool.types.polygons.planar_graph import PlanarGraph

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.arrays import Indices
 from vorotool.plain import plain
-from vorotool.types.box import Extent, is_extent
-from vorotool.types.magnitude import check_lengths
+from vorotool.types.box import Extent, check_lengths, is_extent
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram

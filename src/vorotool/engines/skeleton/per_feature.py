@@ -20,7 +20,7 @@ from vorotool.engines.skeleton.exact import (
     warn_empty,
 )
 from vorotool.engines.skeleton.open_border import around, opened
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import starts_of
 from vorotool.plain import plain
 from vorotool.types.box import Extent

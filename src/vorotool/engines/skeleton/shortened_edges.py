@@ -26,7 +26,7 @@ from vorotool.numeric.arrays import Indices
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import angle_of, hypotenuse
 from vorotool.numeric.numbers import is_among
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import following, owners
 from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds

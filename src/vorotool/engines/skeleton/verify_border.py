@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.engines.skeleton.verify_regions import AREA, AREA_ULPS, areas_beside, face_measures
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import Skeleton
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.skeleton.shortened_edges import corner_sectors
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.numeric.arrays import Floats, Indices

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.exact import ShapeDiagram, kept_edges
 from vorotool.engines.skeleton.parts import PER_ARC, outside_of, with_arcs, with_polygons
@@ -29,7 +29,7 @@ from vorotool.engines.skeleton.verify_regions import (
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton

@@ -11,7 +11,7 @@ from vorotool.engines.smoothing.tangents import closing_tangents, inner_tangents
 from vorotool.errors import InputError
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.numbers import checked_tolerance
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.skeleton import Skeleton

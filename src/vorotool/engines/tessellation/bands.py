@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SeedSet

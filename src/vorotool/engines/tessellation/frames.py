@@ -18,7 +18,7 @@ from vorotool.convert.images import as_raster, is_image
 from vorotool.convert.points import as_points
 from vorotool.convert.polygons import as_polygons
 from vorotool.convert.spacings import asked_sides
-from vorotool.engines.common.label_arrays import described
+from vorotool.engines.common import described
 from vorotool.engines.tessellation.seeding import FrameOf, seeds_from_raster, seeds_in_frame
 from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.numeric.numbers import real_number, shown_number

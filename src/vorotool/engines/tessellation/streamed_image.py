@@ -30,7 +30,7 @@ from vorotool.engines.tessellation.raster_objects import (
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError, option
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.raster import Raster

@@ -24,7 +24,7 @@ from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import UsageError
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.numbers import shown_number, whole_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.types.arguments import check_value
 from vorotool.types.pixel_frame import MAX_PIXELS, Frame

@@ -26,7 +26,7 @@ from vorotool.engines.tessellation.seed_lattice import on_coarser_lattice
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import shown_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.pixel_frame import MAX_SIDE, Frame
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.spacing import SQUARE, PixelSides

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import label_array
+from vorotool.engines.common import label_array
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.numeric.checks import checked_threads
 from vorotool.types.pixel_frame import Frame

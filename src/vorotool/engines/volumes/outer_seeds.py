@@ -13,7 +13,7 @@ from vorotool.engines.tessellation.raster_objects import Objects
 from vorotool.engines.volumes.inner_voxels import outer_voxels
 from vorotool.engines.volumes.volume_objects import VolumeObjects
 from vorotool.errors import LimitError, option
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.volumes.volume_measures import volume_diagram
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.label_volume import CUBE

@@ -12,7 +12,7 @@ from vorotool.engines.volumes.volume_frames import as_volume_seeds, asked_voxel_
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import UsageError
 from vorotool.numeric.numbers import shown_number, whole_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.pixel_frame import MAX_PIXELS
 from vorotool.types.spacing import distance_as_written
 from vorotool.types.volumes.label_volume import LabelVolume

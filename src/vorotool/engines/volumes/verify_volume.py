@@ -8,12 +8,12 @@ from typing import Any
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import label_array
+from vorotool.engines.common import label_array
 from vorotool.engines.tessellation.frames import squared_limit
 from vorotool.engines.tessellation.verify_tessellation import on_lattice, split_limit
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.spacing import PixelSides, distance_as_written
 from vorotool.types.volumes.label_volume import CUBE, LabelVolume
 from vorotool.types.volumes.volume_seeds import VolumeSeeds

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.volumes import as_volume
-from vorotool.engines.common.label_arrays import described, label_array, next_row, refuse_negative
+from vorotool.engines.common import described, label_array, next_row, refuse_negative
 from vorotool.errors import InputError
-from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.descriptions import naming
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.checks import checked_threads, naming
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume

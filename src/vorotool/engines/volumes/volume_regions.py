@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import label_array
-from vorotool.engines.common.site_rows import largest_by_label, rows_of
+from vorotool.engines.common import label_array, largest_by_label, rows_of
 from vorotool.engines.volumes.volume_measures import VolumeMeasures, measure_slabs
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.plain import plain

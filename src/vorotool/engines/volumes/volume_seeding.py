@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.convert.volume_points import as_volume_points
-from vorotool.convert.volumes import as_volume
+from vorotool.convert.volumes import as_volume, as_volume_points
 from vorotool.engines.tessellation.cleaned_masks import Cleaning
 from vorotool.engines.tessellation.label_sums import numbered, parts, sums
 from vorotool.engines.tessellation.raster_objects import Note, report_no_foreground
@@ -23,7 +22,7 @@ from vorotool.engines.volumes.volume_objects import HeldSlices, SlicesSource, Vo
 from vorotool.errors import LimitError, UsageError, option
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.numbers import shown_number, whole_number
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.volumes.volume_points import VolumePoints
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame

@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import label_array
-from vorotool.engines.common.site_rows import largest_by_label, nearest_sites, spread
+from vorotool.engines.common import label_array, largest_by_label, nearest_sites, spread
 from vorotool.engines.volumes.volume_measures import VolumeMeasures, labeled, measure_volume
 from vorotool.engines.volumes.volume_regions import VolumeRegions
 from vorotool.errors import InputError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import finite_double
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.spacing import PixelSides
 from vorotool.types.table import Table
 from vorotool.types.volumes.label_volume import LabelVolume

@@ -24,7 +24,7 @@ from vorotool.engines.volumes.inner_voxels import paint_inner
 from vorotool.engines.volumes.volume_frames import default_voxel_frame
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.label_volume import CUBE
 from vorotool.types.volumes.volume_seeds import VolumeSeeds

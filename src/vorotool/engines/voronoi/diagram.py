@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.engines.voronoi.elements import OwnedGraph
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 

@@ -17,10 +17,10 @@ from vorotool.engines.arrangement.planar_graph import (
 )
 from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.errors import LimitError
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
-from vorotool.types.magnitude import check_magnitude
+from vorotool.types.box import check_magnitude
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 

@@ -9,11 +9,10 @@ from vorotool.engines.arrangement.flat_rings import with_flat_shells_as_lines
 from vorotool.engines.arrangement.planar_graph import MOST_VERTICES, Placement, arranged, placed_vertices
 from vorotool.engines.voronoi.elements import graph_of_sites
 from vorotool.errors import LimitError
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
-from vorotool.types.box import Sides
-from vorotool.types.magnitude import check_magnitude
+from vorotool.types.box import Sides, check_magnitude
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, SHELL, PolygonSet
 

@@ -13,7 +13,7 @@ from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owners_of
 from vorotool.engines.voronoi.regions import Regions
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import ranges, starts_of
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph

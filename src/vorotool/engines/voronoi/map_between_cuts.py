@@ -9,7 +9,7 @@ from vorotool.engines.voronoi.joint_graph import joint_graph
 from vorotool.engines.voronoi.local_diagrams import local_diagrams
 from vorotool.engines.voronoi.regions import regions_of
 from vorotool.errors import InputError
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.box import Extent
 
 

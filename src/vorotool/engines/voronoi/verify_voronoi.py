@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.voronoi.verify_cuts import EnclosedFaces, shared_out
 from vorotool.errors import UsageError
 from vorotool.numeric.curves.inverse_functions import PI, angle_of

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vorotool.convert.boxes import as_extent
 from vorotool.convert.sites import as_sites
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of, without_lost
 from vorotool.engines.voronoi.borders import Borders, borders_of
@@ -25,9 +24,8 @@ from vorotool.engines.voronoi.nearest_site import site_at
 from vorotool.errors import UsageError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import finite_double, shown_number
-from vorotool.numeric.progress import Progress
-from vorotool.types.box import Extent, corners_of, default_frame, is_extent
-from vorotool.types.magnitude import check_lengths
+from vorotool.numeric.parallel import Progress
+from vorotool.types.box import Extent, as_extent, check_lengths, corners_of, default_frame, is_extent
 from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.convert.coordinate_names import coordinate_columns, plain_name, space_columns
+from vorotool.convert.tables import coordinate_columns, plain_name, space_columns
 from vorotool.errors import InputError, UsageError, option
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.types.points.point_set import PointSet

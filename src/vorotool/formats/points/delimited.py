@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.convert.coordinate_names import (
+from vorotool.convert.tables import (
     coordinate_columns,
     is_longitude_latitude,
     is_map,

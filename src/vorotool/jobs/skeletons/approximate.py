@@ -24,7 +24,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeletons.products import SkeletonProducts
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import table_in_units
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.boundary_samples import sample_table
 from vorotool.types.skeleton.skeleton import Skeleton

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import Kind, Message
 from vorotool.jobs.units import length_in_units, sides_of
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 
 if TYPE_CHECKING:

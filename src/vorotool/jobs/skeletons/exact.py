@@ -21,7 +21,7 @@ from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeletons.products import SkeletonProducts
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import Skeleton

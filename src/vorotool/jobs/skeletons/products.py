@@ -27,7 +27,7 @@ from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.skeletons.derived import Derived, OffsetCurves
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_text
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.products.registry import DERIVED, Made
 from vorotool.render.drawing import Drawing, Plot, drawing_of
@@ -259,9 +259,9 @@ class SkeletonProducts(Results, ABC):
         value = self.centerlines.path if what == "centerline" else self.diagram if what == "diagram" else self.joined
         super().check(target)
         if target.fmt == "html":
-            from vorotool.render.pages.skeleton_html import check_html_size
+            from vorotool.render.pages.html import check_skeleton_size
 
-            check_html_size(self.whole)
+            check_skeleton_size(self.whole)
         if not len(value) and what in ("skeleton", "branches") and self.options.side == "exterior":
             self.run.warn(Message("the exterior skeleton is empty", Kind.EMPTY_RESULT))
 
@@ -279,7 +279,7 @@ class SkeletonProducts(Results, ABC):
     def write_page(self, out: BinaryIO) -> None:
         """Write a page of all prunings, which begins with that which is asked for."""
         from vorotool.engines.pruning.pruning import arc_profiles, critical_values
-        from vorotool.render.pages.skeleton_html import write_skeleton_html
+        from vorotool.render.pages.html import write_skeleton_html
 
         whole, (_, criterion, threshold) = in_units(self.options.pixel_size, self.whole), self.pruning
         values = [critical_values(whole, name) for name in CRITERIA]

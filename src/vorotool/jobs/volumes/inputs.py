@@ -19,12 +19,11 @@ from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.points import read_xyz
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
-from vorotool.jobs.contradictions import check_voxel_size
-from vorotool.jobs.input_lengths import lengths_of_voxels
 from vorotool.jobs.inputs import JobInput, report_no_seeds
 from vorotool.jobs.masks import report_cleaning
 from vorotool.jobs.options import Options, changed
-from vorotool.jobs.refusals import refuse
+from vorotool.jobs.pixel_sizes import lengths_of_voxels
+from vorotool.jobs.refusals import check_voxel_size, refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, sides_of, unit_stats
 from vorotool.plain import plain

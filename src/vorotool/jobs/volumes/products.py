@@ -29,7 +29,7 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize, unit_columns
 from vorotool.jobs.volumes.inputs import ReadVolume, read_volume_seeds
 from vorotool.numeric.length_units import unit_name
-from vorotool.numeric.progress import Progress
+from vorotool.numeric.parallel import Progress
 from vorotool.products.registry import VOLUME_PRODUCTS, Product
 from vorotool.render.label_images.slices import SlicePicture
 from vorotool.types.table import Table
@@ -107,7 +107,7 @@ class VolumeProducts(Tessellated):
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, before anything is."""
-        from vorotool.render.pages.volume_html import check_volume_page
+        from vorotool.render.pages.html import check_volume_page
 
         what, fmt = target.what, target.fmt
         if fmt == "html":
@@ -169,8 +169,7 @@ class VolumeProducts(Tessellated):
 
     def write_page(self, out: BinaryIO) -> None:
         """Write a page that shows all slices."""
-        from vorotool.render.pages.cells_html import columns_of
-        from vorotool.render.pages.volume_html import write_volume_html
+        from vorotool.render.pages.html import columns_of, write_volume_html
 
         columns = columns_of(self._table, self.colors[0]) | unit_columns(self._size, len(self.colors[0]))
         first, units = self.frame.z, self.read.sides.units

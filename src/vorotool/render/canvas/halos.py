@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Points
-from vorotool.render.canvas.palettes import edge_color
+from vorotool.render.canvas.styles import edge_color
 
 
 def halo_width(width: float) -> float:

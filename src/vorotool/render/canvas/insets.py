@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError, option
 from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
-from vorotool.render.canvas.palettes import FAINT, INK, WHITE, edge_color, is_light
-from vorotool.render.canvas.styles import ScaleBar
+from vorotool.render.canvas.styles import FAINT, INK, WHITE, ScaleBar, edge_color, is_light
 
 LETTERS = 1 / 60
 """Size of letters, as a part of the page's width."""

@@ -14,8 +14,7 @@ from vorotool.numeric.curves.flatten import polylines
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.ragged import following, owners, starts_of, within
 from vorotool.plain import plain
-from vorotool.render.canvas.palettes import INK, SEED
-from vorotool.render.canvas.styles import PictureStyle
+from vorotool.render.canvas.styles import INK, SEED, PictureStyle
 from vorotool.types.box import bounds
 from vorotool.types.pixel_grid import PixelGrid
 

@@ -12,8 +12,8 @@ from vorotool.numeric.ragged import owners, ranges
 from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.glyphs import ADVANCE, HEIGHT, text_cells
 from vorotool.render.canvas.layers import Arcs, CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts
-from vorotool.render.canvas.palettes import edge_color
 from vorotool.render.canvas.scaled_page import PixelPage
+from vorotool.render.canvas.styles import edge_color
 
 FINE = 4
 """Pixels of the drawing a pixel of the picture, each way: 16 shades."""

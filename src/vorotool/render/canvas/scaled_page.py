@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError, option
 from vorotool.render.canvas.layers import MARGIN, Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
-from vorotool.render.canvas.palettes import edge_color
-from vorotool.render.canvas.styles import PictureStyle
+from vorotool.render.canvas.styles import PictureStyle, edge_color
 
 PX = 96 / 25.4
 """Of a millimeter."""

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from vorotool.formats.images.png_writer import write_png
 from vorotool.render.canvas.insets import ADVANCE, box, insets, letter_size, rounded_length
 from vorotool.render.canvas.layers import Backdrop, ImagePage, Layer, Page, Polygons, Texts
-from vorotool.render.canvas.palettes import FAINT, WHITE
 from vorotool.render.canvas.png import layer_bands
-from vorotool.render.canvas.styles import PictureStyle
+from vorotool.render.canvas.styles import FAINT, WHITE, PictureStyle
 from vorotool.types.skeleton.arc_measures import ThicknessImage
 
 COLORS = 255

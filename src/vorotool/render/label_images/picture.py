@@ -169,7 +169,7 @@ def _insets(picture: LabelPicture, page: Page, *, has_outlines: bool) -> list[La
     """The legend and the scale bar, if they are asked for."""
     from vorotool.render.canvas.insets import insets
     from vorotool.render.canvas.layers import Lines, Points, Polygons
-    from vorotool.render.canvas.palettes import CELLS, EDGE, LINE, SEED
+    from vorotool.render.canvas.styles import CELLS, EDGE, LINE, SEED
 
     page.style = picture.style
     nowhere, none = np.empty((0, 2)), np.empty((0, 2), np.int32)
@@ -250,7 +250,7 @@ class _Marks:
 
     def __init__(self, picture: LabelPicture) -> None:
         from vorotool.engines.label_images.label_places import outermost_pixels
-        from vorotool.render.canvas.palettes import picture_palette
+        from vorotool.render.canvas.styles import picture_palette
         from vorotool.render.label_images.png import around, widened
 
         layers, style, over = picture.layers, picture.style, picture.backdrop is not None

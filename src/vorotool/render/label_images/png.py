@@ -13,7 +13,7 @@ from vorotool.errors import UsageError
 from vorotool.numeric.ragged import ranges
 from vorotool.render.canvas.glyphs import text_cells
 from vorotool.render.canvas.layers import Backdrop
-from vorotool.render.canvas.palettes import PicturePalette
+from vorotool.render.canvas.styles import PicturePalette
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SeedSet
 

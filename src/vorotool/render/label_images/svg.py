@@ -14,9 +14,8 @@ from vorotool.errors import LimitError
 from vorotool.products.formats import AS_PNG
 from vorotool.render.canvas.halos import halo_width
 from vorotool.render.canvas.layers import Backdrop, Layer, Page
-from vorotool.render.canvas.palettes import EDGE, FAINT, INK, SEED, cell_color, edge_color
 from vorotool.render.canvas.scaled_page import PixelPage
-from vorotool.render.canvas.styles import PictureStyle
+from vorotool.render.canvas.styles import EDGE, FAINT, INK, SEED, PictureStyle, cell_color, edge_color
 from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element, layer_parts
 from vorotool.render.label_images.crack_outline import Loop, crack_loops
 from vorotool.render.label_images.png import Names, checked_layers, disc_radius

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.alpha.alpha_hull import alpha_hull
 from vorotool.render.canvas.layers import Arcs, Layer, Lines, Page, Points, Polygons
-from vorotool.render.canvas.palettes import BOUNDARY, CELLS, FAINT, INK, PALE, SINGULAR
+from vorotool.render.canvas.styles import BOUNDARY, CELLS, FAINT, INK, PALE, SINGULAR
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.mesh import mesh_page, site_names
 from vorotool.types.alpha.complex import CLASSES

@@ -14,7 +14,7 @@ from vorotool.errors import VorotoolWarning
 from vorotool.numeric.ragged import following, owners
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of
 from vorotool.render.canvas.names import column_texts, without_empty
-from vorotool.render.canvas.palettes import CELLS, EDGE, INK, WHITE, cell_color
+from vorotool.render.canvas.styles import CELLS, EDGE, INK, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.types.axis import is_up
 from vorotool.types.mesh.cells import CellSet

@@ -13,7 +13,7 @@ from vorotool.numeric.ragged import starts_of
 from vorotool.render.canvas.curve_layers import circles
 from vorotool.render.canvas.layers import Arcs, Layer, Lines, Page, Points, Polygons, Texts, bounds_of, name_size
 from vorotool.render.canvas.names import column_texts, without_empty
-from vorotool.render.canvas.palettes import FAINT, LIGHT, RESULT, SEED, WHITE
+from vorotool.render.canvas.styles import FAINT, LIGHT, RESULT, SEED, WHITE
 from vorotool.render.label_images.png import checked_layers
 from vorotool.types.axis import is_up
 from vorotool.types.distances.distances import Distances

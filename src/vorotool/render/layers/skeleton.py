@@ -13,8 +13,8 @@ from vorotool import _core
 from vorotool.render.canvas.curve_layers import CubicCurves
 from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Polygons, Texts, bounds_of, name_size
 from vorotool.render.canvas.names import without_empty
-from vorotool.render.canvas.palettes import EDGE as CELL_EDGE
-from vorotool.render.canvas.palettes import FAINT, INK, RESULT, SEED, WHITE, cell_color
+from vorotool.render.canvas.styles import EDGE as CELL_EDGE
+from vorotool.render.canvas.styles import FAINT, INK, RESULT, SEED, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import feature_names, names_of_features, polygon_layers, polygon_page
 from vorotool.types.axis import is_up

@@ -12,7 +12,7 @@ from vorotool import _core
 from vorotool.numeric.arrays import Indices
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts, name_size
 from vorotool.render.canvas.names import column_texts, without_empty
-from vorotool.render.canvas.palettes import EDGE, INK, WHITE, cell_color
+from vorotool.render.canvas.styles import EDGE, INK, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.mesh import cell_ids
 from vorotool.render.layers.polygons import polygon_layers

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.curves.inverse_functions import decimal_logarithm
-from vorotool.render.canvas.palettes import FAINT, INK, PALE, SEED, WHITE
+from vorotool.render.canvas.styles import FAINT, INK, PALE, SEED, WHITE
 from vorotool.types.table import Table
 
 MOST = 40

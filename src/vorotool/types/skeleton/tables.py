@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.descriptions import described
+from vorotool.numeric.checks import described
 from vorotool.numeric.parallel import in_chunks
 from vorotool.types.arguments import check_value
 from vorotool.types.features import Rows

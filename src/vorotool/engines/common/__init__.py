@@ -1,1 +1,0 @@
-"""Shared by engines: arrays of labels, faults."""

@@ -1,0 +1,356 @@
+"""Self-contained HTML pages: alpha shapes of all radii, cells, slices of volumes, skeletons with their pruning."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from pathlib import Path
+from sys import float_info
+from typing import Any, BinaryIO, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from vorotool.errors import LimitError, option
+from vorotool.numeric.numbers import nearest_double
+from vorotool.numeric.ragged import starts_of
+from vorotool.products.formats import AS_PICTURE, AS_SVG
+from vorotool.render.canvas.styles import cell_color
+from vorotool.render.label_images.crack_outline import crack_loops
+from vorotool.render.pages.alpha_plot import CURVES
+from vorotool.types.alpha.complex import AlphaComplex, Radius
+from vorotool.types.axis import is_up
+from vorotool.types.box import bounds
+from vorotool.types.mesh.cells import CellSet
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.skeleton.critical_values import ArcProfiles, CriticalValues
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.table import Table
+from vorotool.types.voronoi.shapes import cell_rings
+from vorotool.types.voronoi.voronoi_map import VoronoiMap
+
+_PLACE = "/*DATA*/null"
+
+
+def write_page(out: BinaryIO, name: str, data: Mapping[str, Any]) -> None:
+    """Write the page of a name with its data."""
+    before, after = Path(__file__).with_name(name).read_text(encoding="utf-8").split(_PLACE)
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False)
+    out.write(f"{before}{text.replace('<', chr(92) + 'u003c')}{after}".encode())  # no text ends the script
+
+
+class Extent:
+    """What a page shows; its coordinates begin in the upper left corner, in parts of the larger side."""
+
+    def __init__(self, low: ArrayLike, high: ArrayLike, *, y_up: bool) -> None:
+        box = np.array([low, high], dtype=np.float64)
+        self._exponent = int(np.frexp(np.abs(box).max())[1])  # a power of two keeps differences within range
+        (self._left, top), (_, bottom) = np.ldexp(box, -self._exponent)
+        span = np.ldexp(box[1], -self._exponent) - np.ldexp(box[0], -self._exponent)
+        self._side, self._top, self._y_up = float(span.max()) or 1.0, bottom if y_up else top, y_up
+        self.sides = {"width": float(span[0]) / self._side or 1e-9, "height": float(span[1]) / self._side or 1e-9}
+
+    def places(self, xy: NDArray[np.float64]) -> str:
+        """Give coordinates as text."""
+        x, y = np.ldexp(xy, -self._exponent).T
+        down = self._top - y if self._y_up else y - self._top
+        return packed(np.stack([x - self._left, down], axis=1) / self._side, "<f4")
+
+
+def json_value(value: Any) -> Any:
+    """Give a number or a text as JSON has them; what is missing or no number is None."""
+    if value is np.ma.masked:
+        return None
+    value = value.item() if isinstance(value, np.generic) else value
+    if isinstance(value, float):
+        return value if isfinite(value) else None
+    return value if value is None or isinstance(value, bool | int | str) else str(value)
+
+
+def packed(values: ArrayLike, dtype: DTypeLike) -> str:
+    """Give the bytes of an array as text."""
+    return b64encode(np.ascontiguousarray(values, dtype=dtype).tobytes()).decode()
+
+
+MOST_POINTS = 100_000
+"""Some 30 MB of data: browsers draw so many in about a second."""
+
+ALPHA_PAGE = "alpha_page.html"
+
+
+def check_family_size(family: AlphaComplex) -> None:
+    """Refuse a page that no browser would draw."""
+    if len(family.points) > MOST_POINTS:
+        raise LimitError(
+            f"{len(family.points)} points are too many for a page, at most {MOST_POINTS}: use {AS_PICTURE}"
+        )
+
+
+def write_alpha_html(out: BinaryIO, family: AlphaComplex, curves: Table, *, r: Radius | None = None) -> None:
+    """Write a page with a slider over r: the shape, the classes of its edges, and curves."""
+    check_family_size(family)
+    points, mesh = family.points, family.mesh
+    low, high = bounds(points) if len(points) else (np.zeros(2), np.zeros(2))
+    extent = Extent(low, high, y_up=is_up(mesh))
+    whole = {"edges": family.edges, "triangles": mesh.triangles}
+    whole |= {name: getattr(family, name) for name in ("rank_min", "rank_mid", "rank_max", "triangle_rank")}
+    data = {
+        "r": _first_radius(family, r),
+        **extent.sides,
+        "xy": extent.places(points),
+        **{name: packed(values, "<i4") for name, values in whole.items()},
+        "spectrum": packed(family.spectrum, "<f8"),
+        "curves": {name: packed(curves[name], "<f8") for name in CURVES},
+    }
+    write_page(out, ALPHA_PAGE, data)
+
+
+def _first_radius(family: AlphaComplex, r: Radius | None) -> float:
+    """The radius, or one beyond all where it is infinite."""
+    finite = family.spectrum[np.isfinite(family.spectrum)]
+    largest = float(finite[-1]) if len(finite) else 1.0
+    if r is None:
+        return float(finite[len(finite) // 2]) if len(finite) else largest
+    chosen = nearest_double(r)
+    return chosen if isfinite(chosen) else min(2 * largest, float_info.max)
+
+
+MOST_CELLS, MOST_VERTICES = 100_000, 3_000_000
+"""Some 30 MB of data: browsers draw so many in about a second."""
+
+CELLS_PAGE = "cells_page.html"
+
+_FINE = 2.0**-12
+"""How far lines may be from curves: of the larger side of the frame."""
+
+
+class Shapes(NamedTuple):
+    """Outlines of cells or of labels."""
+
+    xy: NDArray[np.float64]  # (n, 2) float64 array: vertices
+    rings: NDArray[np.integer]  # (r + 1,) integer array: where each ring begins among them, and n
+    shapes: NDArray[np.integer]  # (k + 1,) integer array: where each shape begins among the rings, and r
+    ids: Sequence[str]
+    bounds: tuple[float, float, float, float]  # what the page shows
+    y_up: bool = False  # y goes upwards
+
+
+def shapes_of_cells(cells: CellSet) -> Shapes:
+    """Give the outlines of cells."""
+    rings, polygons, of_cells = cells.nesting
+    ids = [str(label) for label in cells.label_array.tolist()]
+    up = is_up(cells)
+    return Shapes(cells.coordinates, rings, np.asarray(polygons)[np.asarray(of_cells)], ids, cells.frame.sides, up)
+
+
+def shapes_of_map(cells: VoronoiMap) -> Shapes:
+    """Give the outlines of the cells of a Voronoi map, with lines instead of curves."""
+    x, y, w, h = cells.frame
+    xy, rings = cell_rings(cells, _FINE * max(w, h))
+    ids = [str(label) for label in (range(1, len(cells) + 1) if cells.ids is None else cells.ids)]
+    up = is_up(cells.polygons)
+    return Shapes(xy, rings, cells.polygon_starts[cells.cell_starts], ids, (x, y, x + w, y + h), up)
+
+
+def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False, sides: PixelSides = SQUARE) -> Shapes:
+    """Give the outlines of the labels of an image along the cracks between its pixels; 0 is none."""
+    found = list(crack_loops(labels))
+    loops = [loop for _, own in found for loop in own]
+    xy = np.array([place for loop in loops for place in loop], dtype=np.float64).reshape(-1, 2)
+    ids = [str(label) for label, _ in found]
+    rings = starts_of(np.array([len(loop) for loop in loops], dtype=np.int64))
+    shapes = starts_of(np.array([len(own) for _, own in found], dtype=np.int64))
+    down, across = map(float, sides.lengths)
+    height, width = labels.shape
+    return Shapes(xy * (across, down), rings, shapes, ids, (0.0, 0.0, width * across, height * down), y_up)
+
+
+def write_cells_html(out: BinaryIO, shapes: Shapes, classes: ArrayLike, columns: Mapping[str, Sequence[Any]]) -> None:
+    """Write a page on which the cell that is pointed at is named, with its values."""
+    check_cells_size(len(shapes.ids), len(shapes.xy))
+    classes, extent = np.asarray(classes), Extent(shapes.bounds[:2], shapes.bounds[2:], y_up=shapes.y_up)
+    data = {
+        **extent.sides,
+        "xy": extent.places(shapes.xy),
+        "rings": packed(shapes.rings, "<i4"),
+        "shapes": packed(shapes.shapes, "<i4"),
+        "classes": packed(classes, "<i4"),
+        **named_cells(shapes.ids, classes, columns),
+    }
+    write_page(out, CELLS_PAGE, data)
+
+
+def named_cells(ids: Sequence[str], classes: NDArray[Any], columns: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
+    """Give the colors of cells, their ids and their values."""
+    return {
+        "colors": [cell_color(number) for number in range(int(classes.max(initial=0)) + 1)],
+        "ids": list(ids),
+        "columns": [{"name": name, "values": [json_value(each) for each in own]} for name, own in columns.items()],
+    }
+
+
+def write_labels_html(
+    out: BinaryIO,
+    image: LabelImage,
+    colors: tuple[NDArray[Any], NDArray[Any]],
+    table: Table,
+    more: Mapping[str, Sequence[Any]] | None = None,
+    *,
+    y_up: bool,
+) -> None:
+    """Write a page that names the region that is pointed at, with its row of a table."""
+    shapes = shapes_of_labels(image.labels, y_up=y_up, sides=image.sides)
+    write_cells_html(out, shapes, colors[1], columns_of(table, colors[0]) | dict(more or {}))
+
+
+def columns_of(table: Table, labels: NDArray[Any]) -> dict[str, Sequence[Any]]:
+    """Give the rows of some labels."""
+    rows = {int(label): row for row, label in enumerate(table["label"])}
+    chosen = [rows[int(label)] for label in labels]
+    return {name: [table[name][row] for row in chosen] for name in table if name != "label"}
+
+
+def check_cells_size(cells: int, vertices: int = 0) -> None:
+    """Refuse a page that no browser would draw."""
+    for count, most, what in ((cells, MOST_CELLS, "cells"), (vertices, MOST_VERTICES, "vertices of cells")):
+        if count > most:
+            raise LimitError(f"{count} {what} are too many for a page, at most {most}: use {AS_SVG} or png")
+
+
+MOST_VOXELS = 1 << 26
+"""Voxels of a page: 512 x 512 x 256 of them."""
+
+MOST_RUNS = 3_000_000
+"""Runs of voxels of one label: some 30 MB of data."""
+
+VOLUME_PAGE = "volume_page.html"
+
+
+class Runs(NamedTuple):
+    """A volume of labels as runs along its rows."""
+
+    rows: NDArray[np.int64]  # (D * H + 1,) int64 array: where the runs of each row begin, and their number
+    ends: NDArray[np.int64]  # (r,) int64 array: the column behind each run
+    # (r,) int64 array: index of the label of each run among the known ones, from 1; 0 is none
+    regions: NDArray[np.int64]
+
+
+def runs_of(labels: NDArray[Any], known: NDArray[Any]) -> Runs:
+    """Give the runs of a volume."""
+    _, height, width = labels.shape
+    counts, ends, regions = [], [], []
+    for values in labels:
+        is_last = np.ones((height, width), bool)
+        is_last[:, :-1] = values[:, 1:] != values[:, :-1]
+        counts.append(is_last.sum(axis=1))
+        ends.append(np.nonzero(is_last)[1] + 1)
+        own = values[is_last]
+        regions.append(np.where(own == 0, 0, np.searchsorted(known, own) + 1))
+    return Runs(starts_of(np.concatenate(counts)), np.concatenate(ends), np.concatenate(regions))
+
+
+def check_volume_page(shape: tuple[int, ...], labels: int = 0, runs: int = 0) -> None:
+    """Refuse a page that no browser would show."""
+    depth, height, width = shape
+    instead = f"use {option('--what color -f png, or --what labels', 'labels in TIFF, NPY or Zarr')}"
+    if depth * height * width > MOST_VOXELS:
+        size = f"{width} x {height} x {depth}"
+        raise LimitError(f"{size} voxels are too many for a page, at most {MOST_VOXELS}: {instead}")
+    for count, most, what in ((labels, MOST_CELLS, "labels"), (runs, MOST_RUNS, "runs of voxels")):
+        if count > most:
+            raise LimitError(f"{count} {what} are too many for a page, at most {most}: {instead}")
+
+
+def write_volume_html(
+    out: BinaryIO,
+    labels: NDArray[Any],
+    colors: tuple[NDArray[Any], NDArray[Any]],
+    columns: Mapping[str, Sequence[Any]],
+    *,
+    first: int = 0,
+    units: ArrayLike = (1, 1, 1),
+) -> None:
+    """Write a page with a slider over the slices of a volume, on which the region that is pointed at is named."""
+    known, classes = np.asarray(colors[0]), np.asarray(colors[1])
+    check_volume_page(labels.shape, len(known))
+    runs = runs_of(labels, known)
+    check_volume_page(labels.shape, len(known), len(runs.ends))
+    depth, height, width = labels.shape
+    _, side_y, side_x = (float(unit) for unit in np.asarray(units))
+    data = {
+        "width": width,
+        "height": height,
+        "depth": depth,
+        "first": first,
+        "sides": [side_x, side_y],
+        "rows": packed(runs.rows, "<i4"),
+        "ends": packed(runs.ends, "<i4"),
+        "regions": packed(runs.regions, "<i4"),
+        "classes": packed(np.append(0, classes), "<i4"),
+        **named_cells([str(label) for label in known.tolist()], classes, columns),
+    }
+    write_page(out, VOLUME_PAGE, data)
+
+
+MOST_ARCS = 100_000
+"""Some 20 MB of data: browsers draw so many in about a second."""
+
+SKELETON_PAGE = "skeleton_page.html"
+
+
+def check_skeleton_size(skeleton: Skeleton) -> None:
+    """Refuse a page that no browser would draw."""
+    for count, what in ((len(skeleton), "arcs"), (len(skeleton.polygons.xy), "vertices of polygons")):
+        if count > MOST_ARCS:
+            raise LimitError(f"{count} {what} are too many for a page, at most {MOST_ARCS}: use {AS_PICTURE}")
+
+
+def write_skeleton_html(
+    out: BinaryIO,
+    skeleton: Skeleton,
+    values: Sequence[CriticalValues],
+    profiles: ArcProfiles,
+    *,
+    shown: tuple[str, float] | None = None,
+) -> None:
+    """Write a page with a slider over the threshold of each criterion."""
+    check_skeleton_size(skeleton)
+    data = _shapes(skeleton)
+    data["shown"] = list(shown or (values[0].criterion, 0.0))
+    data["profiles"] = {
+        "kind": packed(profiles.kind, "<i1"),
+        "ends": packed(profiles.ends, "<f8"),
+        "size": packed(profiles.size, "<f8"),
+    }
+    data["criteria"] = {
+        own.criterion: {
+            "ends": packed(own.ends, "<f8"),
+            "most": packed(own.most, "<f8"),
+            "keptArc": packed(own.kept_arc, "<i4"),
+            "keptPlace": packed(own.kept_place, "<f8"),
+        }
+        for own in values
+    }
+    write_page(out, SKELETON_PAGE, data)
+
+
+def _shapes(skeleton: Skeleton) -> dict[str, Any]:
+    """Arrays as the page decodes them."""
+    polygons = skeleton.polygons
+    shown = np.concatenate([polygons.xy, skeleton.vertices])
+    low, high = bounds(shown) if len(shown) else (np.zeros(2), np.ones(2))
+    extent = Extent(low, high, y_up=is_up(skeleton))
+    return {
+        **extent.sides,
+        "xy": extent.places(skeleton.vertices),
+        "radius": packed(skeleton.radius, "<f8"),
+        "arcs": packed(skeleton.arcs, "<i4"),
+        "control": extent.places(skeleton.control),
+        "length": packed(skeleton.length, "<f8"),
+        "rings": extent.places(polygons.xy),
+        "ringStart": packed(polygons.ring_starts, "<i4"),
+        "ringKind": packed(polygons.ring_kind, "<i1"),
+    }
