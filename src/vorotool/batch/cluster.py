@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from vorotool import __version__
 from vorotool.batch.tasks import Outcome, Process, Task, carry_out, keep_busy
 from vorotool.errors import OutputError, UsageError, VorotoolError
-from vorotool.formats.zarr.writer import open_array, write_rows, write_slices
+from vorotool.formats.zarr.writer import open_array, write_chunks
 
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.bands import Band
@@ -37,7 +37,6 @@ AHEAD = 2
 ONE_AT_A_TIME = threading.Lock()
 """Warnings belong to a whole process, and so does memory: a worker with several threads does one task at a time."""
 
-_PLANE = ("y", "x")
 
 T = TypeVar("T")
 
@@ -141,8 +140,7 @@ def _write_band(folder: str, first: int, band: Band) -> str:
     with ONE_AT_A_TIME:
         check()
         array = open_array(folder)
-        write = write_rows if array.ndim == len(_PLANE) else write_slices
-        write(array, first, band.rows(threads=threads, progress=check), threads=threads, check=check)
+        write_chunks(array, first, band.rows(threads=threads, progress=check), threads=threads, check=check)
     return __version__
 
 

@@ -103,7 +103,7 @@ class Streamed(Results):
         """Write an image or a volume to a Zarr store, if there is room for it: here, or on a cluster."""
         from vorotool.formats.io.descriptors import check_space
         from vorotool.formats.zarr.store import open_store
-        from vorotool.formats.zarr.writer import add_levels, create_array
+        from vorotool.formats.zarr.writer import add_levels, array_folder, create_array, write_chunks
 
         o, stream = self.options, self.stream(target.what)
         shape, dtype, chunks = stream.frame.shape, stream.dtype, check_chunks(o, stream)
@@ -112,7 +112,7 @@ class Streamed(Results):
 
         def size_of(part: NDArray[Any]) -> int:
             files: dict[str, Any] = {}
-            _write_chunks(create_array(files, part.shape, dtype=dtype, chunks=chunks), 0, part, threads=o.threads)
+            write_chunks(create_array(files, part.shape, dtype=dtype, chunks=chunks), 0, part, threads=o.threads)
             return sum(map(len, files.values()))
 
         most, expected = (
@@ -121,7 +121,8 @@ class Streamed(Results):
         )
         check_space(target.path, most, expected)
         with open_store(target.path, **rules) as store:
-            folder = _folder(store, target, stream)
+            grid, is_labels = stream.about.get("grid"), target.what == "labels"
+            folder = array_folder(store, target.path, len(shape), grid=grid, is_labels=is_labels)
             scale = stream.about.get("scale")
             about = None if scale is None else {"scale": scale}  # no name that readers would turn integers to floats by
             array = create_array(folder, shape, dtype=dtype, chunks=chunks, attributes=about)
@@ -130,7 +131,7 @@ class Streamed(Results):
                 _write_on_cluster(self.run, folder, stream.band, limits, address=o.cluster, jobs=o.jobs)
             else:
                 for (first, _), part in zip(limits, stream.parts(limits), strict=True):
-                    _write_chunks(array, first, part, threads=o.threads)
+                    write_chunks(array, first, part, threads=o.threads)
             add_levels(store, levels, threads=o.threads)
 
 
@@ -196,12 +197,11 @@ class Tessellated(Streamed):
 
 def check_chunks(o: Options, stream: Stream) -> tuple[int, ...]:
     """Choose rows and columns of the chunks of a store, or slices, rows and columns."""
-    from vorotool.formats.zarr.writer import chunks_of, volume_chunks, zarr_module
+    from vorotool.formats.zarr.writer import chunks_of, zarr_module
 
     zarr_module()
     is_image = isinstance(stream.frame, Frame)
-    choose: Any = chunks_of if is_image else volume_chunks
-    chunks: tuple[int, ...] = choose(stream.frame.shape, stream.dtype, None if o.chunk is None else o.chunk[::-1])
+    chunks = chunks_of(stream.frame.shape, stream.dtype, None if o.chunk is None else o.chunk[::-1])
     held = (*reversed(stream.frame.shape[1:]), chunks[0])
     if prod(held) > o.max_pixels:
         layer, pixels = ("a row of chunks", "pixels") if is_image else ("a layer of chunks", "voxels")
@@ -220,17 +220,7 @@ def _levels(o: Options, shape: tuple[int, ...]) -> int:
     from vorotool.formats.zarr.writer import usual_levels
 
     assert o.levels is None or len(shape) == 3  # the command refuses copies of images
-    return usual_levels(shape) if o.levels == AUTO_LEVELS else o.levels or 0  # type: ignore[arg-type]
-
-
-def _folder(store: Path, target: Target, stream: Stream) -> Path:
-    """Return where the array of a store is."""
-    from vorotool.formats.zarr.multiscales import array_folder
-    from vorotool.formats.zarr.writer import volume_folder
-
-    place: Any = array_folder if isinstance(stream.frame, Frame) else volume_folder
-    folder: Path = place(store, target.path, grid=stream.about.get("grid"), is_labels=target.what == "labels")
-    return folder
+    return usual_levels(shape) if o.levels == AUTO_LEVELS else o.levels or 0
 
 
 def _of_chunks(stream: Stream, count: int) -> Limits:
@@ -238,13 +228,6 @@ def _of_chunks(stream: Stream, count: int) -> Limits:
     each = count if isinstance(stream.frame, Frame) else max(1, stream.limits[0][1] // count) * count
     whole = stream.frame.shape[0]
     return [(first, min(each, whole - first)) for first in range(0, whole, each)]
-
-
-def _write_chunks(array: Any, first: int, part: NDArray[Any], *, threads: int) -> None:
-    """Write rows or slices of whole chunks."""
-    from vorotool.formats.zarr.writer import write_rows, write_slices
-
-    (write_rows if part.ndim == 2 else write_slices)(array, first, part, threads=threads)
 
 
 def _write_on_cluster(

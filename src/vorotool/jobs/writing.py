@@ -342,14 +342,11 @@ class _Value(Results):
 
     def write_store(self, target: Target, rules: Mapping[str, Any]) -> None:
         """Write an image or a volume to a Zarr store."""
-        from vorotool.formats.zarr.writer import write_zarr, write_zarr_volume
+        from vorotool.formats.zarr.writer import write_zarr
 
-        value, more = self._value, {"grid": self._value.grid, "threads": self.options.threads}
-        if is_of(value, "LabelImage"):
-            write_zarr(target.path, value.labels, **more)
-        else:
-            is_labels = is_of(value, "LabelVolume")
-            write_zarr_volume(target.path, value.labels if is_labels else value.values, is_labels=is_labels, **more)
+        value, is_labels = self._value, not is_of(self._value, "Volume")
+        values = value.labels if is_labels else value.values
+        write_zarr(target.path, values, grid=value.grid, is_labels=is_labels, threads=self.options.threads)
 
 
 def _write(results: _Value, path: str, fmt: str) -> None:

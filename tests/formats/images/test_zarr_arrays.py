@@ -10,7 +10,7 @@ import pytest
 
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import check_space
-from vorotool.formats.zarr.writer import chunks_of, create_array, open_array, write_rows, write_zarr, zarr_module
+from vorotool.formats.zarr.writer import chunks_of, create_array, open_array, write_chunks, write_zarr, zarr_module
 
 zarr = pytest.importorskip("zarr")
 IMAGE = np.random.default_rng(1).integers(0, 9, (70, 50)).cumsum(axis=1).astype(np.uint16)
@@ -19,7 +19,7 @@ IMAGE = np.random.default_rng(1).integers(0, 9, (70, 50)).cumsum(axis=1).astype(
 def written(folder, image, chunks, threads=1):
     array = create_array(folder, image.shape, dtype=image.dtype, chunks=chunks)
     for first in range(0, len(image), chunks[0]):
-        write_rows(array, first, image[first : first + chunks[0]], threads=threads)
+        write_chunks(array, first, image[first : first + chunks[0]], threads=threads)
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
@@ -46,11 +46,11 @@ def test_chunks_of_zeros_take_no_files(tmp_path):
 def test_rows_of_chunks_are_written_in_any_order(tmp_path):
     create_array(tmp_path / "a", IMAGE.shape, dtype=IMAGE.dtype, chunks=(32, 32))
     for first in (64, 0, 32, 64):
-        write_rows(open_array(tmp_path / "a"), first, IMAGE[first : first + 32], threads=2)
+        write_chunks(open_array(tmp_path / "a"), first, IMAGE[first : first + 32], threads=2)
     np.testing.assert_array_equal(zarr.open_array(tmp_path / "a", mode="r")[:], IMAGE)
     for first, rows in ((1, 32), (0, 31), (64, 32)):
         with pytest.raises(ValueError, match="are not those of chunks"):
-            write_rows(open_array(tmp_path / "a"), first, np.zeros((rows, 50), np.uint16))
+            write_chunks(open_array(tmp_path / "a"), first, np.zeros((rows, 50), np.uint16))
 
 
 def test_rows_of_chunks_stay_small():

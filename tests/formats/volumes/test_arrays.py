@@ -15,11 +15,11 @@ from vorotool.formats.volumes.opening import open_volume, read_volume
 from vorotool.formats.volumes.writer import write_volume
 from vorotool.formats.zarr.store import check_store
 from vorotool.formats.zarr.writer import (
-    create_volume,
+    chunks_of,
+    create_array,
     usual_levels,
-    volume_chunks,
-    write_slices,
-    write_zarr_volume,
+    write_chunks,
+    write_zarr,
 )
 from vorotool.types.volumes.voxel_frame import VoxelGrid
 
@@ -188,7 +188,7 @@ def test_stores_that_are_damaged(tmp_path):
 
 
 def test_huge_shapes_are_refused_before_memory(tmp_path):
-    create_volume(tmp_path / "a.zarr", (2**20,) * 3, dtype=np.uint8, chunks=(64, 256, 256))
+    create_array(tmp_path / "a.zarr", (2**20,) * 3, dtype=np.uint8, chunks=(64, 256, 256))
     with pytest.raises(LimitError, match=r"max_pixels="):
         vorotool.read(tmp_path / "a.zarr", geometry="volume")
     np.save(tmp_path / "a.npy", VALUES)
@@ -199,11 +199,11 @@ def test_huge_shapes_are_refused_before_memory(tmp_path):
 def test_chunks():
     for shape in ((512, 512, 512), (1024, 4096, 4096), (5, 30000, 40000), (100000, 3, 2), (1, 1, 1)):
         for dtype in (np.uint8, np.uint16, np.uint32, np.uint64):
-            chunks, size = volume_chunks(shape, dtype), np.dtype(dtype).itemsize
+            chunks, size = chunks_of(shape, dtype), np.dtype(dtype).itemsize
             assert np.prod(chunks) * size <= 2**22
             assert chunks[0] == 1 or chunks[0] * shape[1] * shape[2] * size <= 2**28
             assert all(1 <= chunk <= side for chunk, side in zip(chunks, shape, strict=True))
-    assert volume_chunks((9, 9, 9), np.uint8, (4, 5, 10)) == (4, 5, 9)
+    assert chunks_of((9, 9, 9), np.uint8, (4, 5, 10)) == (4, 5, 9)
 
 
 @pytest.mark.parametrize("threads", [1, 3])
@@ -211,22 +211,22 @@ def test_stores_do_not_depend_on_slabs(tmp_path, threads):
     values = VALUES.astype(np.uint32)
     written = []
     for name, step in (("a", 4), ("b", 8), ("c", 12)):
-        array = create_volume(tmp_path / name, values.shape, dtype=np.uint32, chunks=(4, 16, 16))
+        array = create_array(tmp_path / name, values.shape, dtype=np.uint32, chunks=(4, 16, 16))
         for first in range(0, 11, step):
-            write_slices(array, first, values[first : first + step], threads=threads)
+            write_chunks(array, first, values[first : first + step], threads=threads)
         files = sorted(path for path in (tmp_path / name).rglob("*") if path.is_file())
         written.append([(str(path.relative_to(tmp_path / name)), path.read_bytes()) for path in files])
         np.testing.assert_array_equal(zarr.open(tmp_path / name)[:], values)
     assert written[0] == written[1] == written[2]
-    with pytest.raises(ValueError, match="are not those of chunks of 4 slices"):
-        write_slices(array, 0, values[:3])
+    with pytest.raises(ValueError, match="are not those of chunks of 4"):
+        write_chunks(array, 0, values[:3])
 
 
 def test_coarser_copies(tmp_path):
     values = VALUES.astype(np.uint16)
     path = tmp_path / "a.ome.zarr"
     for _ in range(2):  # what is written here may be replaced
-        write_zarr_volume(path, values, grid=GRID, levels=4)
+        write_zarr(path, values, grid=GRID, levels=4)
     image = zarr.open_group(path).attrs["ome"]["multiscales"][0]
     for level, dataset in enumerate(image["datasets"]):
         step = 2**level
@@ -240,10 +240,10 @@ def test_coarser_copies(tmp_path):
     with pytest.raises(OutputError, match="is not replaced"):
         check_store(path)
     with pytest.raises(UsageError, match="coarser copies apply to OME-Zarr"):
-        write_zarr_volume(tmp_path / "b.zarr", values, levels=1)
+        write_zarr(tmp_path / "b.zarr", values, levels=1)
     assert usual_levels((11, 40, 33)) == 0
     flat = values[:1, :1]
-    write_zarr_volume(tmp_path / "flat.ome.zarr", flat, levels=2)
+    write_zarr(tmp_path / "flat.ome.zarr", flat, levels=2)
     last = zarr.open_group(tmp_path / "flat.ome.zarr").attrs["ome"]["multiscales"][0]["datasets"][2]
     assert last["coordinateTransformations"][0]["scale"] == [1.0, 1.0, 4.0]
     np.testing.assert_array_equal(zarr.open(tmp_path / "flat.ome.zarr/2")[:], flat[:, :, ::4])

@@ -50,44 +50,44 @@ def write_tiff(
         tags["extratags"] = [*tags.get("extratags", ()), scale_tag(scale)]
     if tiled:
         tags["tile"] = (TILE, TILE)
-    if out.seekable():
-        _write(out, bands, shape, np.dtype(dtype), palette, tags, threads)
-        return
-    with tempfile.TemporaryFile() as spool:
-        _write(spool, bands, shape, np.dtype(dtype), palette, tags, threads)
-        spool.seek(0)
-        shutil.copyfileobj(spool, out)
+    kind = np.dtype(dtype).newbyteorder("<")
+    large = shape[0] * shape[1] * kind.itemsize >= CLASSIC_LIMIT
+    write_pages(out, bands, shape, kind, tags, is_large=large, palette=palette, threads=threads)
 
 
-def _write(
+def write_pages(
     out: BinaryIO,
     bands: Iterable[NDArray[Any]],
-    shape: tuple[int, int],
-    dtype: np.dtype[Any],
-    palette: NDArray[np.uint8] | None,
+    shape: tuple[int, ...],
+    kind: np.dtype[Any],
     tags: Mapping[str, Any],
-    threads: int,
+    *,
+    is_large: bool,
+    palette: NDArray[np.uint8] | None = None,
+    threads: int = 0,
 ) -> None:
+    """Write an image from bands of rows, or a stack from slabs of slices; the bytes do not depend on these."""
+    if not out.seekable():
+        with tempfile.TemporaryFile() as spool:
+            write_pages(spool, bands, shape, kind, tags, is_large=is_large, palette=palette, threads=threads)
+            spool.seek(0)
+            shutil.copyfileobj(spool, out)
+        return
     import tifffile
 
-    height, width = shape
-    kind = dtype.newbyteorder("<")
-    compressed = is_compressed(kind)
-    rows = rows_of_strip(shape, kind)
+    compressed, is_tiled = is_compressed(kind), "tile" in tags
     # named here, since the name of a temporary file is a number, which tifffile does not expect
     handle = tifffile.FileHandle(out, name="image.tif", size=0)
-    large = width * height * kind.itemsize >= CLASSIC_LIMIT
-    with tifffile.TiffWriter(handle, bigtiff=large, byteorder="<") as writer:
-        is_tiled = "tile" in tags
+    with tifffile.TiffWriter(handle, bigtiff=is_large, byteorder="<") as writer:
         writer.write(
-            (_tiles if is_tiled else _strips)(bands, shape, kind, compressed, threads),
+            _encoded((_tiles if is_tiled else _strips)(bands, shape, kind), compressed, threads),
             shape=shape,
             dtype=kind,
             photometric="minisblack" if palette is None else "palette",
             colormap=None if palette is None else _colormap(palette),
             compression="zlib" if compressed else None,
             predictor=2 if compressed else None,
-            rowsperstrip=None if is_tiled else rows,
+            rowsperstrip=None if is_tiled else max(1, min(shape[-2], BLOCK_BYTES // (shape[-1] * kind.itemsize))),
             metadata=None,
             software=False,
             **tags,
@@ -99,51 +99,34 @@ def is_compressed(kind: np.dtype[Any]) -> bool:
     return kind.kind in "ui" and kind.itemsize <= 4
 
 
-def rows_of_strip(shape: tuple[int, int], kind: np.dtype[Any]) -> int:
-    """Give the rows of a strip, which depend on the shape alone."""
-    return max(1, min(shape[0], BLOCK_BYTES // (shape[1] * kind.itemsize)))
-
-
-def uncoded_strips(
-    bands: Iterable[NDArray[Any]], shape: tuple[int, int], kind: np.dtype[Any]
-) -> Iterator[NDArray[Any]]:
-    """Regroup bands into the rows of strips; each comes after the row before it."""
-
-    def encode(rows: NDArray[Any], out: NDArray[Any]) -> None:
-        out[...] = stored(rows, kind)
-
-    return blocks(bands, shape, columns=shape[1], dtype=kind, encode=encode)
-
-
-def encoded(strips: Iterable[NDArray[Any]], compressed: bool, threads: int) -> Iterator[bytes]:
+def _encoded(strips: Iterable[NDArray[Any]], compressed: bool, threads: int) -> Iterator[bytes]:
     """Give strips, or tiles, as the file has them."""
     return in_order(deflated, strips, threads) if compressed else (strip[1:].tobytes() for strip in strips)
 
 
-def _strips(
-    bands: Iterable[NDArray[Any]], shape: tuple[int, int], kind: np.dtype[Any], compressed: bool, threads: int
-) -> Iterator[bytes]:
-    return encoded(uncoded_strips(bands, shape, kind), compressed, threads)
+def _strips(bands: Iterable[NDArray[Any]], shape: tuple[int, ...], kind: np.dtype[Any]) -> Iterator[NDArray[Any]]:
+    """Regroup bands into the rows of strips; each comes after the row before it, and none has rows of two pages."""
+
+    def encode(rows: NDArray[Any], out: NDArray[Any]) -> None:
+        out[...] = stored(rows, kind)
+
+    pages = [bands] if len(shape) == 2 else ([image] for slab in checked(bands, shape) for image in slab)
+    for page in pages:
+        yield from blocks(page, shape[-2:], columns=shape[-1], dtype=kind, encode=encode)
 
 
-def _tiles(
-    bands: Iterable[NDArray[Any]], shape: tuple[int, int], kind: np.dtype[Any], compressed: bool, threads: int
-) -> Iterator[bytes]:
+def _tiles(bands: Iterable[NDArray[Any]], shape: tuple[int, ...], kind: np.dtype[Any]) -> Iterator[NDArray[Any]]:
     """Tiles row by row, from left to right; those at the right and lower sides are filled up with zeros."""
-
-    def each() -> Iterator[NDArray[Any]]:
-        for rows in _rows_of_tiles(bands, shape, kind):
-            for left in range(0, shape[1], TILE):
-                part = rows[:, left : left + TILE]
-                tile = np.zeros((1 + TILE, TILE), kind)  # as a strip has it, after the row before
-                tile[1 : 1 + len(part), : part.shape[1]] = part
-                yield tile
-
-    return encoded(each(), compressed, threads)
+    for rows in _rows_of_tiles(bands, shape, kind):
+        for left in range(0, shape[1], TILE):
+            part = rows[:, left : left + TILE]
+            tile = np.zeros((1 + TILE, TILE), kind)  # as a strip has it, after the row before
+            tile[1 : 1 + len(part), : part.shape[1]] = part
+            yield tile
 
 
 def _rows_of_tiles(
-    bands: Iterable[NDArray[Any]], shape: tuple[int, int], kind: np.dtype[Any]
+    bands: Iterable[NDArray[Any]], shape: tuple[int, ...], kind: np.dtype[Any]
 ) -> Iterator[NDArray[Any]]:
     """Regroup bands into rows of tiles."""
     held: list[NDArray[Any]] = []

@@ -44,7 +44,7 @@ def check_fits(band: NDArray[Any], largest: int, target: str) -> None:
 
 def blocks(
     bands: Iterable[NDArray[Any]],
-    shape: tuple[int, int],
+    shape: tuple[int, ...],
     *,
     columns: int,
     dtype: DTypeLike,

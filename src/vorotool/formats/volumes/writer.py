@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
-import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable
 from typing import Any, BinaryIO, Literal
 
 import numpy as np
@@ -14,8 +12,7 @@ from vorotool.errors import UsageError, option
 from vorotool.formats.images.npy import write_npy
 from vorotool.formats.images.ome_xml import ome_document, ome_type, shown_side
 from vorotool.formats.images.tiff_grid import NO_UNIT, NODATA, imagej_unit, ratio_of, resolution, resolution_tags
-from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, encoded, is_compressed, rows_of_strip, uncoded_strips
-from vorotool.formats.io.row_bands import checked
+from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, write_pages
 from vorotool.formats.volumes.ome_stack import PIXEL
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.volumes.label_volume import LabelVolume
@@ -49,13 +46,7 @@ def write_volume(
         raise UsageError(f"a volume cannot be written as {fmt!r}: use {one}")
     is_large = _most_bytes(shape, kind) >= CLASSIC_LIMIT
     tags = stack_tags(grid, shape, np.dtype(kind).newbyteorder("="), is_large=is_large, nodata=nodata)
-    if out.seekable():
-        _write_stack(out, slabs, shape, kind, tags, is_large, threads)
-        return
-    with tempfile.TemporaryFile() as spool:
-        _write_stack(spool, slabs, shape, kind, tags, is_large, threads)
-        spool.seek(0)
-        shutil.copyfileobj(spool, out)
+    write_pages(out, slabs, shape, kind, tags, is_large=is_large, threads=threads)
 
 
 def write_values(out: BinaryIO, value: LabelVolume | Volume, fmt: VolumeFormat, *, threads: int = 0) -> None:
@@ -67,42 +58,6 @@ def write_values(out: BinaryIO, value: LabelVolume | Volume, fmt: VolumeFormat, 
 def _most_bytes(shape: tuple[int, int, int], kind: np.dtype[Any]) -> int:
     depth, height, width = shape
     return depth * (height * width * kind.itemsize + _PAGE_BYTES)
-
-
-def _write_stack(
-    out: BinaryIO,
-    slabs: Iterable[NDArray[Any]],
-    shape: tuple[int, int, int],
-    kind: np.dtype[Any],
-    tags: Mapping[str, Any],
-    is_large: bool,
-    threads: int,
-) -> None:
-    import tifffile
-
-    # named here, since the name of a temporary file is a number, which tifffile does not expect
-    handle = tifffile.FileHandle(out, name="volume.tif", size=0)
-    compressed = is_compressed(kind)
-    with tifffile.TiffWriter(handle, bigtiff=is_large, byteorder="<") as writer:
-        writer.write(
-            encoded(_strips(slabs, shape, kind), compressed, threads),
-            shape=shape,
-            dtype=kind,
-            photometric="minisblack",
-            compression="zlib" if compressed else None,
-            predictor=2 if compressed else None,
-            rowsperstrip=rows_of_strip(shape[1:], kind),
-            metadata=None,
-            software=False,
-            **tags,
-        )
-
-
-def _strips(slabs: Iterable[NDArray[Any]], shape: tuple[int, int, int], kind: np.dtype[Any]) -> Iterator[NDArray[Any]]:
-    """Strips of all slices; none goes over from one to the next."""
-    for slab in checked(slabs, shape):
-        for image in slab:
-            yield from uncoded_strips([image], shape[1:], kind)
 
 
 _IMAGEJ_TYPES = (np.uint8, np.uint16, np.float32)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path, PurePosixPath
@@ -12,7 +11,6 @@ from typing import Any
 from vorotool.errors import InputError
 from vorotool.formats.zarr.metadata import read_json, read_metadata
 from vorotool.plain import plain
-from vorotool.types.pixel_grid import PixelGrid
 
 VERSION = "0.5"
 """Of the metadata that are written."""
@@ -108,12 +106,9 @@ def _scale(axes: int, changes: list[dict[str, Any]]) -> tuple[Fraction, ...]:
     return tuple(sides)
 
 
-def write_group(folder: Path, *, grid: PixelGrid | None, name: str, is_labels: bool) -> None:
-    """Write the metadata of a group whose array ``0`` is an image of two axes."""
-    unit, scale = None, [1.0, 1.0]
-    if grid is not None and grid.unit in _LONG_UNITS and grid.is_size:
-        unit, scale = grid.unit, [float(grid.height), float(grid.width)]
-    write_image(folder, name, dict(zip(_PLANE, scale, strict=True)), unit, is_labels=is_labels)
+def has_long_name(unit: str | None) -> bool:
+    """Return whether OME-Zarr knows a unit."""
+    return unit in _LONG_UNITS
 
 
 def write_image(folder: Path, name: str, scale: Mapping[str, float], unit: str | None, *, is_labels: bool) -> None:
@@ -145,15 +140,6 @@ def _dataset(level: int, scale: list[float]) -> dict[str, Any]:
 
 def _write_metadata(folder: Path, made: dict[str, Any]) -> None:
     (folder / "zarr.json").write_text(json.dumps(made, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
-
-
-def array_folder(store: Path, path: str | os.PathLike[str], *, grid: PixelGrid | None, is_labels: bool) -> Path:
-    """Where the array of an image goes: in the store itself, or in the group of what is to be called as OME-Zarr."""
-    name = Path(path).name
-    if not name.lower().endswith(OME_ENDING):
-        return store
-    write_group(store, grid=grid, name=name[: -len(OME_ENDING)], is_labels=is_labels)
-    return store / "0"
 
 
 def is_single_image(folder: Path) -> bool:
