@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import geopandas
-import networkx
 import numpy as np
 import pandas
 import pytest
@@ -136,24 +135,6 @@ def test_cells_of_a_data_frame_are_those_of_geopandas(seed):
     assert_index_equal(cells.to_pandas().index, frame.index)
 
 
-def test_skeletons_of_a_data_frame_have_its_rows():
-    shapes = [
-        shapely.box(0, 0, 9, 4),
-        None,
-        shapely.MultiPolygon([shapely.box(20, 0, 24, 4), shapely.box(30, 0, 33, 9)]),
-    ]
-    frame = geopandas.GeoDataFrame({"use": ["a", "b", "c"]}, geometry=shapes, crs=2056, index=["p", "q", "r"])
-    arcs = vorotool.skeleton_exact(frame).to_geopandas()
-    assert sorted(set(arcs.index)) == ["p", "r"]
-    assert arcs.crs == frame.crs
-    for row, line in arcs.iterrows():
-        assert line["use"] == frame.loc[row, "use"]
-        assert line.geometry.within(frame.geometry[row].buffer(1e-9))
-    joined = vorotool.offset(frame, [-1]).to_geopandas()
-    assert joined.index.tolist() == ["p", "r", "r"]
-    np.testing.assert_allclose(joined.area, [14, 4, 7])
-
-
 def test_several_indices_and_names_come_back():
     points = point_set(4)
     levels = pandas.MultiIndex.from_tuples([("a", 1), ("a", 2), ("b", 1), ("b", 2)], names=["street", "number"])
@@ -202,36 +183,6 @@ def test_parts(name, parts):
         value.to_shapely(what="cells")
 
 
-def test_a_mesh_has_the_index_at_its_points_alone():
-    mesh, points = VALUES["Triangulation"], VALUES["PointSet"]
-    frame = mesh.to_geopandas(what="points")
-    assert_index_equal(frame.index, points.index)
-    assert frame["name"].tolist() == points.properties["name"]
-    assert frame["duplicate_of_label"].dtype == "Int64"
-    for part in ("triangles", "edges"):
-        assert isinstance(mesh.to_geopandas(what=part).index, pandas.RangeIndex)
-    triangles = mesh.to_geopandas()
-    np.testing.assert_allclose(triangles.area, mesh.areas, rtol=1e-9)
-    np.testing.assert_allclose(mesh.to_geopandas(what="edges").length, mesh.edge_lengths(), rtol=1e-12)
-
-
-def test_shapes_have_the_measures_of_their_tables():
-    shape, hull = VALUES["AlphaShape"], VALUES["AlphaHull"]
-    regions = shape.to_geopandas()
-    np.testing.assert_allclose(regions.area, regions["area"], rtol=1e-9)
-    assert len(shape.to_shapely(what="edges")) == len(shape.edges)
-    polygons = hull.to_geopandas()
-    assert polygons.is_valid.all()
-    assert sorted(set(polygons["class"])) == ["hull", "point"]
-    np.testing.assert_allclose(polygons.geometry[polygons["class"] == "hull"].length.sum(), hull.perimeter, rtol=1e-3)
-    offsets = VALUES["Offsets"].to_geopandas()
-    np.testing.assert_allclose(offsets.area, offsets["area"], rtol=2e-3)
-    lines = VALUES["Centerlines"].to_geopandas()
-    np.testing.assert_allclose(lines.length, lines["length"], rtol=1e-3)
-    graph = VALUES["PlanarGraph"]
-    assert len(shapely.get_parts(shapely.polygonize(graph.to_shapely()))) == graph.faces - 1
-
-
 def test_regions_cover_the_pixels_of_their_labels():
     image = label_image()
     regions = image.to_geopandas()
@@ -244,14 +195,6 @@ def test_regions_cover_the_pixels_of_their_labels():
     assert frame.geometry.geom_type.tolist() == ["Polygon", "MultiPolygon"]
     assert frame.area.tolist() == frame["area"].tolist() == [2, 3]
     assert frame.is_valid.all()
-
-
-def test_index_of_the_seeds_is_that_of_the_regions():
-    points = replace(point_set(9, 5), xy=np.stack([np.arange(9) * 4, np.arange(9) * 7 % 30], axis=1).astype(float))
-    image = vorotool.tessellate(vorotool.seeds_from_points(points), shape=(30, 40))
-    for frame in (image.to_geopandas(), image.to_pandas()):
-        assert_index_equal(frame.index, points.index)
-        assert frame["name"].tolist() == points.properties["name"]
 
 
 @pytest.mark.parametrize("transform", [(2.0, 0.0, 2600000.0, 0.0, -2.0, 1200000.0), (2.0, 0.5, 10.0, 0.5, -2.0, 20.0)])
@@ -275,49 +218,6 @@ def test_regions_lie_on_the_map(transform):
         assert not {"bbox_x", "bbox_y"} & set(frame.columns)
 
 
-def test_columns_of_other_names_stay():
-    points = vorotool.PointSet([[0, 0], [4, 0], [0, 3]], properties={"label": ["a", "b", "c"], "geometry": [1, 2, 3]})
-    frame = points.to_geopandas()
-    assert frame["label"].tolist() == ["a", "b", "c"]
-    assert frame["voro_label"].tolist() == [1, 2, 3]
-    assert (frame["geometry"].tolist(), frame.geometry.name) == ([1, 2, 3], "voro_geometry")
-    assert vorotool.delaunay(points).to_networkx().nodes[1]["label"] == "b"
-
-
 def test_big_endian_columns_are_taken():
     table = vorotool.Table({"a": np.array([1, 2], ">i4"), "b": np.arange(4.0)[::2]})
     assert table.to_pandas()["a"].tolist() == [1, 2]
-
-
-# ---- graphs --------------------------------------------------------------------------------------
-def test_degrees_are_those_of_tables():
-    mesh = VALUES["Triangulation"]
-    graph = mesh.to_networkx()
-    degrees = vorotool.point_table(mesh)["neighbors"]
-    assert [graph.degree[k] for k in range(len(mesh.points))] == degrees.filled(0).tolist()
-    assert graph.graph["crs"] == mesh.crs
-    assert graph.nodes[2]["name"] == "c"
-    np.testing.assert_allclose(
-        sorted(d for *_, d in graph.edges(data="length")), np.sort(mesh.edge_lengths()), rtol=1e-12
-    )
-    image = label_image()
-    regions = image.to_networkx()
-    table = vorotool.region_table(image)
-    assert dict(regions.degree) == dict(zip(table["label"].tolist(), table["neighbors"].tolist(), strict=True))
-    neighbors = vorotool.neighbor_table(image)
-    for a, b, border in zip(
-        *(neighbors[name].tolist() for name in ("label_a", "label_b", "border_length")), strict=True
-    ):
-        assert regions.edges[a, b]["border_length"] == border
-    skeleton = VALUES["Skeleton"]
-    assert networkx.utils.graphs_equal(skeleton.to_networkx(by="arc"), skeleton.to_networkx(by="arc"))
-    arcs = skeleton.to_networkx(by="arc")
-    assert [arcs.degree[node] for node in arcs] == skeleton.degree[list(arcs)].tolist()
-    planar = VALUES["PlanarGraph"].to_networkx()
-    assert networkx.number_connected_components(planar) == 5
-    assert len(networkx.cycle_basis(planar)) == VALUES["PlanarGraph"].faces - 1
-
-
-def test_edges_are_arcs_or_branches():
-    with pytest.raises(vorotool.UsageError, match="by is 'node'"):
-        VALUES["Skeleton"].to_networkx(by="node")

@@ -11,7 +11,7 @@ import zarr
 from PIL import Image
 
 import vorotool
-from vorotool import Box, InputError, LabelImage, LimitError, Raster, UsageError
+from vorotool import InputError, LabelImage, LimitError, Raster, UsageError
 from vorotool.convert.images import as_label_image, as_raster, is_image
 from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.types.box import as_box, as_extent
@@ -60,14 +60,6 @@ def test_all_forms_have_the_same_values(dtype, form):
     assert made.values.dtype.kind == values.dtype.kind
 
 
-def test_pictures_and_read_only_arrays():
-    fixed = LABELS.copy()
-    fixed.flags.writeable = False
-    assert as_raster(fixed, "image").values is fixed
-    assert as_raster(Image.fromarray(LABELS.astype(np.uint8)), "image").values.tolist() == LABELS.tolist()
-    assert as_raster(LabelImage(LABELS), "image").values is LABELS
-
-
 def test_masked_pixels_are_background():
     hidden = np.ma.array(LABELS, mask=LABELS == 5)
     assert as_raster(hidden, "image").mask.tolist() == (LABELS == 5).tolist()
@@ -75,13 +67,6 @@ def test_masked_pixels_are_background():
         as_label_image(hidden, "image", numbered_components).labels.tolist()
         == np.where(LABELS == 5, 0, LABELS).tolist()
     )
-
-
-def test_components_of_a_mask_are_labels():
-    made = as_label_image(MASK, "image", numbered_components)
-    assert made.labels.tolist() == [[0, 1, 1, 0, 2], [0, 0, 1, 0, 2], [3, 0, 0, 0, 2], [3, 3, 0, 0, 0]]
-    assert as_label_image(LABELS, "image", numbered_components).labels is LABELS
-    assert as_label_image(made, "image", numbered_components) is made
 
 
 @pytest.mark.parametrize(
@@ -217,15 +202,6 @@ def test_grids_of_other_directions_and_units():
 def test_axes_that_are_no_grid(image, message):
     with pytest.raises(InputError, match=f"^invalid image: {message}"):
         as_raster(image, "image")
-
-
-# ---- rectangles --------------------------------------------------------------------------------------
-def test_boxes():
-    box = Box(0.1, 0.2, 0.7, 0.9)
-    assert as_box(box, "frame") is box
-    assert as_box(np.array([1, 2, 3, 4]), "frame") == as_box(iter([1, 2, 3, 4]), "frame") == Box(1, 2, 4, 6)
-    assert as_extent((0.1, 0.2, 0.3, 0.4), "frame") == (0.1, 0.2, 0.3, 0.4)
-    assert as_extent(box, "frame") == box.extent
 
 
 @pytest.mark.parametrize("frame", [1, "abcd", (1, 2, 3), (1, 2, 3, "a"), (1, 2, 3, np.inf), [[1, 2, 3, 4]], None])

@@ -143,16 +143,6 @@ def test_what_geopandas_knows_is_kept():
     assert as_points(POINTS).y_axis == "up"
 
 
-def test_rows_with_several_points_or_none():
-    several = geopandas.GeoSeries(
-        [POINTS[0], None, shapely.MultiPoint(POINTS[1:]), shapely.Point()], index=[9, 8, 7, 6]
-    )
-    made = as_points(several)
-    assert made.xy.tolist() == XY
-    assert (made.index.tolist(), made.properties) == ([9, 7, 7], {"part": [1, 1, 2]})
-    assert len(as_points(several.iloc[:0])) == len(as_points(several.iloc[[1]])) == 0
-
-
 def test_features_have_ids():
     document = {
         "type": "FeatureCollection",
@@ -242,20 +232,6 @@ def test_places_are_kept_to_the_bit(pairs):
     series = geopandas.GeoSeries.from_xy(expected[:, 0], expected[:, 1])
     for source in (expected, frame, frame[["x", "y"]].to_numpy(), series, geopandas.GeoDataFrame(geometry=series)):
         assert as_points(source).xy.tobytes() == expected.tobytes()
-
-
-@given(st.lists(st.one_of(st.none(), st.integers(0, 3)), max_size=8))
-def test_rows_stay_in_step(counts):
-    """Rows of no geometry, of an empty one, of one point and of several: index and columns by brute force."""
-    geometry = [None if n is None else shapely.MultiPoint([(i, k) for k in range(n)]) for i, n in enumerate(counts)]
-    names = [f"row {i}" for i in range(len(counts))]
-    frame = geopandas.GeoDataFrame({"n": range(len(counts))}, geometry=geopandas.GeoSeries(geometry), index=None)
-    frame.index = names
-    made = as_points(frame)
-    expected = [(i, k) for i, n in enumerate(counts) for k in range(n or 0)]
-    assert made.xy.tolist() == [[i, k] for i, k in expected]
-    assert list(made.index) == [names[i] for i, _ in expected]
-    assert made.properties["n"] == [i for i, _ in expected]
 
 
 def test_features_without_geometry_are_left_out_with_a_warning():

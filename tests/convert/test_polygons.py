@@ -4,13 +4,12 @@ from pathlib import Path
 
 import geopandas
 import numpy as np
-import orjson
 import pandas as pd
 import pytest
 import shapely
 
 import vorotool
-from vorotool import InputError, PointSet, PolygonSet
+from vorotool import InputError, PointSet
 from vorotool.convert.polygons import as_geometry, as_polygons
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL
@@ -47,12 +46,6 @@ def test_lists_of_anything():
     assert len(as_polygons([])) == len(as_polygons(shapely.Polygon())) == 0
     assert as_polygons({"shell": TRIANGLE}).ring_starts.tolist() == [0, 3]
     assert as_polygons(shapely.LinearRing(TRIANGLE)).ring_kind.tolist() == [SHELL]
-
-
-def test_rings_too_small_for_shapely():
-    shapes = as_polygons([{"shell": [[1, 2]]}, {"shell": [[1, 2], [3, 4]]}, {"line": [[5, 6]]}])
-    assert [each.area for each in to_shapely(shapes)] == [0, 0, 0]
-    assert len(to_shapely(PolygonSet([], [0], [], []))) == 0
 
 
 @pytest.mark.parametrize(
@@ -115,19 +108,6 @@ def test_all_forms_are_those_of_shapely(source):
     assert rings(as_polygons(source)) == rings(as_polygons(SHAPES))
 
 
-def test_what_geopandas_knows_is_kept():
-    made = as_polygons(FRAME)
-    assert made.index.tolist() == ["p", "q", "q", "r"]
-    assert isinstance(made.index, pd.Index)
-    assert made.properties == {"name": ["a", None, None, "c"], "count": [1, 2, 2, 3]}
-    assert made.crs["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
-    assert made.y_axis == "up"
-    assert as_polygons(FRAME.geometry).index.tolist() == ["p", "q", "q", "r"]
-    values = as_polygons(FRAME.geometry.values)
-    assert (values.index, values.crs, values.y_axis) == (None, made.crs, "up")
-    assert as_polygons(SHAPES).y_axis == "up"
-
-
 @pytest.mark.filterwarnings("ignore:.*treated as planar")
 def test_a_system_without_a_code_is_spelled_out():
     own = FRAME.set_crs("+proj=laea +lat_0=47 +lon_0=8", allow_override=True)
@@ -159,21 +139,6 @@ def test_features_of_geojson_have_ids_and_properties():
     assert (made.ids, made.properties) == ([7, None, None], {"a": [1, None, None], "b": [None, 2, 2]})
     assert (made.crs, made.feature.tolist()) == (crs, [0, 2, 2])
     assert as_polygons(features[0]).properties == {"a": [1]}
-
-
-def test_geojson_is_as_files_are(tmp_path):
-    """Rings of one and two points, heights, rings that are not closed, collections in collections."""
-    line = {"type": "LineString", "coordinates": [[0, 0, 5], [1, 1, 5]]}
-    flat = {"type": "Polygon", "coordinates": [[[5, 5]], []]}
-    both = {"type": "GeometryCollection", "geometries": [{"type": "GeometryCollection", "geometries": [flat]}, line]}
-    open_ring = {"type": "Polygon", "coordinates": [[[0, 0, 1], [4, 0, 1], [0, 3, 1]]]}
-    document = {
-        "type": "FeatureCollection",
-        "features": [{"type": "Feature", "properties": {}, "geometry": each} for each in (line, flat, both, open_ring)],
-    }
-    path = tmp_path / "a.geojson"
-    path.write_bytes(orjson.dumps(document))
-    assert rings(as_polygons(document)) == rings(vorotool.read(path))
 
 
 def test_extended_text_names_its_system():

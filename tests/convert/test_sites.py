@@ -6,9 +6,9 @@ import pandas
 import pytest
 import shapely
 
-from vorotool import LabelImage, PointSet, PolygonSet, Raster
+from vorotool import LabelImage, PointSet, Raster
 from vorotool.convert.sites import as_sites
-from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.errors import InputError, UsageError
 from vorotool.numeric.crs import crs_name, member_of_text
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.pixel_grid import map_grid
@@ -75,16 +75,6 @@ def test_points(source):
     assert (sites.site.tolist(), sites.count) == ([0, 1], 2)
 
 
-def test_polygon_sets_and_mappings():
-    mixed = as_sites([{"line": [[0, 0], [1, 1]]}, {"shell": [[0, 0], [9, 0], [0, 9]]}])
-    assert mixed.count == 2
-    parts = PolygonSet(
-        [[0, 0], [1, 1], [5, 5]], [0, 1, 2, 3], [2, 2, 2], [0, 1, 2], feature=[0, 0, 2], ids=["a", "b", "c"]
-    )
-    sites = as_sites(parts)
-    assert (sites.count, sites.ids) == (3, ["a", None, "c"])
-
-
 @pytest.mark.parametrize("source", [None, 7, "POINT 1", "sites.geojson", {"a": 1}, [["a", "b"]], np.zeros((3, 3))])
 def test_what_is_no_site(source):
     with pytest.raises(InputError, match=r"^invalid sites: (?!invalid)"):
@@ -113,12 +103,6 @@ def test_labels_are_sites_with_all_their_parts(image):
     assert (sites.count, sites.ids) == (3, [3, 7, 9])
     areas = np.bincount(sites.site, shapely.area(to_shapely(sites.polygons)))
     assert areas.tolist() == [10, 7, 6]
-
-
-def test_objects_of_masks_are_sites():
-    assert as_sites(LABELS > 0).ids == [1, 2, 3]  # 7 and 9 touch
-    with pytest.warns(VorotoolWarning, match="no foreground"):
-        assert as_sites(np.zeros((4, 5), dtype=bool)).count == 0
 
 
 def test_images_on_maps_give_sites_on_the_map():

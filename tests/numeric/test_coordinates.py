@@ -79,35 +79,6 @@ def test_an_integer_beyond_doubles_is_named():
     assert PointSet(np.array([[2**53, -(2**53)]])).xy.tolist() == [[2.0**53, -(2.0**53)]]
 
 
-def test_points_are_copied():
-    given = np.array(PAIRS, dtype=float)
-    points, mesh = PointSet(given), vorotool.delaunay(given)
-    shapes = vorotool.PolygonSet(given, np.array([0, 4]), np.array([0], np.int8), np.array([0], np.int32))
-    given[:] = 7
-    assert points.xy.tolist() == mesh.points.tolist() == shapes.xy.tolist() == PAIRS
-
-
-def test_the_command_line_and_the_library_refuse_the_same_integers(tmp_path):
-    values = np.array([[1, 2], [2**53 + 1, 7]])
-    np.save(tmp_path / "a.npy", values)
-    with pytest.raises(InputError, match=r"a\.npy, row 2"):
-        vorotool.read(tmp_path / "a.npy", geometry="points", columns=None)
-
-
-def test_the_command_line_and_the_library_refuse_the_same_polygons():
-    for points, words in (([[0, 0], [1e300, 0], [0, 1]], "too large"), ([[0, 0], [1e-80, 0], [0, 1e-90]], "too small")):
-        for make in (
-            vorotool.skeleton_exact,
-            lambda p: vorotool.skeleton_exact(p, side="both"),
-            lambda p: vorotool.skeleton_exact(p, features="together"),
-            lambda p: vorotool.skeleton_approx(p, step=1),
-            lambda p: vorotool.offset(p, 1),
-            lambda p: vorotool.offset(p, -1),
-        ):
-            with pytest.raises(InputError, match=f"{words}"):
-                make(points)
-
-
 class TestMaskedImages:
     image = np.ma.array([[5, 5, 0], [0, 0, 7]], mask=[[1, 0, 0], [0, 0, 0]])
 

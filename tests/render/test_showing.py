@@ -89,12 +89,6 @@ def test_rasters_are_grey(values, expected):
     np.testing.assert_array_equal(picture_of(html), np.repeat(np.array(expected)[..., None], 3, axis=2))
 
 
-def test_colors_stay():
-    values = np.random.default_rng(0).integers(0, 255, (4, 5, 4), dtype=np.uint8)
-    np.testing.assert_array_equal(picture_of(vorotool.Raster(values)._repr_html_()), values[..., :3])
-    assert axes_of(vorotool.Raster(values)).images[0].get_array().shape == (4, 5, 3)
-
-
 class Cells(HTMLParser):
     """The texts of a table."""
 
@@ -181,27 +175,6 @@ def test_holes_are_holes():
         assert (pixels[pixels.shape[0] - 1 - row, column] < 50) == is_ink, place
 
 
-def test_style_layers_and_parts_are_chosen():
-    mesh = VALUES["Triangulation"]
-    ax = axes_of(mesh, what="triangles", layers=["edges"], linewidth=3, color="#ff0000")
-    assert [each.get_label() for each in ax.collections] == ["edges"]
-    assert ax.collections[0].get_linewidth()[0] == 3
-    assert ax.collections[0].get_color()[0].tolist() == [1, 0, 0, 1]
-    with pytest.raises(vorotool.UsageError, match="one layer"):
-        axes_of(VALUES["PointSet"], layers=["points"])
-    with pytest.raises(vorotool.UsageError, match="cells"):
-        axes_of(mesh, what="cells")
-
-
-def test_several_plots_share_axes():
-    ax = axes_of(VALUES["CellSet"])
-    VALUES["Triangulation"].plot(ax)
-    assert ax.get_ylim()[0] < ax.get_ylim()[1]
-    down = axes_of(label_image())
-    label_image().seeds.plot(down)
-    assert down.get_ylim() == (29.5, -0.5)
-
-
 def test_images_lie_in_their_frame_and_on_their_map():
     image = vorotool.tessellate([[12, 21], [15, 23]], window=(10, 20, 8, 6))
     shown = axes_of(image).images[0]
@@ -230,13 +203,6 @@ def test_degrees_are_as_long_as_they_are_in_the_middle():
 def test_what_is_empty_is_drawn(name):
     ax = axes_of(empty_values()[name])
     ax.figure.savefig(io.BytesIO(), format="png", dpi=30)
-
-
-def test_axes_are_made(monkeypatch):
-    import matplotlib.pyplot
-
-    monkeypatch.setattr(matplotlib.pyplot, "subplots", lambda: (None, Figure().add_subplot()))
-    assert VALUES["PointSet"].plot().collections
 
 
 def test_features_of_what_is_in_no_file_have_the_reference_system():

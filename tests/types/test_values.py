@@ -18,7 +18,6 @@ from support.families.values import (
     example_values,
     label_image,
     point_set,
-    polygon_set,
     volume_values,
 )
 from support.processes.ended import ended_python
@@ -162,18 +161,6 @@ def test_texts_are_short_and_values_are_no_keys():
             hash(value)
 
 
-def test_texts_count():
-    mesh = VALUES["Triangulation"]
-    assert (
-        repr(mesh) == f"Triangulation: 12 points, {len(mesh.triangles)} triangles, {len(mesh.edges)} edges, EPSG:2056"
-    )
-    unit = replace(polygon_set(), unit="mm", crs=None)
-    assert repr(unit).endswith(", mm")
-    sparse = vorotool.LabelImage(np.array([[5, 2**31 - 1]], np.int32))
-    assert repr(sparse) == "LabelImage: 2 x 1, labels up to 2147483647, int32"
-    assert repr(vorotool.LabelImage(np.array([[-1, 5, 5]], np.int32))) == "LabelImage: 3 x 1, 1 label, int32"
-
-
 @pytest.mark.parametrize("name", empty_values())
 def test_what_is_empty_has_all_methods(name):
     value = empty_values()[name]
@@ -209,12 +196,6 @@ def test_scikit_image_takes_a_label_image():
     np.testing.assert_array_equal(found["area"], table["area"])
     assert len(regionprops(np.asarray(image))) == len(table["area"])
     np.testing.assert_array_equal(find_boundaries(image), find_boundaries(image.labels))
-
-
-def test_points_are_an_array():
-    points = point_set()
-    np.testing.assert_array_equal(np.asarray(points), points.xy)
-    assert np.asarray(points, dtype=np.float32).dtype == np.float32
 
 
 def test_nothing_more_is_imported_than_before():

@@ -97,22 +97,6 @@ def test_a_dropped_or_repeated_row_is_found(array):
         fault(replace(mesh, **{array: rows[:0]}))
 
 
-def test_a_missing_vertex_is_found():
-    mesh = delaunay(SQUARE)
-    points = np.concatenate([mesh.points, [[0.5, 0.25]]])
-    first = np.arange(5)
-    assert fault(replace(mesh, points=points, first=first)) == "no triangle has point 4"
-    twice = replace(mesh, points=[*SQUARE, [1, 1]], first=first)
-    assert fault(twice) == "first does not tell that point 4 lies on point 2"
-    verify_triangulation(replace(twice, first=[0, 1, 2, 3, 2]))
-
-
-def test_the_other_diagonal_of_a_square_is_found():
-    assert fault(from_triangles(np.array(SQUARE, float), [[0, 1, 3], [1, 2, 3]])) == (
-        "edge 1-3 divides a cocircular polygon, but not from its smallest vertex 0"
-    )
-
-
 def test_no_triangles_where_there_should_be_some():
     empty = np.zeros((0, 3), np.int32)
     mesh = replace(delaunay(SQUARE), triangles=empty, neighbors=empty)

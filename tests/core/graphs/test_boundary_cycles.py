@@ -33,11 +33,6 @@ def test_random_permutations(seed):
         assert heads == passed[1:] + passed[:1]
 
 
-def test_two_squares_that_share_a_vertex():
-    # around the outside of both: the walk passes vertex 0 twice
-    assert cycles([1, 2, 3, 4, 5, 0], [0, 1, 2, 0, 3, 4], 5) == [[0, 1, 2], [3, 4, 5]]
-
-
 def test_what_is_no_permutation():
     with pytest.raises(ValueError, match="permutation"):
         cycles([1, 1], [0, 1], 2)

@@ -30,14 +30,6 @@ def test_next_half_edges(seed):
         assert after == max(below or around, key=lambda k: rank[k])
 
 
-def test_a_square_has_two_faces():
-    arcs = np.array([[0, 1], [1, 2], [2, 3], [0, 3]], dtype=np.int32)
-    order = np.array([[0, 1], [0, 1], [0, 1], [1, 0]], dtype=np.int64)
-    following = _core.graphs.next_half_edges(arcs, order, 4)
-    start, half_edge = _core.graphs.boundary_cycles(following, arcs.ravel(), 4)
-    assert (start.tolist(), half_edge.tolist()) == ([0, 4, 8], [0, 2, 4, 7, 1, 6, 5, 3])
-
-
 def test_what_is_no_map():
     arcs, order = np.array([[0, 1]], dtype=np.int32), np.zeros((1, 2), dtype=np.int64)
     with pytest.raises(ValueError, match="range"):

@@ -73,35 +73,6 @@ def test_powers_of_two(n, name):
         np.testing.assert_array_equal(PREDICATES[n](np.ldexp(points, exponent)), right)
 
 
-def test_the_grid_of_kettner():
-    """All 256 × 256 points of the classic picture, against the exact sign of y - x."""
-    steps = np.arange(256)
-    x, y = np.meshgrid(steps, steps)
-    grid = 0.5 + np.stack([x.ravel(), y.ravel()], axis=-1) * 2.0**-53
-    points = np.stack([grid, np.full_like(grid, 12), np.full_like(grid, 24)], axis=1)
-    np.testing.assert_array_equal(_core.kernel.orient2d(points), np.sign(grid[:, 1] - grid[:, 0]))
-
-
-@pytest.mark.parametrize("scale", [5e-324, 1e-320, 1e-308, 1e-160, 1e-77, 1.0, 1e77, 1e150, 1e308])
-def test_named_magnitudes(scale):
-    square = np.array([[0, 0], [scale, 0], [scale, scale], [0, scale]])
-    assert _core.kernel.orient2d(square[None, :3]).tolist() == [1]
-    assert _core.kernel.orient2d(np.array([[-square[2], square[0], square[2]]])).tolist() == [0]
-    assert _core.kernel.incircle(square[None]).tolist() == [0]
-    inside = np.nextafter(scale, 0)
-    assert _core.kernel.incircle(np.array([[*square[:3], [0, inside]]])).tolist() == [1 if inside > 0 else 0]
-    assert _core.kernel.incircle(np.array([[*square[:3], [-5e-324, scale]]])).tolist() == [-1]
-
-
-def test_huge_and_tiny_in_one_call():
-    huge, tiny = np.finfo(float).max, 5e-324
-    line = [[-huge, -huge], [huge, huge]]
-    calls = np.array([[*line, p] for p in ([0, tiny], [tiny, 0], [tiny, tiny])])
-    assert _core.kernel.orient2d(calls).tolist() == [1, -1, 0]
-    circle = [[huge, 0], [0, huge], [-huge, 0]]
-    assert _core.kernel.incircle(np.array([[*circle, p] for p in ([0, -huge], [tiny, -huge])])).tolist() == [0, -1]
-
-
 coordinates = st.floats(allow_nan=False, allow_infinity=False) | st.integers(-3, 3).map(float)
 
 

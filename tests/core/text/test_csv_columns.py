@@ -145,10 +145,6 @@ def test_delimiters(text, delimiter):
     np.testing.assert_array_equal(parse(text, delimiter), [[1, 2], [3, 4]])
 
 
-def test_columns_come_in_the_order_asked_for():
-    np.testing.assert_array_equal(parse("1,a,2\n3,,4\n", columns=[2, 0]), [[2, 1], [4, 3]])
-
-
 @pytest.mark.parametrize("text", ["", "\n", "# only\n# comments", "x,y\n"])
 def test_no_rows(text):
     assert parse(text, header_records=1).shape == (0, 2)

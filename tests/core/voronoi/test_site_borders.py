@@ -67,19 +67,3 @@ def test_areas_of_rings_far_from_the_origin():
         _core.voronoi.ring_areas(start, half_edge - 1, ends, places, bulge)
     with pytest.raises(ValueError, match="area"):
         _core.voronoi.ring_areas(start, half_edge, ends, places, bulge[:3])
-
-
-def test_arrays_that_do_not_go_together():
-    places = np.array([[0, 0], [4, 0], [0, 4]], dtype=np.int32)
-    core = core_diagram(segment_voronoi(places, NO_SEGMENTS), NO_SEGMENTS)
-    owner, face = np.arange(3, dtype=np.int32), np.array([-1], dtype=np.int32)
-    made = _core.voronoi.site_borders(core, owner, face, None, 1, None)
-    assert sorted(map(sorted, made["sites"].tolist())) == [[0, 1], [0, 2], [1, 2]]
-    for wrong in (
-        (owner[:2], face, None),
-        (owner, face[:0], None),
-        (owner, face, (np.zeros(1, dtype=np.uint8), np.zeros(0, dtype=np.int32))),
-        (owner, face, (np.ones(3, dtype=np.uint8), np.array([1], dtype=np.int32))),
-    ):
-        with pytest.raises(ValueError, match=r"owner|near|range"):
-            _core.voronoi.site_borders(core, *wrong, 1, None)

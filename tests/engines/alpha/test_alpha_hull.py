@@ -82,34 +82,6 @@ def test_arcs_are_on_empty_circles_and_follow_one_another(name):
             assert (hull.angles <= np.pi).all()
 
 
-def test_one_arc_an_edge_would_be_wrong():
-    """A triangle of side 1 with r = 0.6: the arcs cross at angles below those of its corners."""
-    corners = np.array([[0, 0], [1, 0], [0.5, 0.75**0.5]])
-    shape = alpha_shape(corners, r=0.6)
-    hull = alpha_hull(shape)
-    assert len(hull) == 3
-    assert hull.points.tolist() == [0, 1, 2]
-    middle = corners.mean(axis=0)
-    area, _ = hull_polygon(hull)
-    assert shapely.contains_xy(area, *middle)
-    assert not any(shapely.contains_xy(area, *(0.98 * corner + 0.02 * middle)) for corner in corners)
-    assert 0 < area.area < shape.area
-    large = alpha_hull(alpha_shape(corners, r=1e6))
-    assert len(large.points) == 0
-    assert hull_polygon(large, 1e-9)[0].area == pytest.approx(shape.area, rel=1e-5)
-
-
-def test_holes_and_lonely_points():
-    grid = np.stack(np.meshgrid(np.arange(9), np.arange(9)), axis=-1).reshape(-1, 2).astype(float)
-    ring = grid[(abs(grid - 4).max(axis=1) > 1)]
-    hull = alpha_hull(alpha_shape(np.concatenate([ring, [[20.0, 20]]]), r=0.8))
-    assert len(hull.ring_starts) == 3
-    assert hull.points.tolist() == [len(ring)]
-    area, _ = hull_polygon(hull)
-    assert len(area.interiors) == 1
-    assert hull.table()["ring"].tolist()[-1] == 2
-
-
 def test_an_infinite_radius_is_refused():
     with pytest.raises(UsageError, match="the hull of an infinite radius is the convex hull"):
         alpha_hull(alpha_shape([[0, 0], [1, 0], [0, 1]], r=np.inf))

@@ -11,7 +11,6 @@ import shapely
 
 from support.families.alpha_cases import quietly
 from support.families.point_families import FAMILIES, draw
-from support.oracles.alpha_oracle import alpha_edges
 from vorotool import (
     InputError,
     UsageError,
@@ -141,23 +140,6 @@ def test_auto_where_the_regions_are_not_monotone():
     regions = alpha_curves(family)["regions"][family.reached(shape.r) - 1 :]
     assert regions[0] == regions[-1] == shape.region_count == 1
     assert regions.max() == 2
-
-
-def test_the_printed_rule():
-    """The counterexample of the errata: at r = 2.25 no empty disc shows the edge, the printed rule has it."""
-    points = [[0, 0], [4, 0], [2, 1], [2, -5]]
-    right, printed = alpha_complex(points), alpha_complex(points, rule="printed")
-    edge = right.edges.tolist().index([0, 1])
-    assert (right.r_min[edge], right.r_max[edge]) == (2.5, 2.9)
-    assert (printed.r_min[edge], printed.r_max[edge]) == (2.0, 2.9)
-    wrong = {tuple(e) for e in alpha_shape(printed, r=2.25).edges.tolist()}
-    correct = {tuple(e) for e in alpha_shape(right, r=2.25).edges.tolist()}
-    assert wrong - correct == {(0, 1)}
-    pair = frozenset({(Fraction(0), Fraction(0)), (Fraction(4), Fraction(0))})
-    assert pair not in alpha_edges(points, Fraction(9, 4) ** 2)
-    # open intervals: at r_min itself the edge is not in yet
-    assert (0, 1) not in {tuple(e) for e in alpha_shape(printed, r=2).edges.tolist()}
-    assert (0, 1) in {tuple(e) for e in alpha_shape(right, r=2.5).edges.tolist()}
 
 
 @pytest.mark.parametrize("n", [2, 3, 7])

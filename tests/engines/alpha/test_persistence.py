@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 
@@ -124,25 +122,8 @@ def test_the_tree_of_merges():
     assert (np.diff(found.birth) >= 0).all()
 
 
-def test_permutations_and_exact_scales_change_nothing():
-    points = draw("small_lattice", 60, 7)
-    one = persistence(quietly(points))
-    other = persistence(quietly(np.random.default_rng(1).permutation(points)))
-    twice = persistence(quietly(points * 2.0))
-    for name in ("birth", "death"):
-        assert getattr(other, name).tolist() == getattr(one, name).tolist()
-        assert getattr(twice, name).tolist() == (2 * getattr(one, name)).tolist()
-
-
 def test_without_triangles():
     found = persistence([[0, 0], [1, 0], [5, 0]])
     assert (len(found), found.suggested, found.apart_until) == (0, 0, np.inf)
     with pytest.raises(UsageError, match="corrected rule"):
         persistence(vorotool.alpha_complex(draw("uniform", 9, 1), rule="printed"))
-
-
-def test_a_square_is_one_region():
-    found = persistence([[0, 0], [2, 0], [2, 2], [0, 2]])
-    assert found.table()["points"].tolist() == [4]
-    assert Fraction(found.birth[0]) ** 2 <= Fraction(2) + Fraction(1, 10**15)
-    assert repr(found) == "RegionPersistence: 1 region, 1 of which stands out"

@@ -41,18 +41,6 @@ def test_every_site_is_where_the_graph_has_it(family):
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
-def test_sources_are_in_the_input(family):
-    rng = np.random.default_rng(4)
-    for _ in range(10):
-        graph = graph_of(family(rng))
-        sites, given = placed_shapes(graph).sites, graph.polygons
-        known = np.flatnonzero(sites.source_ring >= 0)
-        vertex = given.ring_starts[sites.source_ring[known]] + sites.source_index[known]
-        assert (vertex < given.ring_starts[sites.source_ring[known] + 1]).all()
-        assert (sites.source_ring < 0).sum() == (graph.point_vertex < 0).sum()
-
-
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_faces_are_in_the_part_that_holds_them(family):
     rng = np.random.default_rng(6)
     for _ in range(10):
@@ -62,13 +50,6 @@ def test_faces_are_in_the_part_that_holds_them(family):
         again = graph_of(placed.polygons)
         assert np.array_equal(np.sort(graph.coordinates()[:, 0]), np.sort(again.coordinates()[:, 0]))
         assert len(again) == len(graph)
-
-
-def test_what_is_not_on_the_lattice_is_moved_there():
-    shape = np.array([[0.1, 0.2], [1e9, 0.3], [0.7, 1e9]])
-    graph = graph_of(shape)
-    placed = placed_shapes(graph)
-    assert 0 < np.abs(placed.polygons.xy - shape).max() <= graph.largest_move
 
 
 @pytest.mark.filterwarnings("ignore::vorotool.errors.RepairWarning")

@@ -14,7 +14,6 @@ from support.readers.written import assert_same
 from vorotool import (
     InputError,
     LimitError,
-    PlanarGraph,
     PolygonSet,
     VerificationError,
     VorotoolWarning,
@@ -249,14 +248,3 @@ def test_the_checker_finds_faults():
     ]:
         with pytest.raises(VerificationError, match=message):
             verify_planar_graph(faulty)
-
-
-def test_shapes_of_arrays():
-    graph, _ = quietly(SQUARE)
-    with pytest.raises(InputError, match="segments must have shape"):
-        replace(graph, segments=np.zeros((2, 3)))
-    with pytest.raises(InputError, match="point_vertex must have shape"):
-        replace(graph, point_vertex=np.zeros(3))
-    assert isinstance(graph, PlanarGraph)
-    assert isinstance(graph.polygons, PolygonSet)
-    assert graph.coordinates([[0.5, 0.25]]).tolist() == [[4 + 0.5 * graph.scale, 4 + 0.25 * graph.scale]]

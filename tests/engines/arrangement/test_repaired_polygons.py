@@ -1,20 +1,18 @@
 """Polygons read back from their planar graph."""
 
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 
 from support.families.polygon_families import FAMILIES, draw
-from vorotool import PolygonSet, planar_graph, read
+from vorotool import PolygonSet, planar_graph
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.repaired_polygons import repaired_polygons
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL
 
-DATA = Path(__file__).parents[3] / "data"
 SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]
 
 
@@ -122,16 +120,3 @@ def test_repaired_rings_are_valid(name):
         assert again.repairs["crossings"] == again.repairs["idle_segments"] == 0
         assert len(same.polygons) == len(used.polygons)
         assert (np.diff(same.polygons.ring_starts) == np.diff(used.polygons.ring_starts)).all()
-
-
-def test_natural_earth():
-    given = read(DATA / "ne_110m_land.geojson")
-    _, used = both(given)
-    assert len(used.polygons) == len(given) == 127
-    areas = [sum(s.area for s in to_shapely(shapes)) for shapes in (given, used.polygons)]
-    assert areas[0] == pytest.approx(areas[1], rel=1e-6)
-
-
-def test_nothing():
-    _, used = both([])
-    assert len(used.polygons) == len(used.point) == 0

@@ -79,12 +79,6 @@ def test_small_houses_beside_something_far_are_said(engine):
     assert not said_by(engine, houses)
 
 
-def test_small_lines_are_said():
-    given = [{"line": [[1 / 3, 0], [1 / 3 + 1e-2, 0]]}, {"line": [[1 / 3, 5], [20, 5]]}, {"line": [[1 / 3, 9]]}]
-    (text,) = said_by(voronoi, [*given, moved(SQUARE, 1e5, 1e5)])
-    assert features_in(text) == [1]
-
-
 def test_what_the_lattice_has_as_it_is_given_is_not_coarse():
     pixels = [SQUARE / 10, SQUARE / 10 + [2.0**30, 0], SQUARE / 10 + [0, 2.0**30]]
     for engine in ENGINES:

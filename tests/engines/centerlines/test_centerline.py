@@ -38,11 +38,6 @@ def test_a_rectangle_is_gone_through_in_the_middle(criterion):
     assert (line.length.tolist(), line.width_mean.tolist()) == ([10], [4])
 
 
-def test_an_approximate_skeleton_has_the_same_ends():
-    line = vorotool.centerline(vorotool.skeleton_approx(RECTANGLE, step=0.5)).flattened(1)[0]
-    assert line[[0, -1]].tolist() == [[0, 2], [10, 2]]
-
-
 @pytest.mark.parametrize(
     ("kind", "line", "length"),
     [
@@ -167,31 +162,6 @@ def test_ends_of_several_edges_stay_where_they_are_as_corners_move(shift):
         assert line[0] == pytest.approx([tip, 2], abs=0.1)
 
 
-def test_a_wall_that_turns_outwards_near_an_end_changes_nothing():
-    road = [[0, 0], [1, 0.25], [10, 0], [10, 4], [9, 3.75], [0, 4]]
-    assert sorted(ends(road)) == [[0, 2], [10, 2]]
-
-
-def test_a_bent_wall_is_no_part_of_an_end():
-    assert sorted(ends([[0, 0], [10, 0], [10, 4], [2.5, 4], [0, 3.75]]))[0] == [0, 1.875]
-
-
-def test_an_oblique_end_is_met_in_the_middle_where_its_fork_is_pruned_too():
-    road = [[0, 0], [20, 0], [22, 4], [-2, 4]]
-    skeleton = vorotool.skeleton_exact(road)
-    for criterion in ({}, {"scale": 2.0}):
-        line = vorotool.centerline(vorotool.prune(skeleton, **criterion) if criterion else skeleton)
-        assert line.ends.tolist() == [[[-1, 2], [21, 2]]]
-
-
-def test_a_ring_is_gone_round_as_before():
-    ring = {"shell": [[0, 0], [10, 0], [10, 10], [0, 10]], "holes": [[[3, 3], [7, 3], [7, 7], [3, 7]]]}
-    skeleton = vorotool.prune(vorotool.skeleton_exact([ring]), scale=1.5)
-    middle, corner = (vorotool.centerline(skeleton, ends=kind) for kind in ("middle", "corner"))
-    assert np.isnan(middle.ends).all()
-    assert middle.path.vertices.tolist() == corner.path.vertices.tolist()
-
-
 def regular(count, turn):
     """A polygon around the origin, whose coordinates are rounded."""
     turns = turn + np.arange(count) * (2 * np.pi / count)
@@ -211,15 +181,6 @@ def test_a_regular_polygon_is_gone_through_straight_however_it_is_turned(count):
     assert np.ptp(found) < 1e-5  # the same corner
 
 
-def test_a_round_polygon_is_gone_through_where_it_is_longest():
-    for stretch in (1.02, 1.1, 1.2, 1.3):
-        for turn in (0.1, 0.4, 2.0):
-            c, s = np.cos(turn), np.sin(turn)
-            ellipse = (regular(24, 0) * [stretch, 1]) @ [[c, s], [-s, c]]
-            line = ends(ellipse.tolist())
-            assert np.abs(np.subtract(*line)) == pytest.approx(20 * stretch * np.abs([c, s]), abs=1e-4)
-
-
 PLATES = [
     ([[0, 0], [10, 0], [10, 10], [0, 10]], [(3, 3, 4, 4)]),
     ([[0, 0], [20, 0], [20, 10], [0, 10]], [(3, 3, 4, 4), (13, 3, 4, 4)]),
@@ -236,12 +197,6 @@ def test_a_plate_with_holes_has_no_end_in_its_corners(shell, holes):
     assert np.isnan(whole.ends).all()
     assert whole.length == pytest.approx(pruned.length)
     assert (whole.path.radius > 0).all()
-
-
-def test_a_plate_with_holes_is_led_into_its_tips():
-    hole = [[9, 4], [9, 6], [11, 6], [11, 4]]
-    tip = {"shell": [[0, 0], [16, 0], [40, 5], [16, 10], [0, 10]], "holes": [hole]}
-    assert [40, 5] in ends([tip])
 
 
 def random_polygon(random):
@@ -306,16 +261,6 @@ def test_lines_move_with_their_polygons():
             line = back(vorotool.centerline(vorotool.skeleton_exact(moved.tolist())).flattened(1e-3)[0])
             ends_of = sorted(line[[0, -1]].round(6).tolist())
             assert ends_of == pytest.approx(np.array(sorted(expected_line[[0, -1]].round(6).tolist())), abs=2e-6)
-
-
-def test_no_feature_changes_the_line_of_another():
-    shapes = [polygon.tolist() for polygon, _ in random_skeletons(12)]
-    apart = [np.add(shape, [8192 * k, 0]).tolist() for k, shape in enumerate(shapes)]
-    together = vorotool.centerline(vorotool.skeleton_exact(apart))
-    points, start = together.flattened(1)
-    for k, shape in enumerate(apart):
-        alone = vorotool.centerline(vorotool.skeleton_exact([shape])).flattened(1)[0]
-        assert points[start[k] : start[k + 1]] == pytest.approx(alone, abs=1e-6)
 
 
 @pytest.mark.parametrize("count", [8, 32])

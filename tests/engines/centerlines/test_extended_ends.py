@@ -52,14 +52,6 @@ def test_rectangles_end_in_the_middle_of_their_ends(angle):
         vorotool.verify_extended(extended)
 
 
-def test_crossing_strokes_have_four_ends():
-    cross = shapely.union_all([shapely.box(0, 18, 60, 22), shapely.box(28, 0, 32, 40)])
-    skeleton = vorotool.skeleton_exact(cross)
-    extended = vorotool.extend_ends(skeleton)
-    assert sorted(map(tuple, led_on_to(extended).tolist())) == [(0, 20), (30, 0), (30, 40), (60, 20)]
-    assert len(extended) == 4
-
-
 def test_tips_stay_and_round_shapes_are_places():
     triangle = [[0, 0], [30, 4], [0, 8]]
     extended = vorotool.extend_ends(vorotool.skeleton_exact(triangle))

@@ -93,13 +93,3 @@ def test_too_few_points(points):
     assert row(found, "area")["count"] == 0
     assert row(found, "area")["mean"] is np.ma.masked
     assert row(found, "tree_length")["count"] == max(0, len(np.unique(points, axis=0)) - 1)
-
-
-def test_tables(tmp_path):
-    found = cell_statistics(draw("uniform", 40, 3))
-    vorotool.write(found, tmp_path / "summary.csv")
-    vorotool.write(found, tmp_path / "cells.csv", what="measures")
-    assert (tmp_path / "summary.csv").read_text().startswith("measure,count,mean,sd,cv,min,")
-    assert (tmp_path / "cells.csv").read_text().startswith("label,x,y,area,perimeter,roundness,")
-    assert found.to_pandas()["measure"].tolist()[0] == "area"
-    assert repr(found).startswith("CellStatistics: 40 cells, ")

@@ -121,47 +121,6 @@ def test_threads_change_nothing(name):
         np.testing.assert_array_equal(one.starts, other.starts)
 
 
-def test_several_pieces_of_work():
-    for name in ("uniform", "small_lattice", "grid"):
-        quietly(draw(name, 15_000, 1), threads=2)
-
-
-@families
-def test_permuting_the_points_permutes_the_cells(name):
-    points = np.unique(draw(name, 60 if name in ("any_double", "tiny_y") else 300, 5), axis=0)
-    order = np.random.default_rng(6).permutation(len(points))
-    cells, other = rings(quietly(points)), rings(quietly(points[order]))
-    assert [cells[i] for i in order] == other
-
-
-@pytest.mark.parametrize(
-    "name", ["uniform", "small_lattice", "grid", "exact_circle", "kettner", "by_ulps", "collinear"]
-)
-def test_powers_of_two_and_quarter_turns(name):
-    points = np.unique(draw(name, 100, 8), axis=0)
-    cells = quietly(points, frame=Box(-30, -20, 31, 23))
-    for exponent in (-900, -300, 3, 900):
-        scaled = Box(*np.ldexp(cells.frame.sides, exponent))
-        other = quietly(np.ldexp(points, exponent), frame=scaled)
-        np.testing.assert_array_equal(other.coordinates, np.ldexp(cells.coordinates, exponent))
-        np.testing.assert_array_equal(other.starts, cells.starts)
-    turned = quietly(points[:, ::-1] * [-1, 1], frame=Box(-23, -30, 20, 31))
-    assert [{(-y, x) for x, y in ring} for ring in rings(cells)] == [set(ring) for ring in rings(turned)]
-
-
-def test_neighbors_share_vertices():
-    """Each side of a cell is the side of one neighbor, backwards, or lies on the frame."""
-    for name in ("uniform", "rotated_grid", "exact_circle", "small_lattice"):
-        cells = quietly(draw(name, 500, 2))
-        sides = {}
-        for i, ring in enumerate(rings(cells)):
-            for k, p in enumerate(ring):
-                sides[ring[k - 1], p] = i
-        for p, q in sides:
-            on_frame = any(p[k % 2] == q[k % 2] == cells.frame.sides[k] for k in range(4))
-            assert ((q, p) in sides) != on_frame
-
-
 def test_few_and_collinear_points():
     assert rings(quietly([[5, 5]], frame=(0, 0, 2, 1))) == [[(0, 0), (2, 0), (2, 1), (0, 1)]]
     assert rings(quietly([[1, 1], [3, 1]], frame=(0, 0, 4, 2))) == [

@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -77,47 +76,6 @@ def test_threads_change_nothing(name):
     one, *others = (quietly(points, threads=threads) for threads in (1, 2, 5))
     for other in others:
         assert_same(ARRAYS, one, other)
-
-
-@families
-@pytest.mark.parametrize("n", [9, 500])
-def test_permuting_the_points_permutes_their_numbers_only(name, n):
-    points = draw(name, min(n, 30) if name == "any_double" else n, 5)
-    order = np.random.default_rng(6).permutation(len(points))
-    mesh, other = quietly(points), quietly(points[order])
-    np.testing.assert_array_equal(other.neighbors, mesh.neighbors)
-    for array in ("triangles", "hull"):
-        np.testing.assert_array_equal(other.points[getattr(other, array)], mesh.points[getattr(mesh, array)])
-    places = np.sort(mesh.first[order[other.edges]], axis=1)
-    np.testing.assert_array_equal(places, mesh.edges)
-
-
-def ties_kept(name):
-    """Families without cocircular points, whose edges are the same whichever corner fans begin with."""
-    return name in ("uniform", "clustered", "offset_1e9")
-
-
-@families
-def test_mirrors_and_quarter_turns(name):
-    points = draw(name, 40 if name in ("any_double", "tiny_y") else 200, 7)
-    mesh = quietly(points)
-    for turned in (points * [-1, 1], points[:, ::-1], points[:, ::-1] * [-1, 1], -points):
-        other = quietly(turned)
-        assert len(other) == len(mesh)
-        assert set(other.hull.tolist()) == set(mesh.hull.tolist())
-        if ties_kept(name):
-            assert edge_set(other.edges) == edge_set(mesh.edges)
-
-
-@pytest.mark.parametrize("name", ["uniform", "small_lattice", "grid", "exact_circle", "kettner", "by_ulps"])
-def test_powers_of_two(name):
-    points = draw(name, 300, 8)
-    mesh = quietly(points)
-    for exponent in (-900, -300, 3, 500, 990):
-        scaled = np.ldexp(points, exponent)
-        assert (np.ldexp(scaled, -exponent) == points).all()
-        other = quietly(scaled)
-        assert_same(ARRAYS, other, mesh)
 
 
 lattice = st.lists(st.tuples(st.integers(-4, 4), st.integers(-4, 4)), max_size=12)
@@ -228,10 +186,3 @@ def test_progress_can_stop_it():
     points = draw("uniform", 1_000_000, 0)
     with pytest.raises(KeyboardInterrupt):
         delaunay(points, threads=1, progress=stop)
-
-
-def test_a_mesh_is_not_changed_by_the_checker():
-    mesh = quietly(draw("grid", 200, 0))
-    copy = replace(mesh, **{array: getattr(mesh, array).copy() for array in ARRAYS})
-    verify_triangulation(mesh, threads=3)
-    assert_same(ARRAYS, mesh, copy)

@@ -79,36 +79,6 @@ def test_any_bounds(name):
         check(draw(name, 20 if name == "any_double" else 40, seed), 14 if name == "any_double" else 33)
 
 
-def test_outside_the_hull_and_within_the_bounds(always_local):
-    """A disc in a frame of four far points, then the corners of the frame are left out of the hull."""
-    rng = np.random.default_rng(3)
-    turn = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
-    for count in (4, 30, 300):
-        outside = rng.uniform(-1, 1, (60, 2))
-        points = np.concatenate([turn, 0.5 * rng.uniform(-1, 1, (count, 2)), outside])
-        check(points, 4 + count)
-    assert all(always_local)
-
-
-def test_on_sides_and_on_vertices(always_local):
-    """Points on edges, on the hull, at vertices, and at each other."""
-    grid = np.stack(np.meshgrid(np.arange(9.0), np.arange(9.0)), axis=-1).reshape(-1, 2)
-    further = [[0.5, 0], [0, 2.5], [8, 7.25], [3, 3], [4.5, 4.5], [4.5, 4.5], [2.5, 3], [0, 0], [7.5, 8], [1.25, 1.25]]
-    before, made = check(np.concatenate([grid, further]), 81)
-    assert made.duplicates == 3
-    assert before.duplicates == 0
-    assert all(always_local)
-
-
-def test_cocircular_polygons_are_fans_again(always_local):
-    for seed in range(20):
-        rng = np.random.default_rng(seed)
-        points = outermost_first(np.unique(draw("exact_circle", 60, seed), axis=0))
-        order = np.concatenate([np.arange(4), 4 + rng.permutation(len(points) - 4)])
-        check(points[order], 4 + len(points) // 2)
-    assert sum(always_local) > 10
-
-
 def test_one_after_the_other():
     points = outermost_first(draw("small_lattice", 60, 9))
     mesh = delaunay(points[:20])
@@ -154,14 +124,6 @@ floats = st.floats(-1e100, 1e100)
 def test_any_doubles(points, further):
     points = outermost_first(np.array(points))
     check(points, max(0, len(points) - further))
-
-
-def test_collinear_and_few_points():
-    check([[0, 0], [1, 1], [2, 2], [3, 3], [0.5, 0.5]], 4)
-    check([[0, 0], [1, 1], [2, 2], [3, 3], [1, 2]], 4)
-    check([[5, 5], [5, 5]], 1)
-    check([[0, 0], [4, 0], [0, 3], [1, 1]], 0)
-    check([[0, 0], [4, 0], [0, 3], [1, 1]], 4)
 
 
 def test_what_points_bring():
@@ -212,9 +174,3 @@ def test_arrays_that_are_no_triangulation(change, always_local):
     mesh = replace(delaunay([[0, 0], [4, 0], [0, 3], [4, 3]]), **change)
     with pytest.raises(InputError, match="triangulation"):
         insert_points(mesh, [[1.5, 0.5]])
-
-
-@pytest.mark.parametrize("bad", [np.nan, np.inf])
-def test_not_finite_is_refused(bad):
-    with pytest.raises(InputError, match="point 1"):
-        insert_points(delaunay([[0, 0], [4, 0], [0, 3]]), [[bad, 0]])

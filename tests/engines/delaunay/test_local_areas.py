@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from support.few import few
-from vorotool.engines.delaunay.cells import Rings, cut_out
+from vorotool.engines.delaunay.cells import cut_out
 
 
 def coast(count, seed, holes=3):
@@ -33,19 +33,3 @@ def test_pieces_are_those_of_the_whole(seed, size):
     area, shapes = coast(1500, seed), boxes(120, seed, size)
     for ours, theirs in zip(cut_out(shapes, area), shapely.intersection(shapes, area), strict=True):
         assert ours.wkb == theirs.wkb
-
-
-def test_one_shape_none_and_all():
-    area = coast(2000, 9)
-    assert len(cut_out(np.empty(0, dtype=object), area)) == 0
-    for box in (shapely.box(100, 100, 101, 101), shapely.box(-50, -50, 50, 50), shapely.box(-1, -1, 0, 0)):
-        assert cut_out(np.array([box]), area)[0].wkb == shapely.intersection(box, area).wkb
-
-
-def test_rings_around_a_place_are_short_and_the_same_inside():
-    area = coast(5000, 3)
-    rings = Rings.of(area)
-    near = rings.around(np.array([9.0, -1.0, 11.0, 1.0]))
-    assert len(near.xy) < len(rings.xy) / 5
-    window = shapely.box(9.3, -0.7, 10.7, 0.7)
-    assert shapely.intersection(window, near.area()).equals(shapely.intersection(window, area))

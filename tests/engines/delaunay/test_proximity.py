@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import vorotool
 from support.families.point_families import FAMILIES, draw
 from support.oracles.proximity_oracle import gabriel_edges, relative_edges, squares_of, tree_lengths
 from vorotool import (
@@ -55,27 +54,6 @@ def test_the_check_finds_every_edge_that_is_wrong(name, kind):
             verify_proximity_graph(replace(graph, edge_index=index))
 
 
-def places(points, graph):
-    """Edges as pairs of places, whatever their points are called."""
-    return {frozenset(map(tuple, points[edge].tolist())) for edge in graph.edges}
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_numbers_and_turns_change_nothing(kind):
-    points = np.unique(draw("small_lattice", 60, 5), axis=0)
-    order = np.random.default_rng(2).permutation(len(points))
-    one = places(points, proximity_graph(points, kind))
-    assert places(points[order], proximity_graph(points[order], kind)) == one
-    if kind == "mst":  # of equal lengths the first is taken, and turns change which that is
-        return
-    turned = points @ np.array([[0.0, 1.0], [-1.0, 0.0]])
-    back = {frozenset((-y, x) for x, y in pair) for pair in one}
-    assert {frozenset(tuple(p) for p in pair) for pair in places(turned, proximity_graph(turned, kind))} in (
-        back,
-        {frozenset((y, -x) for x, y in pair) for pair in one},
-    )
-
-
 @pytest.mark.parametrize("kind", KINDS)
 def test_threads_change_nothing(kind):
     points = np.random.default_rng(1).random((30000, 2))
@@ -93,14 +71,6 @@ def test_a_lune_that_many_triangles_meet():
     assert len(proximity_graph(points, "mst")) == len(points) - 1
 
 
-def test_a_lattice_has_its_sides_and_no_diagonal():
-    points = np.stack(np.meshgrid(np.arange(5.0), np.arange(4.0)), axis=-1).reshape(-1, 2)
-    for kind in ("gabriel", "relative"):
-        graph = proximity_graph(points, kind)
-        assert len(graph) == 4 * 4 + 5 * 3
-        assert (graph.edge_lengths() == 1).all()
-
-
 def test_few_points_and_duplicates():
     assert [len(proximity_graph(np.zeros((n, 2)), "mst")) for n in (0, 1)] == [0, 0]
     with pytest.warns(VorotoolWarning, match="earlier"):
@@ -115,17 +85,3 @@ def test_what_is_refused():
     mesh = delaunay([[0, 0], [4, 0], [0, 3], [1, 1]])
     with pytest.raises(InputError, match="give a Delaunay triangulation"):
         proximity_graph(replace(mesh, edges=mesh.edges[:3]), "relative")
-
-
-def test_what_a_graph_turns_into(tmp_path):
-    points = vorotool.PointSet([[0, 0], [4, 0], [0, 3], [1, 1]], properties={"name": list("abcd")})
-    graph = proximity_graph(points, "mst")
-    assert repr(graph) == "ProximityGraph: mst, 4 points, 3 edges"
-    assert graph.table()["label_b"].tolist() == [4, 4, 4]
-    assert sorted(dict(graph.to_networkx().degree).values()) == [1, 1, 1, 3]
-    assert [line.length for line in graph.to_shapely()] == graph.edge_lengths().tolist()
-    assert graph.to_pandas()["length"].tolist() == graph.edge_lengths().tolist()
-    for fmt in ("csv", "geojson", "obj", "edge", "npy", "svg", "png"):
-        vorotool.write(graph, tmp_path / f"graph.{fmt}")
-    assert np.load(tmp_path / "graph.npy").tolist() == graph.edges.tolist()
-    assert (tmp_path / "graph.edge").read_text().splitlines()[0] == "3 1"

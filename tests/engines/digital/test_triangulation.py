@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import vorotool
@@ -57,29 +57,6 @@ def test_the_rule_pixel_by_pixel(case):
 def test_types_of_labels(dtype):
     image = np.array([[1, 1, 2], [3, 100, 100]], dtype=dtype)
     assert as_sets(digital_triangulation(LabelImage(image))) == paper_rule(image)
-
-
-def test_four_labels_at_a_corner_are_four_triangles():
-    found = digital_triangulation(LabelImage(np.array([[1, 2], [3, 4]], dtype=np.uint8)))
-    assert found.triangles.tolist() == [[0, 1, 2], [0, 1, 3], [0, 3, 2], [1, 3, 2]]
-    assert found.at_four.all()
-    assert (found.three_label_corners, found.four_label_corners) == (0, 1)
-    assert found.edges.tolist() == [[0, 1], [0, 2], [1, 3], [2, 3]]
-    assert found.sides.tolist() == [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]
-
-
-def test_a_fourth_label_of_background_is_none():
-    found = digital_triangulation(LabelImage(np.array([[1, 2], [0, 4]], dtype=np.uint8)))
-    assert as_sets(found) == ({(1, 2), (2, 4)}, {(1, 2, 4)})
-    assert not found.at_four.any()
-    assert (found.three_label_corners, found.four_label_corners) == (1, 0)
-
-
-def test_triangles_turn_counter_clockwise():
-    found = digital_triangulation(distinct_pixels(1, 200, 300), shape=(200, 200))
-    signs = _core.kernel.orient2d(np.ascontiguousarray(found.points[found.triangles]))
-    assert (signs >= 0).all()
-    assert (found.triangles[:, 0] == found.triangles.min(axis=1)).all()
 
 
 @pytest.mark.parametrize("pixels", [1, 700, 5000])
@@ -191,17 +168,6 @@ def test_the_repair_is_the_exact_triangulation(seed):
     assert repair.fault is None
 
 
-@settings(max_examples=60)
-@given(st.integers(2, 14), st.integers(2, 14), st.integers(1, 196), st.integers(0, 2**32 - 1))
-def test_crowds_and_ties(width, height, n, seed):
-    """Up to a seed on every pixel: flat triangles, twins and four-label corners in plenty."""
-    pixels = np.random.default_rng(seed).permutation(width * height)[:n]
-    seeds = np.stack(np.divmod(pixels, width)[::-1], axis=1)
-    mesh, repair = repair_digital(seeds, shape=(height, width))
-    assert_same(ARRAYS, mesh, delaunay(seeds))
-    assert repair.route != "rebuilt"
-
-
 @pytest.mark.parametrize("case", few(range(120), 40))
 def test_any_seeds_have_the_exact_triangulation(case):
     """Between pixels, outside the frame, duplicates, lines: the repair may have to insert them all, and says so."""
@@ -217,28 +183,6 @@ def test_any_seeds_have_the_exact_triangulation(case):
     assert any("could not be repaired" in str(w.message) for w in caught) == (repair.route == "rebuilt")
 
 
-def test_insertion_alone_is_exact():
-    for case in range(40):
-        _, x, y, _, scale, _ = random_case(np.random.default_rng(1000 + case), 60)
-        points = np.stack([x, y], axis=1) / scale
-        expected = _core.delaunay.DelaunayTriangulation(points, 1, None).arrays(1, None)
-        core = _core.digital.inserted_mesh(points, 1, None)
-        for name, array in core.arrays(1, None).items():
-            np.testing.assert_array_equal(array, expected[name])
-
-
-def test_equal_codes_of_the_curve_get_equal_numbers():
-    """Points so close that the curve cannot tell them apart, beside a distant one."""
-    seeds = np.concatenate([np.array([[k % 7, k // 7] for k in range(49)]) + 0.25, [[300000.0, 0.0]]])
-    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
-        assert_same(ARRAYS, digital_delaunay(seeds, shape=(9, 9)), delaunay(seeds))
-
-
-def test_threads_change_nothing():
-    seeds = distinct_pixels(5, 300, 2000)
-    assert_same(ARRAYS, digital_delaunay(seeds, shape=(300, 300), threads=3), digital_delaunay(seeds, threads=1))
-
-
 @pytest.mark.parametrize(
     "seeds", [[[3, 2]], [[3, 2], [0, 1]], [[0, 0], [2, 1], [4, 2]], [[1, 0], [1, 5], [1, 3], [1, 4]]]
 )
@@ -246,23 +190,6 @@ def test_chains(seeds):
     mesh, repair = repair_digital(seeds)
     assert_same(ARRAYS, mesh, delaunay(seeds))
     assert (repair.route, len(mesh)) == ("chain", 0)
-
-
-def test_no_seeds():
-    assert len(digital_triangulation([]).points) == len(digital_triangulation([]).edges) == 0
-    mesh, repair = repair_digital([])
-    assert (len(mesh.points), len(mesh.edges), repair.route) == (0, 0, "chain")
-
-
-def test_each_step_is_needed():
-    """Seeds for each step of the repair; without it the result would not be this."""
-    needed = dict.fromkeys(("split_regions", "four_label_corners", "twins", "straightened", "filled", "flipped"), 0)
-    for seed in range(40):
-        _, repair = repair_digital(distinct_pixels(seed, 64, 204), shape=(64, 64))
-        for name in needed:
-            needed[name] += getattr(repair, name) > 0
-        assert repair.inserted == repair.twins
-    assert all(needed.values()), needed
 
 
 def test_a_failed_certificate_is_said(monkeypatch):

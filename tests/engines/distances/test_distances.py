@@ -53,29 +53,6 @@ def test_the_middle_of_a_regular_hole_is_its_inradius_away(corners):
     verify_distances(found)
 
 
-@pytest.mark.parametrize("turn", [0.0, 0.3, 1.0])
-def test_a_point_at_the_middle_of_three(turn):
-    angle = 2 * np.pi * np.arange(3) / 3 + turn
-    points = np.stack([np.cos(angle) + 100.1, np.sin(angle) - 3.7], axis=1)
-    triangle = points.mean(axis=0) + 0.5 * (points - points.mean(axis=0))
-    there = hausdorff([triangle], points).from_a
-    assert there.distance == pytest.approx(1, rel=1e-13)
-    assert there.on_a == pytest.approx((100.1, -3.7), rel=1e-14)
-
-
-def test_a_place_between_a_polygon_and_a_lone_point():
-    around = [shapely.box(-2, -9, 0, 9), shapely.Point(6, 4), shapely.Point(6, -4)]
-    there = hausdorff([shapely.box(0, -4, 6, 4)], around).from_a
-    assert there.distance == pytest.approx(13 / 3)
-    assert there.on_a == pytest.approx((13 / 3, 0))
-
-
-def test_parallel_edges():
-    lines = hausdorff(["LINESTRING (0 0, 8 0)"], ["LINESTRING (0 0, 0 1, 8 1, 8 0)"])
-    assert (lines.from_a.distance, lines.from_b.distance) == (1, 1)
-    assert hausdorff([shapely.box(0, 0, 4, 2)], [shapely.box(1, 0, 5, 2)]).distance == 1
-
-
 def test_points_are_as_scipy_has_them():
     from scipy.spatial.distance import directed_hausdorff
 
@@ -95,22 +72,6 @@ def test_equal_shapes_are_at_distance_0(shape):
     for boundary in (False, True):
         assert hausdorff(shape, shape, boundary=boundary).distance == 0
         assert distance(shape, shape, boundary=boundary).distance == 0
-
-
-def test_an_edge_that_is_covered_by_several():
-    whole, cut = ["LINESTRING (0 0, 0.9 0.3)"], ["LINESTRING (0 0, 0.3 0.1, 0.9 0.3)"]
-    exact = ["LINESTRING (0 0, 9 3)"], ["LINESTRING (0 0, 3 1, 9 3)"]
-    assert hausdorff(*exact).distance == 0
-    assert hausdorff(whole, cut).distance < 1e-16
-
-
-def test_one_inside_the_other():
-    inner = [shapely.box(2, 2, 3, 3)]
-    found = hausdorff(inner, [SQUARE])
-    assert (found.from_a.distance, found.from_b.distance) == (0, pytest.approx(np.hypot(6, 6)))
-    assert distance(inner, [SQUARE]).distance == 0
-    assert distance(inner, [SQUARE], boundary=True).distance == 2
-    assert distance(inner, [RING]).distance == 1
 
 
 def test_the_first_of_several_places():
@@ -140,14 +101,6 @@ def test_one_direction():
     found = hausdorff([[0, 0], [4, 0]], [[0, 0]], directed=True)
     assert (found.distance, found.from_b) == (4, None)
     assert hausdorff([[0, 0]], [[0, 0], [4, 0]], directed=True).distance == 0
-
-
-def test_what_they_turn_into():
-    found = hausdorff([[0, 0]], [[3, 4]])
-    assert float(found) == 5
-    assert repr(found) == "Distances: hausdorff 5, a to b 5, b to a 5"
-    assert found.to_pandas()["what"].tolist() == ["hausdorff", "a to b", "b to a"]
-    assert found.to_shapely()[1].wkt == "LINESTRING (0 0, 3 4)"
 
 
 def test_overlapping_polygons_are_filled_where_any_is():

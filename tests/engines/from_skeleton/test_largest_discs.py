@@ -16,14 +16,6 @@ def rectangle(width, height, x=0.0, y=0.0):
     return np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height]])
 
 
-def distances(xy, places):
-    """Of places from the edges of a ring, by brute force."""
-    a, way = xy, np.roll(xy, -1, axis=0) - xy
-    share = ((places[:, None] - a) * way).sum(-1) / (way * way).sum(-1)
-    rest = places[:, None] - a - np.clip(share, 0, 1)[..., None] * way
-    return np.sqrt((rest * rest).sum(-1)).min(axis=1)
-
-
 # ---- closed forms --------------------------------------------------------------------------------
 @pytest.mark.parametrize(("width", "height"), [(4, 4), (9, 2), (2, 9), (1e6, 3), (0.75, 0.125)])
 def test_of_a_rectangle_the_middle(width, height):
@@ -51,45 +43,6 @@ def test_of_regular_polygons_the_apothem(count):
     discs = largest_discs(regular(count))
     np.testing.assert_allclose(discs.radius, [1000 * np.cos(np.pi / count)], rtol=1e-8)
     np.testing.assert_allclose(discs.xy, [[0, 0]], atol=1e-3)
-
-
-@pytest.mark.parametrize("count", [4, 6, 12])
-def test_of_an_annulus_one_in_each_corner(count):
-    """At a corner of the inner polygon the disc touches two outer edges: r = c (R - s) / (1 + c), c = cos(pi / n)."""
-    ring = regular(count)
-    annulus = {"shell": ring, "holes": [ring[::-1] / 2]}
-    cosine = np.cos(np.pi / count)
-    local = largest_discs(annulus, local=True)
-    assert len(local) == count
-    np.testing.assert_allclose(local.radius, np.full(count, cosine * 500 / (1 + cosine)), rtol=1e-7)
-    first = largest_discs(annulus)
-    assert count > 4 or first.xy[0, 0] <= local.xy[:, 0].min() + 1e-6, "the smallest x of several"
-
-
-def test_between_two_circles_of_many_sides():
-    outer, inner = regular(720), regular(720)[::-1] / 4 + (300, 0)
-    discs = largest_discs({"shell": outer, "holes": [inner]})
-    expected = (1000 + 300 - 250) / 2
-    np.testing.assert_allclose(discs.radius, [expected], rtol=1e-4)
-    np.testing.assert_allclose(discs.xy, [[-1000 + expected, 0]], atol=5)
-
-
-# ---- several, ties -------------------------------------------------------------------------------
-def test_disjoint_discs_in_a_strip():
-    """The middle stands for all of the strip; what is left of it is filled from the smallest x."""
-    discs = largest_discs(rectangle(20, 2), count=9)
-    assert discs.xy[:, 0].tolist() == [10, 1, 3, 5, 7, 12, 14, 16, 18]
-    assert discs.radius.tolist() == [1.0] * 9
-    assert discs.rank.tolist() == list(range(1, 10))
-    verify_discs(discs)
-
-
-def test_the_next_disc_touches_the_first():
-    """In a corner of 90 degrees the next radius is (3 - 2 sqrt 2) times the one before."""
-    discs = largest_discs(rectangle(2, 2), count=9)
-    ratio = 3 - 2 * np.sqrt(2)
-    np.testing.assert_allclose(discs.radius, [1, *[ratio] * 4, *[ratio**2] * 4], rtol=1e-14)
-    assert (discs.xy[1] < 0.5).all(), "smallest x, then smallest y"
 
 
 def test_features_each_have_their_own():
@@ -136,25 +89,6 @@ def test_empty_discs_between_points_by_brute_force():
         most = np.sqrt(np.square(places[:, None] - points).sum(axis=-1)).min(axis=1).max()
         assert most - 1e-9 <= discs.radius[0] <= most + 0.25
         verify_discs(discs)
-
-
-def test_empty_discs_have_corners_and_crossings():
-    corner = largest_empty_discs([[0, 0]], within=(-1, -1, 3, 4))
-    assert corner.xy.tolist() == [[2.0, 3.0]]
-    assert corner.feet.tolist() == [[0.0, 0.0]]
-    crossing = largest_empty_discs([[0, 0], [4, 0]], within=[[1, 0], [3, 0], [2, 3]])
-    assert crossing.xy.tolist() == [[2.0, 3.0]]
-    side = largest_empty_discs([[0, 0], [4, 0]], within=[[1, -1], [3, -1], [3, 1], [1, 1]])
-    assert side.xy.tolist() == [[2.0, -1.0]]
-    strip = largest_empty_discs(["LINESTRING (0 0, 10 0)", "LINESTRING (0 2, 10 2)"], within=(2, 0.5, 6, 1))
-    assert strip.xy.tolist() == [[5.0, 1.0]]
-    assert strip.table()["label_2"].tolist() == [2]
-
-
-def test_no_empty_disc_in_a_filled_shape():
-    discs = largest_empty_discs([shapely.box(0, 0, 4, 4)], within=(1, 1, 2, 2))
-    assert len(discs) == 0
-    verify_discs(discs)
 
 
 # ---- refusals, faults ----------------------------------------------------------------------------

@@ -24,15 +24,6 @@ def test_shapes_are_rebuilt(family):
         check_rebuilt(vorotool.rebuild(skeleton), skeleton.polygons)
 
 
-@pytest.mark.parametrize("angle", [0, 1, 2.5])
-def test_a_shape_with_a_hole_is_rebuilt_at_any_angle(angle):
-    around = np.sort(np.random.default_rng(3).random(17)) * 2 * np.pi
-    shell = shapely.Polygon(np.stack([900 * np.cos(around), 500 * np.sin(around)], axis=1))
-    shape = shapely.affinity.rotate(shell - shapely.box(-20, -30, 40, 25), angle, use_radians=True)
-    again = to_shapely(vorotool.rebuild(vorotool.skeleton_exact(shape)))
-    assert shapely.symmetric_difference(shapely.union_all(again), shape).area <= 1e-9 * shape.length * 1800
-
-
 def test_polygons_of_a_label_image_come_back_one_by_one():
     image = [[0, 0, 2], [0, 1, 1], [2, 1, 1]]  # the first has straight vertices, where the others end
     outlines = vorotool.outlines(image, mode="labels")

@@ -73,21 +73,6 @@ def test_feet_are_the_first_crossings_of_the_outline(seed):
                 assert outline.distance(shapely.Point(foot)) < 1e-6
 
 
-def test_a_strip_has_its_width_everywhere_but_at_its_ends():
-    points = points_along(centerline(wide(ROAD)), every=0.5)
-    inner = (points.along > 1.5) & (points.along < points.along[-1] - 1.5)
-    np.testing.assert_allclose(points.width[inner], 2, atol=0.02)
-    assert (points.rings[inner] == 0).all()
-
-
-def test_an_island_is_named_where_a_section_ends_at_it():
-    table = points_along(centerline(wide(ISLAND)), every=0.5).table()
-    beside = (table["x"] > 8.4) & (table["x"] < 9.6)
-    sides = np.ma.column_stack([table["ring_a"], table["ring_b"]])
-    assert (np.sort(sides[beside], axis=1) == [0, 1]).all()
-    assert (sides[np.asarray(table["x"]) < 6].compressed() == 0).all()
-
-
 @pytest.mark.filterwarnings("ignore::vorotool.errors.VorotoolWarning")
 def test_features_together_end_sections_at_each_other():
     room, table = shapely.box(0, 0, 20, 4), shapely.box(9, 1, 11, 2)

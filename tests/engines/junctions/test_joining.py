@@ -59,17 +59,6 @@ def groups(skeleton):
     return found
 
 
-def test_crossing_of_two_bars():
-    made = skeleton_exact(BRICK)
-    joined = join_junctions(made)
-    assert joined.vertices[joined.degree == 4].tolist() == [[2, 2]]
-    assert joined.degree.tolist().count(1) == 4
-    assert len(joined) == 6
-    led = joined.error_bound > 0
-    assert joined.length[led] == pytest.approx(joined.error_bound[led] * 2)
-    verify_joining(joined, made)
-
-
 @pytest.mark.parametrize("skeleton", SKELETONS, ids=range(len(SKELETONS)))
 def test_groups_are_those_of_paths(skeleton):
     joined = join_junctions(skeleton)
@@ -117,26 +106,6 @@ def test_how_far_straight_arcs_are():
         assert integral[led] == pytest.approx(ends.mean(axis=1) * joined.length[led])
 
 
-def test_a_row_of_teeth_is_not_one_junction():
-    teeth = [[x, 4 + (x % 2) * 0.5] for x in range(20, -1, -1)]
-    made = skeleton_exact([[0, 0], [20, 0], *teeth])
-    joined = join_junctions(made)
-    verify_joining(joined, made)
-    left = joined.vertices[joined.degree > 2]
-    assert len(left) >= 5
-    assert np.ptp(left[:, 0]) > 10
-
-
-def test_a_ring_stays_a_ring():
-    angle = np.linspace(0, 2 * np.pi, 40, endpoint=False)
-    ring = np.column_stack([np.cos(angle), np.sin(angle)])
-    made = skeleton_exact({"shell": 2 * ring, "holes": [ring[::-1]]})
-    joined = join_junctions(made)
-    verify_joining(joined, made)
-    assert vorotool.polygon_table(joined)["cycles"].tolist() == [1]
-    assert len(joined.vertices[joined.degree > 2]) >= 3
-
-
 def test_each_feature_is_what_it_is_alone():
     shapes = [star(seed) + np.array([3 * seed, 0]) for seed in range(6)]
     joined = join_junctions(skeleton_exact(shapes))
@@ -147,13 +116,6 @@ def test_each_feature_is_what_it_is_alone():
             for made, polygon in ((joined, number), (turned, 5 - number))
         ]
         assert rows[0] == rows[1]
-
-
-def test_nothing_to_join():
-    made = skeleton_exact([[0, 0], [4, 0], [0, 3]])
-    assert join_junctions(made) is made
-    empty = prune(made, scale=2)
-    verify_joining(join_junctions(empty), empty)
 
 
 def test_faults_are_found():

@@ -17,11 +17,10 @@ from support.oracles.outline_oracle import (
     unit_sides,
 )
 from vorotool.engines.label_images.outlines import gray_level, outlines
-from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.errors import LimitError, UsageError
 from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.raster import Raster
 from vorotool.types.polygons.conversion import to_shapely
-from vorotool.types.polygons.polygon_set import HOLE, SHELL
+from vorotool.types.polygons.polygon_set import HOLE
 
 RANDOM = [random_labels(np.random.default_rng(seed)) for seed in range(24)]
 IMAGES = [all_masks(3, 4), all_masks(4, 3), *(image for image in RANDOM if image.any())]
@@ -64,43 +63,6 @@ def test_crack_outlines_of_all_small_masks(index, connectivity):
         assert np.count_nonzero(made.ring_kind == HOLE) == outside.max() - 1
 
 
-def test_collinear_runs_are_merged():
-    made = outlines(np.ones((3, 5), dtype=bool))
-    assert made.xy.tolist() == [[-0.5, -0.5], [4.5, -0.5], [4.5, 2.5], [-0.5, 2.5]]
-    assert (made.ring_kind.tolist(), made.ids, made.connectivity) == ([SHELL], [1], 8)
-
-
-def test_touching_labels_have_all_vertices_of_their_border():
-    image = np.array([[1, 1, 1], [2, 2, 3]], dtype=np.uint8)
-    made = outlines(image)
-    assert made.ids == [1, 2, 3]
-    assert [1.5, 0.5] in made.ring(0).tolist()  # where 2 and 3 meet on the straight side of 1
-    vorotool.planar_graph(made, strict=True)
-
-
-def test_components_of_a_label_are_polygons_of_one_feature():
-    made = outlines(np.array([[7, 0, 7], [0, 0, 0], [3, 0, 0]], dtype=np.uint8))
-    assert made.ids == [3, 7, 7]
-    assert made.feature.tolist() == [0, 1, 1]
-    assert made.part.tolist() == [1, 1, 2]
-    assert outlines(np.array([[7, 0, 7]]), mode="components").ids == [1, 2]
-
-
-def test_pixels_that_meet_at_a_corner():
-    pair = np.array([[1, 0], [0, 1]], dtype=bool)
-    one, two = (outlines(pair, connectivity=connectivity) for connectivity in (8, 4))
-    assert len(one), len(two) == (1, 2)
-    assert one.xy.tolist().count([0.5, 0.5]) == 2
-    assert [len(set(map(tuple, two.ring(k).tolist()))) for k in (0, 1)] == [4, 4]
-    around = np.array([[1, 1, 1], [1, 0, 1], [1, 1, 0]], dtype=bool)  # the hole meets the outside at a corner
-    assert [np.count_nonzero(outlines(around, connectivity=c).ring_kind == HOLE) for c in (8, 4)] == [1, 1]
-    assert [table(around, c)["cycles"].tolist() for c in (8, 4)] == [[1], [0]]
-
-
-def table(mask, connectivity):
-    return vorotool.polygon_table(vorotool.skeleton_exact(outlines(mask, connectivity=connectivity)))
-
-
 @pytest.mark.parametrize("dtype", [bool, np.uint8, np.uint16, np.uint32, np.int64, np.float32])
 def test_types_of_pixels(dtype):
     made = outlines(np.array([[0, 1], [1, 1]], dtype=dtype))
@@ -119,18 +81,6 @@ def test_a_label_image_lies_in_its_frame():
     assert isinstance(labels, LabelImage)
     assert made.ids == [1, 2]
     assert made.xy.min(axis=0).tolist() == [8.5, 18.5]
-
-
-def test_one_pixel_full_and_empty():
-    assert ring_areas(outlines(np.ones((1, 1), dtype=bool)))[1].tolist() == [1]
-    assert outlines(np.full((2, 2), 9)).ids == [9]
-    for nothing in (np.zeros((3, 3), dtype=np.uint8), np.zeros((1, 1), dtype=bool)):
-        with pytest.warns(VorotoolWarning, match="no foreground"):
-            made = outlines(nothing)
-        assert len(made) == 0
-        with pytest.warns(VorotoolWarning, match="interior skeleton is empty"):
-            assert len(vorotool.skeleton_exact(made)) == 0
-        assert len(outlines(nothing, invert=True)) == 1
 
 
 # ---- contours ----
@@ -200,12 +150,6 @@ def test_contours_of_labels_meet_without_crossing(connectivity):
         assert set(made.ids) == set(np.unique(image[image > 0]).tolist())
 
 
-def test_only_the_smaller_of_two_labels_goes_through_a_corner():
-    image = np.array([[2, 5], [5, 2]], dtype=np.uint8)
-    assert outlines(image, outline="contour").ids == [2, 5, 5]
-    assert outlines(image).ids == [2, 5]
-
-
 # ---- fewer vertices ----
 
 
@@ -267,19 +211,6 @@ def test_options_that_are_none():
 def test_too_many_vertices_are_refused_before_they_are_made():
     with pytest.raises(LimitError, match="14 vertices, more than max_sites=10"):
         outlines(np.eye(4, dtype=bool) | np.eye(4, k=1, dtype=bool), max_sites=10)
-
-
-def test_values_that_say_nothing():
-    with pytest.raises(InputError, match=r'threshold=T .* or threshold="otsu"'):
-        outlines(Raster(np.zeros((4, 4, 3), dtype=np.uint8)))
-    with pytest.raises(InputError, match="NaN or infinite"):
-        outlines(np.array([[np.nan, 1.0]]))
-    with pytest.raises(InputError, match="contours need finite values"):
-        outlines(np.array([[np.nan, 1.0]]), threshold=0.5, outline="contour")
-    assert len(outlines(np.array([[np.nan, 1.0]]), threshold=0.5)) == 1
-    noise = np.random.default_rng(0).integers(0, 255, (64, 64))
-    with pytest.raises(InputError, match="a photograph"):
-        outlines(noise)
 
 
 @pytest.mark.parametrize("connectivity", [4, 8])

@@ -142,17 +142,6 @@ def test_thin_images(shape, dtype):
     np.testing.assert_array_equal(regions.voronoi_diagram(labels), expected_diagram(labels))
 
 
-def test_single_pixel():
-    table = regions.region_table(LabelImage(np.array([[9]], dtype=np.uint8), Frame(5, -3, 1, 1)))
-    row = {name: table[name].tolist()[0] for name in table}
-    assert row["perimeter"] == 4
-    assert (row["bbox_x"], row["bbox_y"], row["bbox_w"], row["bbox_h"]) == (5, -3, 1, 1)
-    assert (row["x"], row["y"]) == (5, -3)
-    assert row["nearest_label"] is None
-    assert row["nearest_distance"] is None
-    assert row["max_distance"] is None
-
-
 @pytest.mark.parametrize("threads", [1, 2, 3, 4, 5])
 def test_bands_leave_no_trace(threads):
     """Rows of 2^19 pixels make pieces of one row; regions run through many of them."""
@@ -185,39 +174,6 @@ def test_components_that_meet_late(pattern):
         labels[:] = np.indices(labels.shape).sum(axis=0) % 2 + 1
     table = regions.region_table(LabelImage(labels))
     assert table["components"].tolist() == [row["components"] for row in expected_measures(labels)]
-
-
-def test_sparse_labels_up_to_the_last():
-    names = np.array([0, 1, 70_000, 2**31, 2**32 - 1], dtype=np.uint32)
-    small = np.random.default_rng(0).integers(0, 5, (30, 30))
-    table = regions.region_table(LabelImage(names[small]))
-    dense = regions.region_table(LabelImage(small.astype(np.uint8)))
-    assert table["label"].tolist() == names[1:].tolist()
-    for name in ("area", "perimeter", "components", "bbox_w"):
-        assert table[name].tolist() == dense[name].tolist()
-    assert borders_of(names[small]) == [(int(names[a]), int(names[b]), c) for a, b, c in expected_borders(small)]
-
-
-def test_turns_and_mirrors():
-    labels, _, _ = nearest_label_image((40, 57), 25, 5)
-    table = regions.region_table(LabelImage(labels))
-    for turned in (np.rot90(labels), np.fliplr(labels), labels[::-1], labels.T):
-        other = regions.region_table(LabelImage(turned))
-        for name in ("area", "perimeter", "neighbors", "components", "touches_frame"):
-            assert other[name].tolist() == table[name].tolist(), name
-        assert borders_of(turned) == borders_of(labels)
-    np.testing.assert_array_equal(regions.voronoi_diagram(np.rot90(labels)), np.rot90(regions.voronoi_diagram(labels)))
-
-
-def test_renumbering_permutes_the_rows():
-    labels, _, _ = nearest_label_image((30, 30), 12, 6)
-    order = np.random.default_rng(0).permutation(12)
-    renumbered = np.concatenate([[0], order + 1])[labels].astype(np.uint16)
-    table, other = (regions.region_table(LabelImage(image)) for image in (labels, renumbered))
-    present = np.unique(labels) - 1
-    for name in ("area", "perimeter", "neighbors", "bbox_x"):
-        by_label = dict(zip(other["label"].tolist(), other[name].tolist(), strict=True))
-        assert [by_label[int(order[k]) + 1] for k in present] == table[name].tolist()
 
 
 def test_every_site_has_a_row_with_seeds():
@@ -277,14 +233,6 @@ def test_no_region_at_all():
     assert regions.color_regions(LabelImage(np.zeros((3, 4), dtype=np.uint16))).tolist() == [0]
 
 
-def test_measures_can_be_shared():
-    labels, _, _ = nearest_label_image((20, 20), 7, 1)
-    image = LabelImage(labels)
-    measures = regions.measure_regions(image)
-    assert borders_of(labels, measures=measures) == borders_of(labels)
-    assert regions.color_regions(image, measures=measures).tolist() == regions.color_regions(image).tolist()
-
-
 # ---- the diagram in bands -----------------------------------------------------------------------------
 
 
@@ -334,14 +282,6 @@ def test_neighbors_never_share_a_color(labels):
     pairs = sides(labels)
     pairs = pairs[(pairs > 0).all(axis=1) & (pairs[:, 0] != pairs[:, 1])]
     assert (colors[pairs[:, 0]] != colors[pairs[:, 1]]).all()
-
-
-def test_a_tessellation_needs_few_colors_of_equal_frequency():
-    labels, _, _ = nearest_label_image((200, 200), 400, 9)
-    labels_found, colors = regions.region_colors(LabelImage(labels))
-    uses = np.bincount(colors)[1:]
-    assert len(uses) <= 6
-    assert uses[:4].min() > len(labels_found) / 10
 
 
 def test_a_huge_label_needs_no_huge_array():

@@ -16,14 +16,6 @@ from vorotool import UsageError, VerificationError, necks, skeleton_exact, verif
 DUMBBELL = [[0, 0], [4, 0], [4, 1.5], [7, 1.5], [7, 0], [12, 0], [12, 6], [7, 6], [7, 2.5], [4, 2.5], [4, 4], [0, 4]]
 
 
-def corridor(*bumps, length=100, side=4):
-    """A corridor from y = 0 to 4, over which stand boxes with their left side, width and height."""
-    top = [[length, side]]
-    for x, width, height in sorted(bumps, reverse=True):
-        top += [[x + width, side], [x + width, side + height], [x, side + height], [x, side]]
-    return [[0, 0], [length, 0], *top, [0, side]]
-
-
 def rooms(*parts):
     """Rectangles in a row, each of a length and a height, around y = 0."""
     x, upper = 0.0, []
@@ -68,47 +60,10 @@ def test_dumbbell_of_discs_of_many_sides(width):
     assert narrow.beside[0] == pytest.approx([inscribed, inscribed], rel=1e-6)
 
 
-def test_chain_of_rooms_has_the_largest_that_are_reached_by_wider_necks():
-    found = necks(rooms((10, 10), (3, 4), (6, 6), (3, 2), (8, 8), (3, 5), (12, 12)))
-    assert found.width.tolist() == [4, 2, 5]
-    assert found.beside.tolist() == [[3, 5], [5, 6], [4, 6]]
-
-
-def test_small_bumps_in_a_corridor_do_not_hide_the_rooms_beyond():
-    found = necks(rooms((10, 10), (5, 2), (1, 2.4), (5, 1.8), (1, 2.4), (5, 2), (12, 12)))
-    lowest = found.width.argmin()
-    assert found.beside[lowest].tolist() == [5, 6]
-    assert sorted(found.beside[:, 0].tolist())[:2] == pytest.approx([1.11, 1.11], abs=0.1)
-
-
 def test_of_equally_narrow_necks_the_first_counts_as_narrower():
     found = necks(rooms((10, 10), (5, 2), (6, 6), (5, 2), (12, 12)))
     assert found.width.tolist() == [2, 2]
     assert found.beside.tolist() == [[5, 6], [3, 6]]
-
-
-def test_comb_has_necks_between_its_teeth_but_not_in_them():
-    found = necks(corridor((10, 2, 9), (30, 2, 9), (50, 2, 9)))
-    assert found.xy.tolist() == [[21, 2], [41, 2]]
-    assert found.width.tolist() == [4, 4]
-    assert found.beside.tolist() == [[2.125, 2.125]] * 2
-
-
-def test_ring_with_one_narrow_place_has_the_same_maximum_on_both_sides():
-    ring = {"shell": [[0, 0], [20, 0], [20, 20], [0, 20]], "holes": [[[4, 8], [6, 8], [6, 19], [4, 19]]]}
-    found = necks(ring)
-    narrow = found.taken(found.width == found.width.min())
-    assert narrow.feet.tolist() == [[[5, 19], [5, 20]]]
-    assert narrow.beside[0, 0] == narrow.beside[0, 1] == pytest.approx(skeleton_exact(ring).radius.max())
-
-
-def test_neck_between_two_vertices_and_between_vertex_and_edge():
-    notch = [[0, 0], [4, 0], [5, 2], [6, 0], [10, 0], [10, 8], [6, 8], [5, 5], [4, 8], [0, 8]]
-    found = necks(notch)
-    assert found.feet.tolist() == [[[5, 2], [5, 5]]]
-    assert found.skeleton.site_table.kind[found.sites].tolist() == [[0, 0]]
-    found = necks([[0, 0], [10, 0], [10, 4], [6, 2], [0, 4]])
-    assert found.skeleton.site_table.kind[found.sites].tolist() == [[1, 0]]
 
 
 @pytest.mark.parametrize("family", [star, crossing, holed, tiles, valid])
@@ -135,16 +90,6 @@ def essence(found, matrix=((1, 0), (0, 1))):
     feet = found.feet @ np.array(matrix, dtype=float) + 0.0
     rows = np.concatenate([np.sort(feet.view(complex)[..., 0], axis=1).view(float), found.beside], axis=1)
     return rows[np.lexsort(rows.T[::-1])]
-
-
-@pytest.mark.parametrize("seed", [0, 1, 3, 4, 5, 6])
-def test_order_and_direction_of_vertices_make_no_difference(seed):
-    ring = blob(seed)
-    expected = necks(ring)
-    for changed in (np.roll(ring, 7, axis=0), ring[::-1]):
-        found = necks(changed)
-        for name in ("feet", "xy", "width", "beside"):
-            assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=1e-12, abs=1e-11)
 
 
 @pytest.mark.parametrize("seed", [0, 1, 3, 4, 5, 6])

@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 import vorotool
-from engines.necks.test_necks import DUMBBELL, blob, rooms
+from engines.necks.test_necks import DUMBBELL
 from support.families.skeleton_shapes import crossing, holed, several, star, tiles, valid
 from support.few import few
 from vorotool import UsageError, VerificationError, necks, parts, verify_parts
@@ -30,15 +30,6 @@ def test_dumbbell_is_cut_in_two():
 @pytest.mark.parametrize(("ratio", "count"), [(0.24, 1), (0.25, 2), (1, 2), (0, 1)])
 def test_the_ratio_decides(ratio, count):
     assert len(parts(DUMBBELL, neck=ratio)) == count
-
-
-def test_a_chain_falls_into_its_rooms():
-    shape = rooms((10, 10), (3, 4), (6, 6), (3, 2), (8, 8), (3, 5), (12, 12))
-    assert len(parts(shape)) == 2
-    pieces = parts(shape, neck=1)
-    assert pieces.area.tolist() == [106, 36 + 6 + 3, 64 + 3 + 7.5, 144 + 7.5]
-    assert pieces.between.tolist() == [[0, 1], [1, 2], [2, 3]]
-    verify_parts(pieces)
 
 
 def test_a_cut_that_parts_nothing_is_left_out():
@@ -101,28 +92,6 @@ def test_random_shapes(family, seed):
         full = (np.diff(pieces.polygons.ring_starts) > 2).all()
         assert not full or shapely.is_valid(shapes).all()
         assert shapely.area(shapes) == pytest.approx(pieces.area, rel=1e-9)
-
-
-@pytest.mark.parametrize("seed", [0, 1, 3, 4])
-def test_order_of_vertices_makes_no_difference(seed):
-    ring = blob(seed)
-    expected = parts(ring, neck=0.9)
-    for changed in (np.roll(ring, 5, axis=0), ring[::-1]):
-        found = parts(changed, neck=0.9)
-        assert found.polygons.ring_starts.tolist() == expected.polygons.ring_starts.tolist()
-        assert found.polygons.xy == pytest.approx(expected.polygons.xy, abs=1e-10)
-        assert found.between.tolist() == expected.between.tolist()
-
-
-@pytest.mark.parametrize("connectivity", [4, 8])
-def test_masks(connectivity):
-    image = (np.random.default_rng(3).random((24, 30)) < 0.6).astype(np.uint8)
-    pieces = parts(vorotool.outlines(image, connectivity=connectivity))
-    verify_parts(pieces)
-    assert pieces.area.sum() == image.sum()
-    shapes = pieces.to_shapely()
-    assert shapely.is_valid(shapes).all()
-    assert shapely.area(shapely.union_all(shapes)) == pytest.approx(image.sum())
 
 
 def test_pieces_say_what_their_polygon_says():

@@ -27,11 +27,6 @@ def test_offsets_are_those_of_shapely(family, begin):
         assert failure(small(family, 3, most=10), np.random.default_rng(3), slice(begin, None, 2)) is None
 
 
-def test_a_square_has_round_corners_outside():
-    made = vorotool.offset([[0, 0], [4, 0], [4, 4], [0, 4]], [1.0, -1.0])
-    assert sorted(made.area.tolist()) == pytest.approx([4.0, 32 + np.pi])
-
-
 def test_what_has_vanished_is_not_there():
     made = vorotool.offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-1.5])
     assert len(made.area) == 0

@@ -91,16 +91,6 @@ def test_labels_grow_as_those_of_scikit_image(ndim, distance, spacing):
         assert found[tuple(place)] < expected[tuple(place)]
 
 
-def test_labels_of_lists_and_refusals():
-    assert compat.expand_labels([0, 0, 4, 0, 0, 0, 2], 2).tolist() == [4, 4, 4, 4, 2, 2, 2]
-    assert compat.expand_labels([[7, 0, 0, 0, 2]], spacing=1, distance=1).tolist() == [[7, 7, 0, 2, 2]]
-    for given in (np.zeros((2,) * 4, int), 5):
-        with pytest.raises(vorotool.InputError, match="one to three axes"):
-            compat.expand_labels(given)
-    with pytest.raises(vorotool.UsageError, match="spacing"):
-        compat.expand_labels([[1, 0]], 1, (1, 1, 1))
-
-
 def test_medial_axis_of_a_part():
     image = np.zeros((20, 30), np.uint8)
     image[5:15, 5:25] = 1
@@ -134,17 +124,3 @@ def test_cells_of_buildings():
     assert compat.morphological_tessellation(houses.geometry, clip=None).area.sum() > 80
     with pytest.raises(vorotool.UsageError, match="'box'"):
         compat.morphological_tessellation(houses, clip="box")
-
-
-def test_cells_as_shapely_has_them():
-    rng = np.random.default_rng(3)
-    points = shapely.MultiPoint(rng.random((30, 2)))
-    ours = compat.voronoi_polygons(points, extend_to=shapely.box(-1, -1, 3, 2))
-    theirs = shapely.voronoi_polygons(points, extend_to=shapely.box(-1, -1, 3, 2), ordered=True)
-    assert len(ours.geoms) == len(theirs.geoms) == 30
-    for one, other in zip(ours.geoms, theirs.geoms, strict=True):
-        assert one.symmetric_difference(other).area < 1e-9
-    with pytest.raises(vorotool.UsageError, match="only_edges"):
-        compat.voronoi_polygons(points, only_edges=True)
-    with pytest.raises(AttributeError):
-        vorotool.voronoi_polygons  # noqa: B018

@@ -10,10 +10,8 @@ import shapely
 from scipy import ndimage
 from skimage import morphology, segmentation
 
-import vorotool
 from vorotool.engines import peers
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
-from vorotool.types.points.label_image import LabelImage
 
 SHAPES = [(1, 1), (1, 17), (19, 1), (13, 21), (64, 50)]
 DENSITIES = [0.02, 0.3, 0.9]
@@ -24,16 +22,6 @@ def mask_of(shape, density, seed=0):
     mask = np.random.default_rng([*shape, seed]).random(shape) > density
     mask.flat[mask.size // 2] = False
     return mask
-
-
-def labels_of(shape, count, seed=0):
-    """A label image of single pixels and a block."""
-    random = np.random.default_rng([*shape, count, seed])
-    labels = np.zeros(shape, np.uint16)
-    places = random.choice(labels.size, min(count, labels.size), replace=False)
-    labels.flat[places] = random.integers(1, 900, len(places))
-    labels[: shape[0] // 4, : shape[1] // 4] = 5
-    return labels
 
 
 def brute_nearest(mask):
@@ -59,23 +47,6 @@ def test_distances_are_those_of_scipy(shape, density):
     assert np.array_equal(peers.distance_transform(mask, return_distances=False, return_indices=True), indices)
 
 
-def test_scipy_names_another_pixel_of_a_tie_than_the_first_one():
-    mask = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]], bool)
-    _, theirs = ndimage.distance_transform_edt(mask, return_indices=True)
-    _, ours = peers.distance_transform(mask, return_indices=True)
-    assert ours[:, 1, 1].tolist() == [0, 0]
-    y, x = np.indices(mask.shape)
-    assert np.array_equal(np.hypot(*(theirs - [y, x])), np.hypot(*(ours - [y, x])))
-
-
-@pytest.mark.parametrize("spacing", [1, 0.325, (2, 2), [0.5, 0.5], np.array([3.0, 3.0]), Fraction(1, 3)])
-def test_spacing_scales_distances(spacing):
-    mask = mask_of((20, 31), 0.1)
-    side = float(spacing if np.ndim(spacing) == 0 else spacing[0])
-    theirs = ndimage.distance_transform_edt(mask, sampling=side)
-    np.testing.assert_allclose(peers.distance_transform(mask, spacing=spacing), theirs, rtol=1e-15, atol=1e-12)
-
-
 @pytest.mark.parametrize(
     ("spacing", "words"),
     [
@@ -91,18 +62,6 @@ def test_spacing_scales_distances(spacing):
 def test_other_spacings_are_refused(function, spacing, words):
     with pytest.raises(UsageError, match=words):
         function(np.array([[0, 1]]), spacing=spacing)
-
-
-def test_any_layout_and_type_is_taken():
-    mask = mask_of((16, 12), 0.2)
-    expected = peers.distance_transform(mask)
-    frozen = mask.copy()
-    frozen.flags.writeable = False
-    forms = [mask[:, ::-1][:, ::-1], np.asfortranarray(mask), frozen, mask.tolist(), mask.astype(">i8"), mask * -2.5]
-    for form in (*forms, np.ma.array(mask, mask=False), np.where(mask, np.nan, 0)):
-        assert np.array_equal(peers.distance_transform(form), expected)
-    for threads in (1, 2):
-        assert np.array_equal(peers.distance_transform(mask, threads=threads), expected)
 
 
 def test_masks_that_say_nothing():
@@ -127,25 +86,6 @@ def test_what_is_no_image_is_refused(function, wrong):
         function(wrong)
 
 
-# ---- labels --------------------------------------------------------------------------------------
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("distance", [0, 1, 1.5, 4, math.inf])
-def test_labels_grow_as_those_of_scikit_image_but_for_ties(shape, distance):
-    labels = labels_of(shape, 9)
-    ours, theirs = peers.expand_labels(labels, distance), segmentation.expand_labels(labels, distance)
-    assert ours.dtype == labels.dtype
-    assert np.array_equal(ours != 0, theirs != 0)
-    nearest = {label: ndimage.distance_transform_edt(labels != label) for label in np.unique(labels[labels > 0])}
-    for y, x in np.argwhere(ours != theirs):
-        assert nearest[ours[y, x]][y, x] == nearest[theirs[y, x]][y, x]
-        assert ours[y, x] < theirs[y, x]
-
-
-def test_the_smallest_label_has_a_tie():
-    assert peers.expand_labels([[9, 0, 2]]).tolist() == [[9, 2, 2]]
-    assert peers.expand_labels([[2, 0, 9]]).tolist() == [[2, 2, 9]]
-
-
 def test_the_limit_is_exact_where_that_of_scikit_image_is_rounded():
     labels = np.zeros((4, 5), np.uint8)
     labels[0, 0] = 1
@@ -155,15 +95,6 @@ def test_the_limit_is_exact_where_that_of_scikit_image_is_rounded():
     ours = peers.expand_labels(labels, root)
     assert (ours[3, 2], ours[2, 3], ours[2, 2]) == (0, 0, 1)
     assert peers.expand_labels(labels, math.nextafter(root, 4))[2, 3] == 1
-
-
-def test_the_limit_is_in_the_unit_of_the_spacing():
-    labels = labels_of((30, 30), 6)
-    assert np.array_equal(peers.expand_labels(labels, 1.5, spacing=0.5), peers.expand_labels(labels, 3))
-    third = Fraction(1, 3)
-    assert np.array_equal(peers.expand_labels(labels, 1, spacing=third), peers.expand_labels(labels, 3))
-    theirs = segmentation.expand_labels(labels, 1.5, spacing=0.5)
-    assert np.array_equal(peers.expand_labels(labels, 1.5, spacing=(0.5, 0.5)) != 0, theirs != 0)
 
 
 @pytest.mark.parametrize("kind", ["bool", "u1", ">u2", "i4", "i8", "u8"])
@@ -242,22 +173,6 @@ def test_the_discs_of_an_axis_give_the_mask_as_those_of_scikit_image_do(seed):
     assert axis.sum() < 1.4 * theirs.sum()
 
 
-def test_an_axis_is_on_the_middle_row_and_its_end_is_the_center_of_the_last_disc():
-    axis = peers.medial_axis(np.ones((5, 21)))
-    assert np.flatnonzero(axis.any(axis=1)).tolist() == [2]
-    assert axis[2, 3:18].all()
-    assert set(peers.medial_axis(np.ones((4, 20))).sum(axis=0)[5:15].tolist()) <= {1, 2}
-
-
-def test_axes_of_small_masks():
-    assert peers.medial_axis(np.zeros((3, 2))).tolist() == [[False, False]] * 3
-    assert peers.medial_axis(np.zeros((0, 2))).shape == (0, 2)
-    for place in ((0, 0), (1, 2), (2, 3)):
-        one = np.zeros((3, 4), bool)
-        one[place] = True
-        assert np.array_equal(peers.medial_axis(one), one)
-
-
 # ---- cells ---------------------------------------------------------------------------------------
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("extend_to", [None, shapely.box(-5, -40, 30, 2), shapely.Point(0.5, 0.5), shapely.Point()])
@@ -282,9 +197,3 @@ def test_cells_of_few_points():
     assert [cell.is_empty for cell in cells.geoms] == [False, False, True]
     with pytest.raises(InputError, match="invalid extend_to: expected a geometry of shapely"):
         peers.voronoi_polygons([[0, 0], [1, 1]], extend_to=(0, 0, 4, 4))
-
-
-def test_a_label_image_is_taken_by_its_pixels():
-    labels = vorotool.tessellate([[1, 1], [5, 2]], shape=(4, 7), max_distance=1)
-    assert isinstance(labels, LabelImage)
-    assert peers.expand_labels(labels.labels, math.inf).all()

@@ -1,7 +1,6 @@
 """Pruned skeletons and centerlines: beside brute force, nested, connected."""
 
 import warnings
-from dataclasses import replace
 
 import networkx
 import numpy as np
@@ -62,12 +61,3 @@ def test_parts_have_what_the_whole_has(criterion, threads, monkeypatch):
                 patch.setattr(pruning, "PART", 50)
                 assert side == "exterior" or len(independent_parts(whole, group)) > 5
                 assert differing(vorotool.prune(whole, **{criterion: threshold}, threads=threads), expected) == []
-
-
-def test_arcs_in_another_order_are_one_part(monkeypatch):
-    monkeypatch.setattr(pruning, "PART", 2)
-    whole = vorotool.skeleton_exact([COMB, np.add(COMB, 40)])
-    assert len(independent_parts(whole, whole.polygon)) == 2
-    assert len(independent_parts(whole, whole.polygon[::-1])) == 1
-    turned = replace(whole, arcs=len(whole.vertices) - 1 - whole.arcs)
-    assert independent_parts(turned, turned.polygon) == [(slice(0, len(whole)), slice(0, len(whole.vertices)))]

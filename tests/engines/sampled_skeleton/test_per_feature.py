@@ -13,7 +13,6 @@ from vorotool.engines.features import batches as feature_sheets
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation_of_sides, feature_approximation
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
-from vorotool.errors import LimitError, UsageError
 
 ARRAYS = ("vertices", "radius", "arcs", "sites", "polygon", "side", "branch", "length", "error_bound")
 OUTER = [[0, 0], [10, 0], [10, 10], [0, 10]]
@@ -75,34 +74,6 @@ def test_all_parts_pass_the_checker(name, side):
         verify_approximate(part, step=0.8)
     assert sorted(np.concatenate(found.arcs).tolist()) == list(range(len(found.skeleton)))
     assert found.skeleton.features == "separate"
-
-
-def test_one_feature_is_the_same_together():
-    shape = [[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]]
-    for options in OPTIONS:
-        made = [vorotool.skeleton_approx(shape, features=way, **options) for way in ("separate", "together")]
-        assert all(getattr(made[0], array).tobytes() == getattr(made[1], array).tobytes() for array in ARRAYS)
-
-
-def test_an_inner_feature_has_a_skeleton_of_its_own():
-    separate, both = (
-        vorotool.skeleton_approx(SETS["nested"], step=0.5, features=way) for way in ("separate", "together")
-    )
-    assert np.unique(separate.polygon).tolist() == [0, 1]
-    assert both.features == "together"
-    assert np.unique(both.polygon).tolist() == [0]
-    with pytest.raises(UsageError):
-        vorotool.skeleton_approx(OUTER, step=1, features="alone")
-
-
-def test_seeds_of_all_features_are_counted():
-    shapes = as_polygons(SETS["nested"])
-    count = feature_approximation(shapes, SamplingOptions(step=0.5)).counts()["samples"]
-    assert count == 80 + 32
-    feature_approximation(shapes, SamplingOptions(step=0.5), most=count)
-    for options in (SamplingOptions(step=0.5), SamplingOptions(tolerance=0.001)):
-        with pytest.raises(LimitError, match="more than 111"):
-            feature_approximation(shapes, options, most=count - 1)
 
 
 def test_groups_that_do_not_go_with_the_points_are_refused():

@@ -4,16 +4,14 @@ import warnings
 
 import numpy as np
 import pytest
-import shapely
 
 import vorotool
 from support.families.skeleton_shapes import FAMILIES, TOUCHING
 from support.readers.written import differing
-from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.arrangement.repaired_polygons import placed_shapes
-from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_voronoi, unwanted_sides
-from vorotool.engines.skeleton.exact import ShapeDiagram, shape_diagram, skeleton_of
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
+from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
 
 
 def contours(random):
@@ -63,31 +61,3 @@ def test_what_is_left_is_of_the_whole_diagram_and_in_its_order(family):
         own = np.hstack([number[part.edges], part.edge_sites]).tolist()
         places = [edges[tuple(row)] for row in own]
         assert places == sorted(places)
-
-
-def test_points_without_segments_are_outside():
-    graph = planar_graph([[0, 0], [8, 0], [8, 4], [0, 4]])
-    far = np.concatenate([graph.points, [[1 - 2**30, 0], [1 - 2**30, 9]]]).astype(np.int32)
-    unwanted = np.insert(unwanted_sides(graph, graph.is_inside), 4, [NEITHER, NEITHER])
-    beside = segment_voronoi(far, graph.segments, unwanted=unwanted)
-    alone = segment_voronoi(graph.points, graph.segments, unwanted=unwanted_sides(graph, graph.is_inside))
-    assert np.array_equal(beside.vertices, alone.vertices)
-    finite = [diagram.edges[(diagram.edges >= 0).all(axis=1)].tolist() for diagram in (beside, alone)]
-    assert finite[0] == finite[1] == [[0, 4], [1, 4], [2, 5], [3, 5], [4, 5]]
-
-
-def test_a_line_of_one_place_may_be_inside():
-    shape = shapely.GeometryCollection([shapely.box(0, 0, 8, 4), shapely.LineString([[3, 2], [3, 2]])])
-    with warnings.catch_warnings(action="ignore"):
-        made, whole = vorotool.skeleton_exact(shape), skeleton_of(shape_diagram(shape))
-    assert 0 < len(made) == len(whole)
-    assert made.vertices.tobytes() == whole.vertices.tobytes()
-
-
-def test_a_byte_for_each_site_is_needed():
-    graph = planar_graph([[0, 0], [8, 0], [8, 4]])
-    core = _core.kernel.PlanarGraph(graph.points, graph.segments, graph.segment_faces)
-    with pytest.raises(ValueError, match="unwanted sides"):
-        segment_voronoi(graph.points, graph.segments, unwanted=np.zeros(5, dtype=np.uint8))
-    with pytest.raises(ValueError, match="out of range"):
-        _core.segment_voronoi.unwanted_sides(core, np.ones(1, dtype=np.uint8))

@@ -8,7 +8,7 @@ import pytest
 import vorotool
 from support.families.skeleton_shapes import FAMILIES, TOUCHING, regular, small
 from support.oracles.tangent_discs import FIRST, Site, precision, sign, tangent_circles
-from vorotool.engines.skeleton.clearance import clearance_course, maxima, plateaus
+from vorotool.engines.skeleton.clearance import clearance_course, maxima
 
 _, TIE = FIRST
 
@@ -91,24 +91,6 @@ def test_regular_polygons_and_annuli(count):
 
 def rectangle(width, height):
     return np.array([[0, 0], [width, 0], [width, height], [0, height]], dtype=float)
-
-
-def test_a_rectangle_is_highest_all_along_its_middle():
-    skeleton = vorotool.skeleton_exact(rectangle(7, 3))
-    course = clearance_course(skeleton)
-    assert sorted(skeleton.vertices[maxima(skeleton, course)].tolist()) == [[1.5, 1.5], [5.5, 1.5]]
-    assert len(set(plateaus(skeleton, course)[maxima(skeleton, course)].tolist())) == 1
-
-
-def test_a_neck_is_least_inside_an_arc():
-    """Two corners face each other: the clearance is least half-way between them."""
-    shape = [[0, 0], [4, 0], [5, 2], [6, 0], [10, 0], [10, 6], [6, 6], [5, 4], [4, 6], [0, 6]]
-    skeleton = vorotool.skeleton_exact(shape)
-    course = clearance_course(skeleton)
-    (arc,) = np.flatnonzero(~np.isnan(course.least))
-    measures = skeleton.measures(np.array([arc]))
-    assert measures.place(course.least[[arc]]).tolist() == [[5.0, 3.0]]
-    assert measures.radius(course.least[[arc]]).tolist() == [1.0]
 
 
 def test_a_cut_end_is_judged_by_doubles():

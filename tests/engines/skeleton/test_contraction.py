@@ -15,7 +15,7 @@ from vorotool.engines.sampled_skeleton import per_feature
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
-from vorotool.engines.skeleton.contraction import contraction, without_equal_nodes
+from vorotool.engines.skeleton.contraction import contraction
 from vorotool.engines.skeleton.diagrams import all_edges, diagram_of_all
 from vorotool.engines.skeleton.verify_skeleton import check_arrays, check_branches
 from vorotool.errors import VorotoolWarning
@@ -139,20 +139,6 @@ def test_contracted_graphs_are_those_that_networkx_contracts(seed):
 
 def vars_of(skeleton):
     return {name: getattr(skeleton, name) for name in skeleton.__dataclass_fields__}
-
-
-def test_what_has_no_such_arc_is_the_same_value():
-    whole = vorotool.skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
-    assert without_equal_nodes(whole) is whole
-
-
-def test_a_part_that_is_one_place_keeps_one_arc():
-    squares = [[[x, 0], [x + 4, 0], [x + 4, 4], [x, 4]] for x in (0, 100)]
-    whole = vorotool.skeleton_exact(squares)
-    places = np.where(whole.vertices[:, :1] < 50, 2.0, whole.vertices)
-    made = without_equal_nodes(vorotool.Skeleton(**{**vars_of(whole), "vertices": places}))
-    assert made.polygon.tolist() == [0, 1, 1, 1, 1]
-    assert equal_ends(made).tolist() == [True, False, False, False, False]
 
 
 @pytest.mark.parametrize("features", ["separate", "together"])

@@ -6,10 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import shapely
 
 import vorotool
-from support.families.skeleton_shapes import FAMILIES, regular, under_symmetries
+from support.families.skeleton_shapes import FAMILIES, under_symmetries
 from support.few import few
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
 from vorotool.engines.skeleton.exact import shape_diagram, whole_diagram
@@ -49,17 +48,6 @@ def test_a_square_has_its_diagonals():
     assert len(np.unique(square.branch)) == 4
 
 
-def test_a_rectangle_has_a_ridge():
-    made = skeleton_of([[0, 0], [10, 0], [10, 4], [0, 4]])
-    assert places(made)[2:4] == [(2, 2, 2), (8, 2, 2)]
-    assert made.length.sum() == pytest.approx(6 + 4 * sqrt(8), rel=1e-15)
-
-
-def test_a_triangle_meets_in_the_incenter():
-    made = skeleton_of([[0, 0], [4, 0], [0, 3]])
-    assert places(made) == [(0, 0, 0), (0, 3, 0), (1, 1, 1), (4, 0, 0)]
-
-
 def test_an_l_has_a_parabola_around_its_reflex_corner():
     made = skeleton_of([[0, 0], [4, 0], [4, 2], [2, 2], [2, 4], [0, 4]])
     assert np.count_nonzero(made.is_parabola) == 2
@@ -71,51 +59,7 @@ def test_an_l_has_a_parabola_around_its_reflex_corner():
     assert made.length[made.is_parabola].tolist() == pytest.approx([expected] * 2, rel=1e-14)
 
 
-@pytest.mark.parametrize("count", [3, 5, 8, 64])
-def test_a_regular_polygon_has_spokes(count):
-    made = skeleton_of(np.round(regular(count)) if count in (3, 8) else regular(count))
-    at_center = np.abs(made.vertices).max(axis=1) < 2
-    assert np.count_nonzero(made.radius == 0) == count
-    assert made.length[(made.radius[made.arcs] == 0).any(axis=1)].min() > 990
-    assert at_center.any()
-
-
-def test_an_annulus_has_one_cycle():
-    outer, inner = regular(16, 100).round(), regular(16, 50).round()
-    made = skeleton_of([{"shell": outer.tolist(), "holes": [inner.tolist()]}])
-    table = vorotool.polygon_table(made)
-    assert (table["cycles"].tolist(), table["ends"].tolist(), table["holes"].tolist()) == ([1], [16], [1])
-    on_ring = made.radius > 20
-    assert np.abs(np.hypot(*made.vertices[on_ring].T) - 75).max() < 3
-
-
-def test_polygons_that_share_an_edge_have_their_own_skeletons():
-    made = skeleton_of([[[0, 0], [2, 0], [2, 2], [0, 2]], [[2, 0], [4, 0], [4, 2], [2, 2]]])
-    assert np.bincount(made.polygon).tolist() == [4, 4]
-    assert len(made.vertices) == 10  # corners that both have are not merged
-
-
-def test_a_bow_tie_falls_in_two():
-    with pytest.warns(VorotoolWarning, match="1 crossing"):
-        made = vorotool.skeleton_exact([[0, 0], [4, 4], [4, 0], [0, 4]])
-    vorotool.verify_skeleton(made)
-    assert len(made.polygons) == 2
-    assert np.bincount(made.polygon).tolist() == [3, 3]
-    crossing = made.site_table.source_ring == -1
-    assert made.site_ends[crossing, 0].tolist() == [[2, 2]]
-
-
-def test_boost_is_wrong_on_this_one():
-    shape = "(0,1)(100000,1)(12501,37499)(37500,62500)(100001,100001)(25000,87499)(-1,100001)(0,50001)"
-    made = skeleton_of([tuple(map(int, pair.split(","))) for pair in shape.strip("()").split(")(")])
-    assert vorotool.polygon_table(made)["cycles"].tolist() == [0]
-
-
 # ---- outside, and open lines ----
-
-
-def test_a_convex_polygon_has_nothing_outside():
-    assert len(skeleton_of([[0, 0], [4, 0], [0, 3]], side="exterior")) == 0
 
 
 def test_outside_ends_on_the_frame():
@@ -146,13 +90,6 @@ def test_a_parabola_is_cut_into_pieces():
     assert x == pytest.approx([-1, 1], abs=1e-12)  # y = (x^2 + 4) / 4
     cut = skeleton_of([{"line": [[-10, 0], [10, 0]]}, {"line": [[0, 2]]}], side="exterior", frame=(-4, 1.25, 8, 9))
     assert len(cut) == 2
-
-
-def test_lines_have_no_inside():
-    with pytest.warns(VorotoolWarning, match='use side="exterior"'):
-        assert len(vorotool.skeleton_exact({"line": [[0, 0], [3, 1], [5, 5]]})) == 0
-    made = skeleton_of({"line": [[0, 0], [4, 0], [4, 4]]}, side="exterior")
-    assert np.count_nonzero(made.radius == 0) == 1  # only in the corner
 
 
 def test_no_polygons_at_all():
@@ -224,28 +161,6 @@ def test_symmetries(turns, mirrored):
     assert described(made, lambda xy: xy @ matrix) == described(holed(lambda xy: xy))
 
 
-@pytest.mark.parametrize("exponent", [-40, 7])
-def test_powers_of_two_scale_everything(exponent):
-    plain, scaled = holed(lambda xy: xy), holed(lambda xy: np.ldexp(xy, exponent))
-    for name in ("vertices", "radius", "control", "length"):
-        assert np.array_equal(np.ldexp(getattr(plain, name), exponent), getattr(scaled, name), equal_nan=True), name
-    for name in ("arcs", "sites", "branch", "polygon"):
-        assert np.array_equal(getattr(plain, name), getattr(scaled, name)), name
-
-
-def test_moving_moves_everything():
-    move = np.array([1024, -4096])
-    plain, moved = holed(lambda xy: xy), holed(lambda xy: xy + move)
-    assert np.array_equal(plain.arcs, moved.arcs)
-    assert np.abs(plain.vertices + move - moved.vertices).max() < 1e-11
-    assert np.array_equal(plain.length, moved.length)
-
-
-def test_direction_and_start_of_rings_change_nothing():
-    reversed_ring = holed(lambda xy: np.roll(xy[::-1], 2, axis=0))
-    assert described(reversed_ring) == described(holed(lambda xy: xy))
-
-
 @pytest.mark.parametrize("threads", [2, 3])
 def test_threads_change_nothing(threads):
     land = vorotool.read(DATA / "great-lakes.geojson", properties=False)
@@ -253,16 +168,6 @@ def test_threads_change_nothing(threads):
     one, other = (vorotool.skeleton_exact(land, side="both", threads=count) for count in (1, threads))
     for name in ("vertices", "radius", "arcs", "control", "sites", "branch", "length"):
         assert np.array_equal(getattr(one, name), getattr(other, name), equal_nan=name == "control"), name
-
-
-def test_distance_to_the_boundary_is_the_radius():
-    lake = vorotool.read(DATA / "great-lakes.geojson")
-    with pytest.warns(VorotoolWarning, match="repeated"):
-        made = vorotool.skeleton_exact(lake)
-    from vorotool.types.polygons.conversion import to_shapely
-
-    border = shapely.boundary(shapely.unary_union([shapely.make_valid(s) for s in to_shapely(made.polygons)]))
-    assert np.abs(shapely.distance(shapely.points(made.vertices), border) - made.radius).max() < 1e-12
 
 
 # ---- the whole diagram, and gaps ----
@@ -302,14 +207,6 @@ def test_a_gap_leaves_the_corners_out():
     assert ends[2] == 0
     assert len(complete) == len(open_ends) + ends[1]
     assert np.isnan(complete.error_bound).all()
-
-
-def test_a_corner_of_nearly_180_degrees_is_joined_too():
-    shape = [[0, 0], [10, -0.5], [20, 0], [20, 10], [0, 10]]
-    for made in (skeleton_of(shape), skeleton_of(shape, gap=1)):
-        corners = made.vertices[made.radius == 0]
-        assert sorted(map(tuple, corners.tolist())) == sorted(map(tuple, shape))
-    assert len(skeleton_of([[0, 0], [9, 0], [9, 9], [0, 9]], gap=1, side="exterior")) == 0
 
 
 def test_an_edge_that_a_gap_would_remove_is_named():

@@ -20,20 +20,6 @@ INNER = [[6, 6], [14, 6], [14, 14], [6, 14]]
 ACROSS = [[-4, 8], [30, 8], [30, 11], [-4, 11]]
 
 
-@pytest.mark.parametrize("gap", [0.25, 1.0])
-@pytest.mark.parametrize("complete", [True, False])
-def test_an_outer_feature_is_what_it_is_without_the_inner_one(gap, complete):
-    made = vorotool.skeleton_exact([OUTER, INNER], gap=gap, complete=complete)
-    alone = vorotool.skeleton_exact([OUTER], gap=gap, complete=complete)
-    arcs = np.flatnonzero(made.polygon == 0)
-    assert np.array_equal(made.control[arcs], alone.control, equal_nan=True)
-    assert made.vertices[made.arcs[arcs]].tobytes() == alone.vertices[alone.arcs].tobytes()
-    assert set(made.polygon.tolist()) == {0, 1}
-    assert made.features == "separate"
-    together = vorotool.skeleton_exact([OUTER, INNER], gap=gap, complete=complete, features="together")
-    assert set(together.polygon.tolist()) == {0}
-
-
 @pytest.mark.parametrize("family", [fuzz.tiles, fuzz.nested, fuzz.parts, fuzz.scattered])
 @pytest.mark.parametrize("seed", few(range(4), 1))
 @pytest.mark.filterwarnings("ignore::vorotool.errors.VorotoolWarning")
@@ -97,23 +83,8 @@ def test_what_is_outside_is_of_all_features():
     assert differing(separate, drawing, EXACT) == []
 
 
-def test_both_sides_of_features_far_apart_are_the_two_sides():
-    shapes = [OUTER, [[x + 40, y] for x, y in INNER]]
-    both, inside, outside = (
-        vorotool.skeleton_exact(shapes, gap=0.5, side=side) for side in ("both", "interior", "exterior")
-    )
-    assert len(both) == len(inside) + len(outside)
-    assert both.length.sum() == pytest.approx(inside.length.sum() + outside.length.sum())
-
-
 def test_the_first_short_edge_of_all_features_is_named():
     shapes = [OUTER, [[0, 0], [9, 0], [9, 2]], [[0, 0], [9, 0], [9, 1]]]
     message = "polygon 2, shell, edge 2 from (9.0, 0.0) to (9.0, 2.0) is 2 long, and a gap of 1 at both ends leaves "
     with pytest.raises(InputError, match=re.escape(message) + r"nothing of it \(2 such edges\): use a gap below 0.5"):
         vorotool.skeleton_exact(shapes, gap=1)
-
-
-def test_features_without_an_inside_are_said_to_have_none():
-    with pytest.warns(VorotoolWarning, match="interior skeleton is empty: open lines"):
-        made = vorotool.skeleton_exact({"line": [[0, 0], [9, 0], [9, 9]]}, gap=1)
-    assert len(made) == 0

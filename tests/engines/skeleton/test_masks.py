@@ -122,17 +122,6 @@ def test_the_checker_passes_all_of_them(outline, connectivity):
 PAIR = vorotool.outlines(np.array([[1, 0], [0, 1]], dtype=bool))
 
 
-def test_a_skeleton_goes_through_a_corner():
-    made = vorotool.skeleton_exact(PAIR)
-    joint = np.flatnonzero((made.vertices == [0.5, 0.5]).all(axis=1))
-    assert len(joint) == 1
-    assert (made.degree[joint[0]], made.radius[joint[0]]) == (2, 0)
-    table = vorotool.branch_table(made)
-    inner = table["kind"] == "inner"
-    assert table["length"][inner].tolist() == pytest.approx([2**0.5])
-    assert table["r_min"][inner].tolist() == [0]
-
-
 @pytest.mark.parametrize("gap", [0.0, 0.25])
 def test_what_is_outside_goes_through_with_4_connectivity(gap):
     """The two pixels without label of a square of four, enclosed by a frame."""
@@ -172,15 +161,6 @@ def test_the_checker_finds_a_corner_that_two_labels_share():
     shared = replace(two, arcs=arcs, branch=branch, vertices=two.vertices[numbers], radius=two.radius[numbers])
     with pytest.raises(VerificationError, match="arcs in different polygons share"):
         vorotool.verify_skeleton(shared)
-
-
-def test_turning_a_mask_turns_its_skeleton():
-    image = random_labels(np.random.default_rng(3), 30) > 0
-    made = vorotool.skeleton_exact(vorotool.outlines(image))
-    turned = vorotool.skeleton_exact(vorotool.outlines(np.rot90(image)))
-    assert turned.length.sum() == pytest.approx(made.length.sum(), rel=1e-12)
-    back = np.stack([image.shape[1] - 1 - turned.vertices[:, 1], turned.vertices[:, 0]], axis=1)
-    assert sorted(map(tuple, np.round(back, 9).tolist())) == sorted(map(tuple, np.round(made.vertices, 9).tolist()))
 
 
 @pytest.mark.parametrize("connectivity", [4, 8])

@@ -39,28 +39,6 @@ def quietly(make, *arguments, **options):
         return make(*arguments, **options)
 
 
-def test_band_through_the_image():
-    band = np.zeros((9, 12), dtype=bool)
-    band[3:6] = True
-    made = opened(band)
-    assert made.vertices.tolist() == [[-0.5, 4], [11.5, 4]]
-    assert made.radius.tolist() == [1.5, 1.5]
-    assert made.on_frame.all()
-    assert (made.frame, made.border) == ((-0.5, -0.5, 12, 9), "open")
-
-
-def test_half_a_ring():
-    y, x = np.mgrid[:20, -20:21]
-    far = np.hypot(x, y)
-    ring = (far > 9) & (far < 15)
-    made = prune(opened(ring), scale=1.5)
-    assert len(np.unique(made.branch)) == 1
-    assert made.on_frame.sum() == 2
-    ends = made.vertices[made.on_frame]
-    assert ends[:, 1].tolist() == [-0.5, -0.5]
-    assert np.allclose(sorted(ends[:, 0]), [8, 32])
-
-
 @pytest.mark.parametrize("seed", few(range(6), 1))
 @pytest.mark.parametrize("options", [{"connectivity": 4}, {"connectivity": 8}, {"outline": "contour"}])
 def test_as_if_the_image_went_on(seed, options):
@@ -111,21 +89,6 @@ def test_pruning_keeps_what_leads_to_the_border():
     pruned = prune(made, scale=1.5)
     kept = {tuple(place) for place in pruned.vertices[pruned.on_frame].tolist()}
     assert {tuple(place) for place in made.vertices[made.on_frame].tolist()} <= kept
-
-
-def test_nothing_is_left_of_the_outline():
-    with pytest.warns(VorotoolWarning, match="inside the open border"):
-        assert len(opened(np.ones((4, 5), dtype=bool))) == 0
-    hole = np.ones((9, 9), dtype=bool)
-    hole[4, 4] = False
-    verify_skeleton(quietly(opened, hole))
-
-
-def test_no_object_at_the_border_is_as_it_was():
-    mask = np.pad(blobs(5), 2)
-    made, closed = opened(mask), skeleton_exact(outlines(mask))
-    assert sorted(made.length) == pytest.approx(sorted(closed.length))
-    assert made.site_table == closed.site_table or len(made.site_table) == len(closed.site_table)
 
 
 def test_what_is_refused():

@@ -92,21 +92,6 @@ def test_ends_stay_and_tangents_go_on(seed):
             assert ((before * behind).sum(axis=1) > 0).all()
 
 
-def test_a_straight_line_is_one_curve_with_even_handles():
-    line = vorotool.smooth(vorotool.centerline(vorotool.skeleton_exact([[0, 0], [9, 0], [9, 2], [0, 2]])), 0.1)
-    np.testing.assert_allclose(line.control, [[[0, 1], [3, 1], [6, 1], [9, 1]]], atol=1e-9)
-    assert line.error[0] < 1e-9
-
-
-def test_parabolas_between_lines_are_few_curves():
-    skeleton = vorotool.skeleton_exact([[0, 0], [40, 0], [40, 30], [20, 10], [0, 30]])
-    bent = skeleton.branch[skeleton.is_parabola]
-    assert len(bent)
-    for tolerance, most in ((0.5, 1), (0.05, 4)):
-        smoothed = vorotool.smooth(skeleton, tolerance)
-        assert (np.diff(smoothed.start)[bent] <= most).all()
-
-
 def test_a_corner_inside_a_branch_is_rounded_within_the_tolerance():
     whole = vorotool.skeleton_exact([[0, 0], [40, 0], [40, 40], [36, 40], [36, 4], [0, 4]])
     lines = vorotool.centerline(whole)
@@ -129,29 +114,6 @@ def test_closed_branches_have_one_tangent_all_around():
     out, back = first[1] - first[0], last[3] - last[2]
     assert abs(out[0] * back[1] - out[1] * back[0]) < 1e-9
     assert len(smoothed.control) <= 8
-
-
-def test_fewer_curves_for_larger_tolerances():
-    skeleton = vorotool.prune(vorotool.skeleton_exact(blob(5, 200)), scale=1.5)
-    counts = [len(vorotool.smooth(skeleton, tolerance).control) for tolerance in (4.0, 1.0, 0.2, 0.01)]
-    assert counts == sorted(counts)
-    assert counts[0] < counts[-1]
-
-
-def test_the_same_twice_and_moved():
-    skeleton = vorotool.skeleton_exact(ELL)
-    assert vorotool.smooth(skeleton, 0.3) == vorotool.smooth(skeleton, 0.3)
-    moved = vorotool.skeleton_exact((np.array(ELL) + 64).tolist())
-    control = vorotool.smooth(moved, 0.3).control - 64
-    np.testing.assert_allclose(control, vorotool.smooth(skeleton, 0.3).control, atol=1e-6)
-
-
-def test_a_single_place_is_a_curve_without_length():
-    square = vorotool.prune(vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]), scale=1.5)
-    smoothed = vorotool.smooth(square, 0.1)
-    assert smoothed.control.tolist() == [[[2.0, 2.0]] * 4]
-    assert smoothed.error.tolist() == [0.0]
-    vorotool.verify_smooth(smoothed)
 
 
 def test_nothing():

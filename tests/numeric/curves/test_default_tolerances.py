@@ -1,7 +1,5 @@
 """Each curve has its own tolerance, whatever else is in the file."""
 
-import json
-
 import numpy as np
 import pytest
 import shapely
@@ -47,21 +45,6 @@ def test_borders_and_skeletons_keep_their_distance():
     with coordinates_written(None) as curves:
         skeleton.to_shapely()
     assert 0 < curves.deviation <= 0.05
-
-
-def test_a_tolerance_is_absolute():
-    disc = vorotool.largest_discs(HOUSES[0])
-    with coordinates_written(None) as curves:
-        fine = disc.to_shapely(flatten=1e-6)[0]
-    assert curves.deviation <= 1e-6
-    assert shapely.get_num_coordinates(fine) > 2000
-
-
-def test_lines_are_no_finer_than_the_grid(tmp_path):
-    disc = vorotool.largest_discs(HOUSES[0])
-    vorotool.write(disc, tmp_path / "a.geojson", decimals=1)
-    ring = json.loads((tmp_path / "a.geojson").read_text())["features"][0]["geometry"]["coordinates"][0]
-    assert len(ring) == 17
 
 
 def test_circles_of_drawings_keep_their_form(tmp_path):

@@ -71,23 +71,6 @@ def test_the_page_holds_all_points_whatever_their_size(points, y_up, width):
     assert (placed <= np.array([page.width, page.height]) + 0.51).all()
 
 
-def test_the_page_keeps_proportions_and_turns_y():
-    points = np.array([[0, 0], [100, 0], [0, 50.0]])
-    down, up = (Page((0, 0, 100, 50), width=1040, y_up=y_up) for y_up in (False, True))
-    assert down.height == up.height == 540
-    np.testing.assert_allclose(down.place(points), [[20, 20], [1020, 20], [20, 520]])
-    np.testing.assert_allclose(up.place(points), [[20, 520], [1020, 520], [20, 20]])
-    assert bounds_of([Points("none", np.empty((0, 2)))]) == (0, 0, 1, 1)
-    assert bounds_of([Points("one", points), Texts("two", points - 7, "abc")]) == (-7, -7, 100, 50)
-
-
-def test_sides_close_every_ring():
-    assert HOLED.sides()[[3, 7, 10]].tolist() == [[3, 0], [7, 4], [10, 8]]
-    empty = Polygons("some", SQUARES, CORNERS[:3], rings=np.array([0, 0, 3, 3]))
-    assert empty.sides().tolist() == [[0, 1], [1, 2], [2, 0]]
-    assert Polygons("none", SQUARES, CORNERS[:0], rings=np.array([0])).sides().shape == (0, 2)
-
-
 def test_polygons_in_svg():
     root = svg(HOLED, width=1000)
     (group,) = root.iter(f"{NS}g")
@@ -100,22 +83,6 @@ def test_polygons_in_svg():
         assert path.attrib["vector-effect"] == "non-scaling-stroke"
         for ring, expected in zip(rings_of(path), corners, strict=True):
             np.testing.assert_allclose(ring, page.place(SQUARES[expected]), atol=0.0051)
-
-
-def test_polygons_without_ids_share_paths_of_their_color(monkeypatch):
-    count = 10
-    points = np.random.default_rng(0).random((3 * count, 2))
-    corners, rings = np.arange(3 * count, dtype=np.int32), 3 * np.arange(count + 1)
-    color_of = np.array([0, 0, 0, 1, 1, 0, 0, 0, 0, 0])
-    monkeypatch.setattr(layers_svg, "PATH_ROWS", 7)
-    for ids, most in ((None, 10**6), ([f"a{i}" for i in range(count)], 5)):
-        monkeypatch.setattr(layers_svg, "MOST_ELEMENTS", most)
-        layer = Polygons("t", points, corners, rings, colors=["#111111", "#222222"], color_of=color_of, ids=ids)
-        paths = list(svg(layer).iter(f"{NS}path"))
-        assert [(p.attrib["fill"], len(rings_of(p))) for p in paths] == [
-            ("#111111", 3), ("#222222", 2), ("#111111", 2), ("#111111", 3),
-        ]  # fmt: skip
-        assert all(len(ring) == 3 for p in paths for ring in rings_of(p))
 
 
 def test_lines_and_points_and_texts_in_svg(monkeypatch):
@@ -193,12 +160,6 @@ def test_what_lies_outside_is_left_out():
     image = picture(*layers, bounds=(0, 0, 100, 100))
     assert image.shape == (160, 160, 3)
     assert (image != 255).any()
-
-
-def test_y_up_mirrors_the_picture():
-    down, up = (picture(HOLED, width=320, y_up=y_up, bounds=(0, 0, 16, 16)) for y_up in (False, True))
-    difference = np.abs(down.astype(int) - up[::-1].astype(int))
-    assert (difference > 96).mean() < 0.001
 
 
 def test_both_kinds_of_pictures_are_one(tmp_path):

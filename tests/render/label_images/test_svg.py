@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from vorotool.errors import LimitError, UsageError
+from vorotool.errors import LimitError
 from vorotool.render.canvas.styles import CELLS
 from vorotool.render.label_images.svg import write_label_svg
 from vorotool.types.pixel_frame import Frame
@@ -68,35 +68,6 @@ def test_numbers_mark_the_seeds() -> None:
     assert found["seeds"].attrib["font-weight"] == "bold"
     first = found["seeds"][0]
     assert float(first.attrib["x"]) == pytest.approx(0.58 * 1000 / 4.16, abs=0.01)
-
-
-def test_layers_are_selectable() -> None:
-    assert list(groups(drawn(layers=["cells"]))) == ["cells"]
-    without = groups(drawn(layers=["labels"]))
-    assert list(without) == ["labels"]
-    assert len(without["labels"]) == 12
-    discs = groups(drawn(layers=["cells", "seeds"]))["seeds"]
-    assert [disc.tag for disc in discs] == [f"{NS}circle"] * 3
-    with pytest.raises(UsageError, match="'edges'"):
-        drawn(layers=["edges"])
-
-
-def test_larger_images_have_discs_and_no_numbers() -> None:
-    image = LabelImage(np.ones((41, 3), np.uint8), seeds=SeedSet(np.array([1]), np.array([2]), np.array([1])))
-    found = groups(drawn(image))
-    assert list(found) == ["cells", "seeds"]
-    assert [child.tag for child in found["seeds"]] == [f"{NS}circle"]
-
-
-def test_without_seeds() -> None:
-    assert len(groups(drawn(LabelImage(LABELS)))["seeds"]) == 0
-    assert list(groups(drawn(LabelImage(np.ones((50, 50), np.uint8))))) == ["cells"]
-
-
-def test_same_bytes_for_every_type() -> None:
-    expected = drawn()
-    for dtype in (np.uint8, np.uint16, np.uint32, np.int32):
-        assert drawn(LabelImage(LABELS.astype(dtype), IMAGE.frame, SEEDS)) == expected
 
 
 def test_many_pixels_are_refused() -> None:

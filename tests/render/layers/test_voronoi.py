@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import re
 import warnings
-from dataclasses import replace
 from xml.etree import ElementTree
 
 import imageio.v3 as iio
@@ -13,11 +12,11 @@ import numpy as np
 import pytest
 import shapely
 import svgelements
-from tests.support.families.site_families import mixed_sites, row_houses
+from tests.support.families.site_families import mixed_sites
 
 import vorotool
 from vorotool import voronoi
-from vorotool.errors import RepairWarning, UsageError
+from vorotool.errors import RepairWarning
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Texts
 from vorotool.render.canvas.styles import cell_color
 from vorotool.render.canvas.svg import write_layers_svg
@@ -79,15 +78,6 @@ def test_curves_are_drawn_as_such():
     assert not re.search('"[^"]*d="M[^"]*[QA]', straight)
 
 
-def test_a_circle_is_round():
-    page_and_layers = drawn(voronoi([[0, 0]], frame=(-2, -2, 4, 4), max_distance=1), "cells")
-    (path,) = svg_of(*page_and_layers).iter(f"{SVG}path")
-    radius = page_and_layers[1].length(1.0)
-    (ring,) = outline(path.get("d"))
-    assert np.hypot(*(ring - 500).T) == pytest.approx(radius, abs=0.05)
-    assert abs(signed_area(ring)) == pytest.approx(np.pi * radius**2, rel=1e-3)
-
-
 @pytest.mark.parametrize("limit", [None, 6])
 def test_pixels_have_the_colors_of_their_cells(tmp_path, limit):
     cells = quietly(mixed_sites(np.random.default_rng(2), 12), max_distance=limit)
@@ -142,19 +132,6 @@ def test_layers_of_all_kinds_of_sites():
     assert not points[1].is_centered
 
 
-def test_names_say_what_a_column_says(tmp_path):
-    lakes = vorotool.read("data/great-lakes.geojson")
-    cells = quietly(lakes)
-    vorotool.write(cells, tmp_path / "a.svg", label_by="name", legend=True, scale_bar=True)
-    text = (tmp_path / "a.svg").read_text()
-    for name in ("Lake Superior", "Lake Huron", "Lake Michigan", "object-areas"):
-        assert f">{name}</text>" in text
-    with pytest.raises(UsageError, match="expected a column of the input, name"):
-        vorotool.write(cells, tmp_path / "a.svg", label_by="depth")
-    with pytest.raises(UsageError, match="'walls'"):
-        vorotool.write(cells, tmp_path / "a.svg", layers=["walls"])
-
-
 def test_colors_and_widths_are_those_chosen(tmp_path):
     vorotool.write(
         voronoi([shapely.box(0, 0, 2, 2), shapely.Point(8, 1)]),
@@ -171,20 +148,6 @@ def test_colors_and_widths_are_those_chosen(tmp_path):
     assert "<rect" not in text
 
 
-def test_longitudes_are_drawn_shorter(tmp_path):
-    lakes = vorotool.read("data/great-lakes.geojson")
-    for crs, aspect in ((None, 1), ("OGC:CRS84", 1 / np.cos(np.radians(44.8)))):
-        cells = quietly(replace(lakes, crs=crs), max_distance=0.5)
-        vorotool.write(cells, tmp_path / "a.svg")
-        _, _, w, h = cells.frame
-        root = ElementTree.parse(tmp_path / "a.svg").getroot()
-        sides = [float(root.get(name)) for name in ("width", "height")]
-        margin = 0.04 * max(w, h * aspect)
-        assert sides[1] / sides[0] == pytest.approx((h * aspect + margin) / (w + margin), rel=0.01)
-        radii = [float(each) for each in re.search(r"A([\d.]+) ([\d.]+) ", (tmp_path / "a.svg").read_text()).groups()]
-        assert radii[1] / radii[0] == pytest.approx(aspect, rel=0.01)
-
-
 @pytest.mark.parametrize("sites", [[], [[0, 0]], [[0, 0], [0, 0]], [BOX := shapely.box(0, 0, 1, 1), BOX]])
 @pytest.mark.parametrize("fmt", ["svg", "png"])
 def test_few_and_empty_cells(tmp_path, sites, fmt):
@@ -194,22 +157,3 @@ def test_few_and_empty_cells(tmp_path, sites, fmt):
         ElementTree.fromstring((tmp_path / "a.svg").read_text())
     else:
         assert iio.imread(tmp_path / "a.png").shape[1] == 200
-
-
-def test_many_cells_share_paths():
-    cells = voronoi(row_houses(5, 8))
-    layers, page = drawn(cells, "cells")
-    ids = [path.get("id") for path in svg_of(layers, page).iter(f"{SVG}path")]
-    assert ids == [f"cell-{k + 1}" for k in range(40)]
-
-
-def test_notebooks_and_axes():
-    from matplotlib.figure import Figure
-
-    cells = quietly(mixed_sites(np.random.default_rng(1), 6), max_distance=5)
-    assert cells._repr_svg_().startswith("<svg")
-    axes = cells.plot(Figure().add_subplot(), what="edges")
-    x, _, w, _ = cells.frame
-    assert {each.get_label() for each in axes.collections} >= {"edges", "objects"}
-    low, high = axes.get_xlim()
-    assert x - 0.1 * w < low < high < x + 1.1 * w

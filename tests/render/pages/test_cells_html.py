@@ -105,14 +105,6 @@ def test_values_of_all_kinds():
     assert [each["values"] for each in data_of(page)["columns"]] == [[1.5, None], ["</script><b>", None], [None, 3]]
 
 
-@pytest.mark.parametrize("labels", [np.zeros((3, 4), int), np.array([[5]]), np.ones((2, 9), np.uint8)])
-def test_few_cells(labels):
-    names = [str(label) for label in np.unique(labels[labels > 0])]
-    data = data_of(page_of(shapes_of_labels(labels), np.ones(len(names), int), {}))
-    assert data["ids"] == names
-    assert data["colors"][1:] == list(CELLS[: bool(names)])
-
-
 def test_too_many():
     with pytest.raises(LimitError, match="100001 cells are too many for a page"):
         check_cells_size(MOST_CELLS + 1)

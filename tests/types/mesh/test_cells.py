@@ -22,12 +22,6 @@ def test_empty_cells_have_no_polygon():
     assert cells.label_array.tolist() == [1, 2, 3, 4]
 
 
-def test_no_cells():
-    cells = CellSet([], [], [0], Box(0, 0, 1, 1))
-    assert len(cells) == 0
-    assert cells.areas.shape == cells.perimeters.shape == cells.to_shapely().shape == (0,)
-
-
 def test_polygons_with_holes_and_parts():
     hole = [[1, 1], [1, 3], [3, 3], [3, 1]]
     shell = [[0, 0], [4, 0], [4, 4], [0, 4]]
@@ -39,21 +33,6 @@ def test_polygons_with_holes_and_parts():
     assert shape.geom_type == "MultiPolygon"
     assert shape.area == 12.5
     assert shapely.get_num_interior_rings(shapely.get_parts([shape])).tolist() == [1, 0]
-
-
-@pytest.mark.parametrize(
-    ("arrays", "message"),
-    [
-        (([[0, 0, 0]], SQUARES, [0, 8]), "shape"),
-        (([[0, 0]], SQUARES, [0, 7]), "from 0 to 8"),
-        (([[0, 0]], SQUARES, [1, 8]), "from 0 to 8"),
-        (([[0, 0], [1, 1]], SQUARES, [0, 8]), "1 cells, but 2 sites"),
-        (([[0, 0], [1, 1]], SQUARES, [0, 9, 8]), "increase"),
-    ],
-)
-def test_arrays_that_do_not_go_together(arrays, message):
-    with pytest.raises(InputError, match=message):
-        CellSet(*arrays, Box(0, 0, 1, 1))
 
 
 def test_polygon_and_cell_starts_go_together():

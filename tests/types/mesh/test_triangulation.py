@@ -8,7 +8,7 @@ import pytest
 
 from support.families.point_families import FAMILIES, draw
 from support.oracles.delaunay_oracle import circle, cross
-from vorotool import InputError, Triangulation, delaunay
+from vorotool import delaunay
 
 pytestmark = pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
 
@@ -40,23 +40,3 @@ def test_circles_and_areas_against_rationals(name):
         assert within(centers[t, 1], y, radius / 10**9)
         assert within(areas[t], cross(a, b, c) / 2, cross(a, b, c) / 10**9)
         assert areas[t] >= 0
-
-
-def test_uniform_points_lose_few_digits():
-    mesh = delaunay(draw("uniform", 2000, 2))
-    distances = np.linalg.norm(mesh.points[mesh.triangles] - mesh.circumcenters[:, None], axis=2)
-    np.testing.assert_allclose(distances, mesh.circumradii[:, None] * [1, 1, 1], rtol=1e-10)
-    hull = mesh.points[mesh.hull]
-    around = np.roll(hull, -1, axis=0)
-    assert mesh.areas.sum() == pytest.approx((hull[:, 0] * around[:, 1] - hull[:, 1] * around[:, 0]).sum() / 2)
-
-
-def test_shapes_are_checked():
-    good = {"points": [[0, 0]], "triangles": [], "neighbors": [], "edges": [], "hull": [0], "first": [0]}
-    assert len(Triangulation(**good)) == 0
-    with pytest.raises(InputError, match=r"triangles must have shape"):
-        Triangulation(**{**good, "triangles": [[0, 0]]})
-    with pytest.raises(InputError, match=r"hull must have shape"):
-        Triangulation(**{**good, "hull": [[0, 0]]})
-    with pytest.raises(InputError, match="first must have shape"):
-        Triangulation(**{**good, "first": [0, 1]})

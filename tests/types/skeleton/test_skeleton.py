@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import vorotool
-from vorotool.errors import UsageError
 from vorotool.numeric import parallel
 from vorotool.types.skeleton.tables import connected_roots
 
@@ -29,11 +28,6 @@ def test_flattened_arcs_are_within_the_tolerance(tolerance):
             along = np.clip(((place - own[:-1]) * way).sum(axis=1) / (way**2).sum(axis=1), 0, 1)
             assert np.hypot(*(own[:-1] + along[:, None] * way - place).T).min() <= tolerance
     assert (np.diff(start)[~MADE.is_parabola] == 2).all()
-
-
-def test_no_tolerance_is_refused():
-    with pytest.raises(UsageError, match="positive"):
-        MADE.flattened(0)
 
 
 def test_flattened_lengths_are_the_lengths():
@@ -64,14 +58,6 @@ def test_radii_inside_arcs_count():
     assert table["r_mean"].tolist() == pytest.approx([mean], rel=1e-6)
 
 
-def test_closed_branches():
-    made = vorotool.skeleton_exact(
-        [{"line": [[0, 0]]}, {"line": [[-9, -9], [9, -9], [9, 9], [-9, 9], [-9, -9]]}], side="exterior"
-    )
-    kinds = vorotool.branch_table(made)["kind"].tolist()
-    assert kinds.count("closed") + kinds.count("inner") + kinds.count("end") == len(kinds)
-
-
 def test_polygons():
     table = vorotool.polygon_table(MADE)
     import shapely
@@ -98,11 +84,6 @@ def test_elements_have_the_labels_of_the_paper():
     way = np.hypot(table["x1"][edges] - table["x0"][edges], table["y1"][edges] - table["y0"][edges])
     full = np.sqrt((np.diff(MADE.site_ends[edges], axis=1) ** 2).sum(axis=-1))[:, 0]
     assert np.abs(way - (full - 8)).max() < 1e-9
-
-
-def test_table_of_anything():
-    assert set(MADE.table()) == set(vorotool.arc_table(MADE))
-    assert vorotool.delaunay([[0, 0], [4, 0], [0, 3]]).table()["length"].tolist() == [3, 4, 5]
 
 
 def test_connected_roots_are_the_smallest():

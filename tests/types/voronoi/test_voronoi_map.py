@@ -1,7 +1,5 @@
 """Voronoi maps as values: polygons, tables, data frames, shapes of arrays."""
 
-from dataclasses import replace
-
 import geopandas
 import numpy as np
 import pandas
@@ -9,8 +7,7 @@ import pytest
 import shapely
 from tests.support.families.site_families import mixed_sites
 
-from vorotool import to_geojson, voronoi
-from vorotool.errors import InputError, UsageError
+from vorotool import voronoi
 from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
 
 WALL_AND_TREE = [shapely.LineString([(0, 0), (8, 0)]), shapely.Point(4, 2)]
@@ -50,52 +47,6 @@ def test_polylines_stay_away_from_sites(flatten):
             assert least >= (1 - PART_OF_RADIUS) * near - 1e-6
 
 
-def test_digons_hold_something():
-    made = voronoi([shapely.LineString([(-20, 0), (20, 0)]), shapely.Point(0, 4)], frame=(-20, 1, 40, 3))
-    assert (shapely.area(made.to_shapely(flatten=1e9)) > 0).all()
-
-
-def test_tables(cells):
-    borders, rows = cells.edges, cells.table()
-    names = ["label", "area", "perimeter", "neighbors", "own_area", "max_distance", "components"]
-    assert list(rows) == names
-    assert rows["neighbors"].tolist() == [1, 1]
-    assert cells.neighbors.rows == 1
-    assert cells.neighbors["border_length"][0] == pytest.approx(borders["length"].sum())
-    assert borders["label_a"].tolist() == [1]
-    assert list(borders["kind"]) == ["parabola"]
-    assert rows["perimeter"].sum() == pytest.approx(36 + 2 * borders["length"].sum())
-
-
-def test_data_frames():
-    frame = geopandas.GeoDataFrame(
-        {"kind": ["wall", "tree", "none"]}, geometry=[*WALL_AND_TREE, None], index=["a", "b", "c"], crs="EPSG:2056"
-    )
-    made = voronoi(frame).to_geopandas()
-    assert made.index.tolist() == ["a", "b", "c"]
-    assert made.crs.to_epsg() == 2056
-    assert made["kind"].tolist() == ["wall", "tree", "none"]
-    assert made.geometry.is_empty.tolist() == [False, False, True]
-    np.testing.assert_allclose(made.geometry.area, made["area"], rtol=1e-2)
-    joined = voronoi(frame, by="kind").to_pandas()
-    assert joined["id"].tolist() == ["wall", "tree", "none"]
-    assert voronoi(frame).__geo_interface__["features"][2]["geometry"] is None
-
-
-def test_as_a_value(cells):
-    assert cells == voronoi(WALL_AND_TREE, frame=(0, -2, 8, 10)) != voronoi(WALL_AND_TREE)
-    assert repr(cells) == f"VoronoiMap: 2 cells, {len(cells.arcs)} arcs, {len(cells.vertices)} vertices"
-    assert [len(polygons) for polygons in (cells.rings_of(0), cells.rings_of(1))] == [1, 1]
-    with pytest.raises(UsageError, match="tolerance"):
-        cells.to_shapely(flatten=0)
-
-
-@pytest.mark.parametrize("name", ["sites", "control", "radius", "polygon_site", "ring_starts", "cell_starts"])
-def test_arrays_of_another_shape(cells, name):
-    with pytest.raises(InputError, match=name):
-        replace(cells, **{name: getattr(cells, name)[:-1]})
-
-
 # ---- graphs ----------------------------------------------------------------------------------------
 def apart(**columns):
     """Two houses that touch, one apart, one that has no cell, in a frame with an index."""
@@ -129,9 +80,3 @@ def test_pairs_as_libpysal_takes_them():
     assert graph.unique_ids.tolist() == everything.to_geopandas().index.tolist()
     assert graph.adjacency.loc["b"].to_dict() == pytest.approx({"a": 4.2, "c": 4.2})
     assert graph.n_edges == 2 * everything.neighbors.rows
-
-
-def test_geojson_has_a_feature_a_cell():
-    made = to_geojson(voronoi(apart()))
-    assert [each["properties"]["label"] for each in made["features"]] == [1, 2, 3, 4]
-    assert [each["geometry"] is None for each in made["features"]] == [False, False, False, True]
