@@ -7,7 +7,7 @@ import os
 import re
 import sys
 from contextlib import suppress
-from importlib import import_module, metadata
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
@@ -223,6 +223,8 @@ def places() -> list[tuple[str, str]]:
 
 def _installed(end: str) -> Path | None:
     """Return the path of a file of the package outside the folder of its modules."""
+    from importlib import metadata
+
     try:
         files = metadata.files("vorotool") or []
     except metadata.PackageNotFoundError:
