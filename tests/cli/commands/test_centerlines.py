@@ -49,10 +49,3 @@ def test_rows_tell_what_leads_on(run, rectangle):
         ("line", "2", "8", "2", "2"),
         ("extension", "8", "10", "2", "0"),
     ]
-
-
-def test_ends_are_of_lines(run, rectangle):
-    done = run("skeleton-exact", rectangle, "--what", "branches", "--ends", "middle")
-    assert done.code == 2
-    assert "--what" in done.err
-    assert run("skeleton-exact", rectangle, "--what", "centerline", "--ends", "round").code == 2

@@ -5,12 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import shapely
 from PIL import Image
 
 import vorotool
 
-DATA = Path(__file__).parents[3] / "data"
 A = "LINESTRING (26 8, 13 -2, 13 19, 10 19, 10 23, 1 17)"
 B = "LINESTRING (15 1, 28 11, 13 26, 1 18)"
 HEADER = ["what", "distance", "x_a", "y_a", "x_b", "y_b"]
@@ -43,22 +41,6 @@ def test_what_is_chosen(run, two):
     assert len(Path("both.hausdorff.csv").read_text().splitlines()) == 4
 
 
-@pytest.mark.parametrize("fmt", ["csv", "tsv", "json", "npz", "geojson", "wkt", "svg", "png"])
-def test_every_format(run, two, folder, fmt):
-    done = run("distance", *two, "-o", f"out.{fmt}", "--stats", "s.json")
-    assert (done.code, done.err) == (0, "")
-    assert (folder / f"out.{fmt}").stat().st_size > 0
-    stats = json.loads((folder / "s.json").read_text())
-    assert (stats["vertices"], stats["hausdorff"]) == ([6, 4], vorotool.hausdorff([A], [B]).distance)
-
-
-def test_lines_between_the_places(run, two):
-    features = json.loads(run("distance", *two, "-f", "geojson").out)["features"]
-    for feature in features:
-        line = shapely.from_geojson(json.dumps(feature["geometry"]))
-        assert line.length == pytest.approx(feature["properties"]["distance"])
-
-
 def test_filled_and_outlines(run, folder):
     (folder / "square.wkt").write_text("POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))")
     (folder / "ring.wkt").write_text("POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (1 1, 8 1, 8 8, 1 8, 1 1))")
@@ -86,24 +68,6 @@ def test_points_and_images(run, folder):
     rows = run("distance", "p.csv", "m.png", "--verify").rows
     assert float(rows[-1]["distance"]) == 0.5  # from (3, 4) to the outline at y = 3.5
     assert run("distance", "p.csv", "p.csv").rows[0]["distance"] == "0"
-
-
-@pytest.mark.parametrize(
-    ("names", "code", "message"),
-    [
-        (["a.wkt"], 2, "Missing argument 'B'"),
-        (["a.wkt", "b.wkt", "a.wkt"], 2, "unexpected extra argument"),
-        (["a.wkt", "."], 2, "B . stands for several files"),
-        (["*.wkt", "b.wkt"], 2, "*.wkt"),
-        (["a.wkt", "none.wkt"], 3, "none.wkt"),
-        (["a.wkt", "b.wkt", "--layers", "first"], 2, "--layers"),
-        (["a.wkt", "b.wkt", "-o", "b.wkt"], 2, "b.wkt"),
-    ],
-)
-def test_what_goes_wrong(run, two, names, code, message):
-    done = run("distance", *names)
-    assert done.code == code, done.err
-    assert message in done.err
 
 
 def test_two_systems(run, folder):

@@ -98,11 +98,6 @@ def test_masks_and_label_images(info, tmp_path):
     assert (regions["pixel_size"], regions["unit"]) == ([0.05, 0.025], "cm")
 
 
-def test_dots_an_inch_are_of_paper(info, tmp_path):
-    tifffile.imwrite(tmp_path / "a.tif", np.eye(4, dtype=np.uint8), resolution=(300, 300), resolutionunit=2)
-    assert (info("a.tif")[0]["pixel_size"], info("a.tif")[0]["unit"]) == (None, None)
-
-
 def test_pictures_say_what_to_do(run, info, tmp_path):
     chance = np.random.default_rng(6)
     iio.imwrite(tmp_path / "grey.png", chance.integers(0, 255, (64, 64), dtype=np.uint8))
@@ -245,13 +240,10 @@ def test_one_that_cannot_be_read_ends_nothing(run, folder):
     ("arguments", "code", "words"),
     [
         ("", 2, "no input given: name a file, a folder, or - for standard input"),
-        ("none.csv", 3, "none.csv"),
         ("empty.png", 3, "empty.png"),
         ("text.png", 3, "text.png"),
         ("edges.csv --columns a,b", 3, "'a'"),
         ("edges.csv", 3, "--columns x_a,y_a"),
-        ("dots.csv --page 3", 2, "--page"),
-        ("dots.csv --input-format xyz", 2, "invalid --input-format 'xyz'"),
         ("mask.pbm --input-crs EPSG:3857", 2, "--input-crs"),
         ("mask.pbm --max-pixels 3", 5, "pixels"),
     ],

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import tifffile
 from PIL import Image
 
 import vorotool
@@ -17,16 +16,7 @@ BLOBS, CELLS = DATA / "blobs.png", DATA / "cells.png"
 WHOLE = ("--prune", "none")
 
 
-def test_a_mask_has_a_skeleton(run, folder):
-    done = run("skeleton-exact", BLOBS, *WHOLE, "--verify", "-o", "a.npz", "--stats", "-")
-    assert (done.code, done.err) == (0, "")
-    stats = json.loads(done.out)
-    assert (stats["polygons"], stats["outline"], stats["connectivity"]) == (24, "crack", 8)
-    expected = vorotool.skeleton_exact(vorotool.outlines(vorotool.read(BLOBS)))
-    assert np.array_equal(np.load(folder / "a.npz")["vertex_r"], expected.radius)
-
-
-@pytest.mark.parametrize("what", ["skeleton", "branches", "table", "centerline", "shape"])
+@pytest.mark.parametrize("what", ["branches", "shape"])
 def test_batches_of_objects_give_the_same_bytes(run, monkeypatch, what):
     """These objects do not touch: in one diagram they are the same as in one a batch."""
     monkeypatch.setattr(feature_sheets, "BATCH", 60)
@@ -79,47 +69,6 @@ def test_simplify_is_for_polygons_too(run):
         assert done.code == 0
         counts.append(json.loads(Path("s.json").read_text())["vertices"])
     assert counts[1] < counts[0] / 4
-
-
-def test_a_page_of_a_stack(run, folder):
-    pages = np.zeros((2, 5, 6), dtype=np.uint8)
-    pages[1, 1:4, 1:5] = 1
-    tifffile.imwrite(folder / "a.tif", pages, photometric="minisblack")
-    assert "--page 1" in run("skeleton-exact", "a.tif").err
-    done = run("skeleton-exact", "a.tif", "--page", "1", "--what", "table")
-    assert [row["area"] for row in done.rows] == ["12"]
-
-
-def test_nothing_in_the_foreground(run, folder):
-    Image.new("1", (5, 4)).save(folder / "a.png")
-    done = run("skeleton-exact", "a.png", *WHOLE, "-f", "csv")
-    assert (done.code, len(done.rows)) == (0, 0)
-    assert "--invert" in done.err
-    assert len(run("skeleton-exact", "a.png", *WHOLE, "--invert", "-f", "csv").rows) == 5
-
-
-@pytest.mark.parametrize(
-    ("arguments", "code", "words"),
-    [
-        ((DATA / "two-shapes.json", "--outline", "crack"), 2, "--outline"),
-        ((DATA / "two-shapes.json", "--threshold", "3"), 2, "--threshold"),
-        ((BLOBS, "--seeds", "pixels"), 2, "'pixels'"),
-        ((BLOBS, "--simplify", "0"), 2, "expected more than 0"),
-        ((BLOBS, "--max-sites", "100"), 5, "--max-sites 100"),
-        ((BLOBS, "--max-pixels", "100"), 5, "--max-pixels"),
-        (("noise.png",), 3, "noise.png"),
-        (("color.png",), 3, "color.png"),
-        ((BLOBS, "--page", "3"), 3, "--page 3"),
-    ],
-)
-def test_what_is_refused(run, folder, arguments, code, words):
-    random = np.random.default_rng(0)
-    Image.fromarray(random.integers(0, 256, (64, 64), dtype=np.uint8)).save(folder / "noise.png")
-    Image.fromarray(random.integers(0, 256, (8, 8, 3), dtype=np.uint8)).save(folder / "color.png")
-    done = run("skeleton-exact", *arguments, "-o", "out.json")
-    assert done.code == code
-    assert words in done.err
-    assert not (folder / "out.json").exists()
 
 
 def test_json_tells_the_connectivity(run, folder):

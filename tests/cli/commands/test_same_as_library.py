@@ -2,18 +2,105 @@
 
 import json
 import warnings
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-import vorotool
+import vorotool as v
 from vorotool.engines.sampled_skeleton import per_feature
 from vorotool.engines.skeleton import diagrams
 
 DATA = Path(__file__).parents[3] / "data"
-SHAPES = {
+
+
+@cache
+def read(name):
+    with warnings.catch_warnings(action="ignore"):
+        return v.read(DATA / name)
+
+
+DOTS, SHAPES = partial(read, "dots.csv"), partial(read, "two-shapes.json")
+SKELETON = cache(lambda: v.skeleton_exact(SHAPES()))
+FAMILY = cache(lambda: v.alpha_complex(DOTS()))
+SHAPE = cache(lambda: v.alpha_shape(FAMILY(), r=60))
+FRAME, SIZE = (0, 0, 512, 512), (512, 512)
+
+SAME = {
+    "tessellate dots.csv --size 60x50 --max-distance 6.5 -o a.npy": lambda: v.tessellate(
+        DOTS(), shape=(50, 60), max_distance=6.5
+    ),
+    "tessellate cells.png --what neighbors -o a.csv": lambda: v.neighbor_table(v.tessellate(read("cells.png"))),
+    "delaunay dots.csv -o a.csv": lambda: v.delaunay(DOTS()),
+    "delaunay dots.csv --what triangles -o a.csv": lambda: v.delaunay(DOTS()),
+    "delaunay dots.csv --what cells -o a.geojson": lambda: v.voronoi_cells(DOTS()),
+    "delaunay dots.csv --what cells --frame 0.5,10,300,200.25 -o a.csv": lambda: v.voronoi_cells(
+        DOTS(), frame=(0.5, 10, 300, 200.25)
+    ),
+    "delaunay dots.csv --what cells --clip two-shapes.json -o a.json": lambda: v.voronoi_cells(DOTS(), clip=SHAPES()),
+    "delaunay dots.csv --graph gabriel -o a.csv": lambda: v.proximity_graph(DOTS(), "gabriel"),
+    "delaunay dots.csv --graph relative -o a.json": lambda: v.proximity_graph(DOTS(), "relative"),
+    "delaunay dots.csv --graph mst --method digital-valid --size 512x512 -o a.geojson": lambda: v.proximity_graph(
+        DOTS(), "mst"
+    ),
+    "delaunay dots.csv --what statistics --frame 0,0,512,512 -o a.csv": lambda: v.cell_statistics(DOTS(), frame=FRAME),
+    "delaunay dots.csv --what measures --frame 0,0,512,512 -o a.csv": lambda: v.cell_statistics(DOTS(), frame=FRAME),
+    "delaunay dots.csv --method digital --size 512x512 -o a.json": lambda: v.digital_triangulation(DOTS(), shape=SIZE),
+    "delaunay dots.csv --method digital --size 512x512 --what triangles -o a.obj": lambda: v.digital_triangulation(
+        DOTS(), shape=SIZE
+    ),
+    "delaunay dots.csv --what compare --size 512x512 -o a.csv": lambda: (
+        v.compare_digital(DOTS(), shape=SIZE).differences
+    ),
+    "alphashape dots.csv -r 60 -o a.csv": SHAPE,
+    "alphashape dots.csv -r 60 --method digital-valid -o a.geojson": SHAPE,
+    "alphashape dots.csv -r 60 --what general -o a.wkt": SHAPE,
+    "alphashape dots.csv -r 60 --what hull -o a.csv": lambda: v.alpha_hull(SHAPE()),
+    "alphashape dots.csv --what family -o a.csv": FAMILY,
+    "alphashape dots.csv --what spectrum -o a.csv": FAMILY,
+    "alphashape dots.csv --what curves -o a.csv": lambda: v.alpha_curves(FAMILY()),
+    "alphashape dots.csv -r 60 --what table --hole-threshold 1e9 --region-threshold 900 -o a.json": lambda: (
+        v.alpha_shape(FAMILY(), r=60, hole_threshold=1e9, region_threshold=900)
+    ),
+    "alphashape dots.csv --what persistence -o a.csv": lambda: v.persistence(DOTS()),
+    "skeleton-exact two-shapes.json -o a.npz": SKELETON,
+    "skeleton-exact two-shapes.json --prune angle=60 --what branches -o a.csv": lambda: v.prune(SKELETON(), angle=60),
+    "skeleton-exact two-shapes.json --what elements -o a.csv": SKELETON,
+    "skeleton-exact two-shapes.json --join-junctions -o a.graphml": lambda: v.join_junctions(SKELETON()),
+    "skeleton-exact two-shapes.json --side exterior --frame 0,0,400,200 -o a.csv": lambda: v.skeleton_exact(
+        SHAPES(), side="exterior", frame=(0, 0, 400, 200)
+    ),
+    "skeleton-exact two-shapes.json --what offset -d -20,5 -o a.csv": lambda: v.offset(SHAPES(), [-20, 5]),
+    "skeleton-exact two-shapes.json --what offset -d -10,10 -o a.svg": lambda: v.offset(SHAPES(), [-10, 10]),
+    "skeleton-exact two-shapes.json --what necks --neck 0.6 -o a.csv": lambda: v.necks(SHAPES(), neck=0.6),
+    "skeleton-exact two-shapes.json --what parts --neck 0.95 -o a.geojson": lambda: v.parts(SHAPES(), neck=0.95),
+    "skeleton-exact two-shapes.json --what discs --count 3 -o a.csv": lambda: v.largest_discs(SHAPES(), count=3),
+    "skeleton-exact two-shapes.json --what points --every 7 -o a.csv": lambda: v.points_along(SKELETON(), every=7),
+    "skeleton-exact two-shapes.json --smooth 0.5 -o a.csv": lambda: v.smooth(SKELETON(), 0.5),
+    "skeleton-exact blobs.png --prune none -o a.npz": lambda: v.skeleton_exact(v.outlines(read("blobs.png"))),
+    "skeleton-approx two-shapes.json --tolerance 0.05 -o a.csv": lambda: v.skeleton_approx(SHAPES(), tolerance=0.05),
+    "voronoi two-shapes.json -o a.json": lambda: v.voronoi(SHAPES()),
+    "voronoi two-shapes.json --what edges --max-distance 30 -o a.csv": lambda: v.voronoi(SHAPES(), max_distance=30),
+    "voronoi two-shapes.json --what neighbors -o a.csv": lambda: v.voronoi(SHAPES()),
+}
+
+
+@pytest.mark.parametrize("line", SAME)
+def test_results(run, tmp_path, line):
+    words = line.split()
+    made, expected = tmp_path / words[-1], tmp_path / f"library.{words[-1]}"
+    check = ["--verify"] if "compare" not in words else []
+    done = run(*(DATA / word if (DATA / word).exists() else word for word in words), *check, "-q")
+    assert (done.code, done.out, done.err) == (0, "", "")
+    value = SAME[line]()
+    has_parts = "--what" in words and not isinstance(value, v.Table)
+    v.write(value, expected, what=words[words.index("--what") + 1] if has_parts else None)
+    assert made.read_bytes() == expected.read_bytes() != b""
+
+
+# ---- features that overlap and touch -------------------------------------------------------------
+OVERLAPPING = {
     "type": "GeometryCollection",
     "geometries": [
         {
@@ -26,34 +113,22 @@ SHAPES = {
     ],
 }
 """One lies over another, one in a hole, and a line goes through one."""
+ENGINES = {
+    "skeleton-exact": (
+        diagrams,
+        *("feature_skeleton", "feature_elements", "graph_for_skeletons", "together", "diagram_of_graph"),
+        *("elements_of_graph", "skeleton_of", "sides_of"),
+    ),
+    "skeleton-approx": (
+        per_feature,
+        *("feature_approximation", "approximation_of_sides", "graph_for_skeletons", "together", "skeleton_within"),
+        *("sampled_graph", "approximate_skeleton"),
+    ),
+}
 
 
 @pytest.fixture
-def shapes(folder):
-    (folder / "shapes.geojson").write_text(json.dumps(SHAPES))
-    with warnings.catch_warnings(action="ignore"):  # of overlaps, once they are taken together
-        yield vorotool.read(folder / "shapes.geojson")
-
-
-def written(value, folder, **options):
-    vorotool.write(value, folder / "library.json", **options)
-    return (folder / "library.json").read_bytes()
-
-
-SIDES = ["interior", "exterior", "both"]
-
-
-EXACT = (
-    *("feature_skeleton", "feature_elements", "graph_for_skeletons", "together", "diagram_of_graph"),
-    *("elements_of_graph", "skeleton_of", "sides_of"),
-)
-APPROXIMATE = (
-    *("feature_approximation", "approximation_of_sides", "graph_for_skeletons", "together", "skeleton_within"),
-    *("sampled_graph", "approximate_skeleton"),
-)
-
-
-def calls_of(monkeypatch, module, names):
+def calls(monkeypatch):
     """What is called of the engines, and whether vertices outside are left out."""
     made = []
 
@@ -61,75 +136,45 @@ def calls_of(monkeypatch, module, names):
         made.append((name, options.get("interior_only"), options.get("look") is None))
         return own(*arguments, **options)
 
-    for name in names:
-        monkeypatch.setattr(module, name, partial(spied, name, getattr(module, name)))
+    for module, *names in ENGINES.values():
+        for name in names:
+            monkeypatch.setattr(module, name, partial(spied, name, getattr(module, name)))
     return made
 
 
 @pytest.mark.parametrize("features", ["separate", "together"])
-@pytest.mark.parametrize("side", SIDES)
-@pytest.mark.parametrize("gap", [0.0, 1.0])
-@pytest.mark.parametrize("more", [(), ("--verify",), ("--stats", "s.json")])
-def test_exact_skeletons_are_the_same_by_the_same_engines(run, folder, shapes, monkeypatch, side, features, gap, more):
-    calls = calls_of(monkeypatch, diagrams, EXACT)
-    chosen = ("--side", side, "--features", features, "--gap", gap, *more)
-    done = run("skeleton-exact", "shapes.geojson", *chosen, "-o", "command.json")
+@pytest.mark.parametrize("side", ["interior", "exterior", "both"])
+@pytest.mark.parametrize(
+    ("command", "option", "more"),
+    [
+        *(("skeleton-exact", {"gap": 0.0}, ()), ("skeleton-exact", {"gap": 1.0}, ())),
+        *(("skeleton-exact", {"gap": 1.0}, ("--verify", "--stats", "s.json")), ("skeleton-approx", {"step": 3}, ())),
+        ("skeleton-approx", {"tolerance": 1}, ()),
+    ],
+)
+def test_skeletons_are_the_same_by_the_same_engines(run, folder, calls, command, option, more, side, features):
+    (folder / "shapes.geojson").write_text(json.dumps(OVERLAPPING))
+    with warnings.catch_warnings(action="ignore"):  # of overlaps, once they are taken together
+        made = getattr(v, command.replace("-", "_"))
+        made = made(v.read(folder / "shapes.geojson"), side=side, features=features, **option)
+    of_library = calls[:]
+    calls.clear()
+    ((name, value),) = option.items()
+    chosen = ("--side", side, "--features", features, f"--{name}", value, *more)
+    done = run(command, "shapes.geojson", *chosen, "-o", "command.json")
     assert done.code == 0, done.err
-    of_command = calls[:]
-    calls.clear()
-    made = vorotool.skeleton_exact(shapes, side=side, features=features, gap=gap)
-    assert (folder / "command.json").read_bytes() == written(made, folder)
-    assert more or calls == of_command != []
-
-
-@pytest.mark.parametrize("features", ["separate", "together"])
-@pytest.mark.parametrize("side", SIDES)
-@pytest.mark.parametrize("fineness", [{"step": 3}, {"tolerance": 1}])
-def test_approximate_skeletons_are_the_same_by_the_same_engines(
-    run, folder, shapes, monkeypatch, side, features, fineness
-):
-    calls = calls_of(monkeypatch, per_feature, APPROXIMATE)
-    ((name, value),) = fineness.items()
-    chosen = ("--side", side, "--features", features, f"--{name}", value)
-    assert run("skeleton-approx", "shapes.geojson", *chosen, "-o", "command.json").code == 0
-    of_command = calls[:]
-    calls.clear()
-    made = vorotool.skeleton_approx(shapes, side=side, features=features, **fineness)
-    assert (folder / "command.json").read_bytes() == written(made, folder)
-    assert calls == of_command != []
+    v.write(made, folder / "library.json")
+    assert (folder / "command.json").read_bytes() == (folder / "library.json").read_bytes()
+    assert more or calls == of_library != []
 
 
 @pytest.mark.parametrize("method", ["exact", "propagation"])
-def test_tessellations(run, folder, method):
+def test_what_is_said_of_a_tessellation(run, folder, method):
     (folder / "twice.csv").write_text("2,1\n7,5\n2,1\n1,6\n")
     done = run("tessellate", "twice.csv", "--size", "12x9", "--method", method, "-o", "command.npy")
     assert (done.code, done.err.count("warning")) == (0, 1)
-    with pytest.warns(vorotool.VorotoolWarning) as told:
-        made = vorotool.tessellate(vorotool.read(folder / "twice.csv"), shape=(9, 12), method=method)
+    with pytest.warns(v.VorotoolWarning) as told:
+        made = v.tessellate(v.read(folder / "twice.csv"), shape=(9, 12), method=method)
     assert f"warning: {told[0].message}" in done.err
     np.testing.assert_array_equal(np.load(folder / "command.npy"), made.labels)
     assert run("tessellate", "twice.csv", "--method", method, "--strict", "-o", "strict.npy").code == 3
-
-
-@pytest.mark.parametrize("features", ["separate", "together"])
-def test_offsets(run, folder, shapes, features):
-    chosen = ("--what", "offset", "-d", "3,-1", "--features", features)
-    assert run("skeleton-exact", "shapes.geojson", *chosen, "-o", "command.json").code == 0
-    made = vorotool.offset(shapes, [3, -1], features=features)
-    assert (folder / "command.json").read_bytes() == written(made, folder)
-
-
-@pytest.mark.parametrize("method", ["exact", "digital", "digital-valid"])
-def test_triangulations_and_alpha_shapes(run, folder, method):
-    points = vorotool.read(DATA / "dots.csv")
-    mesh = {
-        "exact": vorotool.delaunay,
-        "digital": vorotool.digital_triangulation,
-        "digital-valid": lambda points: vorotool.repair_digital(points)[0],
-    }[method](points)
-    assert run("delaunay", DATA / "dots.csv", "--method", method, "-o", "command.json").code == 0
-    assert (folder / "command.json").read_bytes() == written(mesh, folder)
-    if method != "digital":
-        assert run("alphashape", DATA / "dots.csv", "--method", method, "-r", 60, "-o", "command.json").code == 0
-        made = vorotool.alpha_shape(vorotool.alpha_complex(mesh), r=60)
-        assert (folder / "command.json").read_bytes() == written(made, folder)

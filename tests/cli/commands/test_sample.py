@@ -24,21 +24,13 @@ def test_the_package_has_each_file_and_no_other():
 
 @pytest.mark.parametrize("name", SAMPLES)
 def test_what_is_written_is_the_file_of_the_repository(run, tmp_path, name):
-    done = run("sample", name, "-o", "out" + Path(name).suffix)
-    assert (done.code, done.out, done.err) == (0, "", "")
+    for given in (Path(name).stem, name):  # the name without its extension is enough
+        done = run("sample", given, "-o", "out" + Path(name).suffix)
+        assert (done.code, done.out, done.err) == (0, "", "")
+    assert sample(Path(name).stem) == sample(name)
     made = (tmp_path / f"out{Path(name).suffix}").read_bytes()
     assert made == (ROOT / "data" / name).read_bytes(), f"copy data/{name} to src/vorotool/samples"
     assert len(read(tmp_path / f"out{Path(name).suffix}").shape if name.endswith("png") else made) > 0
-
-
-def test_text_goes_to_standard_output(run):
-    assert run("sample", "six-seeds.csv").out == (ROOT / "data/six-seeds.csv").read_text(encoding="utf-8")
-
-
-def test_what_is_binary_goes_through_pipes_where_it_is_said(process):
-    done = process("sample", "cells.png", "-o", "-")
-    out, err = done.communicate()
-    assert (done.returncode, out, err) == (0, (ROOT / "data/cells.png").read_bytes(), b"")
 
 
 @pytest.mark.parametrize(
@@ -46,8 +38,6 @@ def test_what_is_binary_goes_through_pipes_where_it_is_said(process):
     [
         ("cells.png", 2, ["cells.png", "-o"]),
         ("blobs", 2, ["-o blobs.png"]),
-        ("dot", 2, ["'dot'", "dots.csv"]),
-        ("Cells.PNG", 2, ["'Cells.PNG'", "cells.png"]),
         ("../dots.csv/..", 2, ["'../dots.csv/..'", "dots.csv"]),
         ("qqqq", 2, ["'qqqq'", *SAMPLES]),
         ("-o dots.csv", 2, ["-o dots.csv", "--all"]),
@@ -62,21 +52,7 @@ def test_what_cannot_be_written(run, words, code, named):
     assert all(text in done.err for text in named), done.err
 
 
-def test_completion_offers_the_names(process):
-    import os
-
-    asked = {"_VOROTOOL_COMPLETE": "bash_complete", "COMP_WORDS": "vorotool sample s", "COMP_CWORD": "2"}
-    done = process(env={**os.environ, **asked})
-    names = ["six-seeds.csv", "shape.json", "segments.wkt", "streets.geojson"]
-    assert done.communicate()[0].decode().split() == [f"plain,{name}" for name in names]
-
-
 # ---- names without extensions, all samples -------------------------------------------------------
-@pytest.mark.parametrize("name", SAMPLES)
-def test_a_name_without_its_extension_is_enough(run, tmp_path, name):
-    assert sample(Path(name).stem) == sample(name)
-    assert run("sample", Path(name).stem, "-o", "out").code == 0
-    assert (tmp_path / "out").read_bytes() == sample(name).read_bytes()
 
 
 def test_the_library_refuses_other_names():
@@ -85,7 +61,7 @@ def test_the_library_refuses_other_names():
             sample(name)
 
 
-@pytest.mark.parametrize("folder", [None, "new/folder", "."])
+@pytest.mark.parametrize("folder", [None, "new/folder"])
 def test_all_samples_are_written_at_once_and_again(run, tmp_path, folder):
     words = ["sample", "--all", *(["-o", folder] if folder else [])]
     for _ in range(2):
@@ -108,8 +84,9 @@ def occupy(path, kind):
         path.write_text("mine")
 
 
-@pytest.mark.parametrize("kind", ["file", "folder", "link"])
-@pytest.mark.parametrize("name", ["dots.csv", "great-lakes.geojson"])
+@pytest.mark.parametrize(
+    ("name", "kind"), [("dots.csv", "file"), ("great-lakes.geojson", "folder"), ("dots.csv", "link")]
+)
 def test_all_samples_replace_nothing_that_is_there(run, tmp_path, name, kind):
     occupy(tmp_path / name, kind)
     done = run("sample", "--all")

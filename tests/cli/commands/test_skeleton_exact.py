@@ -5,61 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
 
-import vorotool
 from support.processes.leftovers import leftovers
 from support.readers.written import rows_of
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES = DATA / "two-shapes.json"
-MADE = vorotool.skeleton_exact(vorotool.read(SHAPES))
-
-
-def test_json_goes_to_standard_output(run, folder):
-    done = run("skeleton-exact", SHAPES, "--verify")
-    assert (done.code, done.err) == (0, "")
-    (folder / "again.json").write_text(done.out)
-    assert np.array_equal(vorotool.read(folder / "again.json").vertices, MADE.vertices)
-
-
-@pytest.mark.parametrize("side", ["interior", "exterior", "both"])
-@pytest.mark.parametrize("more", [[], ["--gap", "4"], ["--gap", "4", "--no-complete"]])
-def test_sides_and_gaps(run, side, more):
-    done = run("skeleton-exact", SHAPES, "--side", side, *more, "-f", "csv", "--verify", "-o", "a.csv", "--stats", "-")
-    assert (done.code, done.err) == (0, "")
-    stats = json.loads(done.out)
-    assert stats["side"] == side
-    assert ("gap_deviation" in stats) == bool(more)
-    if more:
-        assert 0 < stats["gap_deviation"] < 1
-    assert stats["arcs"] > stats["parabolas"] > 0
-
-
-def test_several_results(run, folder):
-    done = run("skeleton-exact", SHAPES, "--what", "skeleton,branches,table,elements", "-o", "a.csv")
-    assert done.code == 0
-    assert {path.name for path in folder.iterdir() if path.name.startswith("a.")} == {
-        f"a.{what}.csv" for what in ("skeleton", "branches", "table", "elements")
-    }
-    table = rows_of((folder / "a.table.csv").read_text())
-    assert [(row["id"], row["cycles"]) for row in table] == [("branch", "0"), ("key", "1")]
-
-
-@pytest.mark.parametrize(
-    ("name", "data"),
-    [
-        ("a.wkt", b"POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0))"),
-        ("a.json", b"[[0, 0], [4, 0], [4, 4], [0, 4]]"),
-        ("a.geojson", b'{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]]]}'),
-        ("a.poly", b"4 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n"),
-    ],
-)
-def test_inputs(run, folder, name, data):
-    (folder / name).write_bytes(data)
-    done = run("skeleton-exact", name, "-f", "csv", "-q")
-    assert done.code == 0
-    assert len(done.rows) == 4
 
 
 def test_statistics_do_not_depend_on_threads(run, folder):
@@ -90,29 +41,9 @@ def test_repairs_are_told(run, folder):
     assert "polygon 1" in refused.err
 
 
-def test_degrees_are_a_warning(run):
-    done = run("skeleton-exact", DATA / "ne_110m_lakes.geojson", "-o", "a.svg", "--input-crs", "OGC:CRS84")
-    assert done.code == 0
-    assert done.err.startswith("warning: ")
-    assert "lengths are in degrees" in done.err.splitlines()[0]
-
-
-def test_an_open_line_has_no_inside(run, folder):
-    (folder / "a.wkt").write_text("LINESTRING (0 0, 4 0, 4 4)")
-    done = run("skeleton-exact", "a.wkt", "-f", "csv")
-    assert (done.code, len(done.rows)) == (0, 0)
-    assert "use --side exterior" in done.err
-    rows = run("skeleton-exact", "a.wkt", "--side", "exterior", "-f", "csv").rows
-    assert {row["branch"] for row in rows} == {"0"}
-
-
 BAD = {
     "nan": (b"[[0, 0], [1e999, 0], [0, 1]]", 3, "a.json"),
-    "text": (b"hello", 3, "a.json"),
-    "nested": (b"[" * 5000, 3, "a.json"),
     "points": (b'{"type": "Point", "coordinates": [0, 0]}', 3, "point"),
-    "short": (b"[[0, 0]", 3, "JSON"),
-    "empty": (b" ", 3, "a.json is empty"),
     "table": (b'[{"polygon": 0, "area": 2}]', 3, "a.json holds a table, whose rows have polygon, area, not polygons"),
     "offsets": (b'{"type": "vorotool.offsets", "polygons": []}', 3, "write them as GeoJSON (--what offset -f geojson)"),
 }
@@ -145,60 +76,6 @@ def test_the_inside_of_lines_is_missed_once_and_where_it_is_asked_for(run, folde
     assert "--side" in warning
     done = run(*command, "a.wkt", "--side", "both", "-o", "a.json")
     assert (done.code, "warning" in done.err) == (0, False)
-
-
-def test_what_is_no_text_is_called_so(run, folder):
-    (folder / "a.wkt").write_bytes(b"PK\0\1" * 20)
-    assert "a.wkt" in run("skeleton-exact", "a.wkt").err
-
-
-def test_too_many_vertices(run):
-    done = run("skeleton-exact", SHAPES, "--max-sites", "10")
-    assert done.code == 5
-    assert "--max-sites" in done.err
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        (["--gap", "-1"], "0 or more"),
-        (["--gap", "x"], "expected a number such as 0.5"),
-        (["--flatten", "0", "-f", "wkt"], "expected more than 0"),
-        (["--flatten", "1"], "no curves"),
-        (["--complete"], "--gap STEP"),
-        (["--frame", "0,0,1,1"], "--side exterior"),
-        (["--side", "both", "--frame", "0,0,1"], "four numbers"),
-        (["--layers", "skeleton"], "pictures"),
-        (["--precision", "3", "-o", "a.svg"], "--precision"),
-        (["--what", "table", "-o", "a.svg"], "table cannot be written"),
-        (["--side", "left"], "left"),
-    ],
-)
-def test_wrong_options(run, options, words):
-    done = run("skeleton-exact", SHAPES, *options)
-    assert done.code == 2
-    assert words in done.err
-
-
-def test_a_gap_that_removes_an_edge(run):
-    done = run("skeleton-exact", SHAPES, "--gap", "20")
-    assert done.code == 3
-    assert "two-shapes.json: polygon " in done.err
-    assert "use a gap below" in done.err
-
-
-def test_png_has_the_width(run, folder):
-    assert run("skeleton-exact", SHAPES, "-o", "a.png", "--width", "320").code == 0
-    with Image.open(folder / "a.png") as picture:
-        assert picture.size[0] == 320
-    assert run("skeleton-exact", SHAPES, "-o", "a.png", "--max-pixels", "1000").code == 5
-
-
-def test_frames_cut(run):
-    done = run("skeleton-exact", SHAPES, "--side", "exterior", "--frame", "0,0,400,200", "-f", "csv", "--verify")
-    assert done.code == 0
-    xs = [float(row["x1"]) for row in done.rows]
-    assert 0 <= min(xs) <= max(xs) <= 400
 
 
 def test_features_are_separate_unless_they_are_together(run, folder):

@@ -1,56 +1,18 @@
 """What skeleton commands measure: offset curves, shapes rebuilt, places along branches, transects, and graphs."""
 
 import json
-import re
 from pathlib import Path
 
 import networkx
 import numpy as np
 import pytest
 import shapely
-from PIL import Image
 
 import vorotool
-from support.readers.written import rows_of
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES, CELLS = DATA / "two-shapes.json", DATA / "cells.png"
 COMMANDS = {"skeleton-exact": [], "skeleton-approx": ["--tolerance", "0.1"]}
-
-
-def test_offsets_of_several_distances(run):
-    done = run("skeleton-exact", SHAPES, "--what", "offset", "-d", "-20,5", "-f", "csv", "--verify")
-    assert (done.code, done.err) == (0, "")
-    rows = done.rows
-    expected = vorotool.offset(vorotool.read(SHAPES), [-20, 5])
-    assert [float(row["x0"]) for row in rows] == expected.start[:, 0].tolist()
-    assert {float(row["distance"]) for row in rows} == {-20, 5}
-    assert {row["id"] for row in rows} == {"branch", "key"}
-    arcs = [row for row in rows if row["kind"] == "arc"]
-    assert {(row["r"], row["ccw"]) for row in arcs} == {("20", "0"), ("5", "1")}
-
-
-def test_offsets_as_json_and_features(run, folder):
-    assert run("skeleton-exact", SHAPES, "--what", "offset", "-d", "10", "-o", "a.json").code == 0
-    found = json.loads((folder / "a.json").read_text())
-    assert (found["type"], len(found["shapes"]), len(found["rings"])) == ("vorotool.offsets", 2, 3)
-    assert {piece["kind"] for piece in found["pieces"]} == {"line", "arc"}
-    fine, coarse = (
-        json.loads(run("skeleton-exact", SHAPES, "--what", "offset", "-d", "10", "-f", "geojson", *more).out)
-        for more in (["--flatten", "0.001"], [])
-    )
-    shapes = [shapely.geometry.shape(feature["geometry"]) for feature in fine["features"]]
-    assert [feature["properties"]["distance"] for feature in fine["features"]] == [10, 10]
-    expected = vorotool.offset(vorotool.read(SHAPES), 10).area
-    assert [shape.area for shape in shapes] == pytest.approx(expected.tolist(), abs=0.001 * 1000)
-    assert len(json.dumps(fine)) > len(json.dumps(coarse))
-
-
-def test_arcs_are_arcs_in_svg(run):
-    done = run("skeleton-exact", SHAPES, "--what", "offset", "-d", "10", "-f", "svg")
-    assert re.findall(r'<g id="(\w+)"', done.out) == ["polygons", "offset"]
-    drawn = done.out.split('<g id="offset"')[1]
-    assert drawn.count("A") == np.count_nonzero(vorotool.offset(vorotool.read(SHAPES), 10).is_arc)
 
 
 def test_nothing_is_left(run):
@@ -141,78 +103,3 @@ def test_graphml_is_read_by_networkx(run, folder):
         ends = [skeleton.vertices[node].tolist() for node in (source, target)]
         assert sorted([list(line.coords[0]), list(line.coords[-1])]) == sorted(ends)
         assert line.length == pytest.approx(found["length"], rel=1e-3)
-
-
-def test_many_inputs(run, folder):
-    results = ["--what", "offset,shape,points", "-d", "-2", "--every", "5"]
-    done = run(
-        "skeleton-exact", SHAPES, CELLS, *results, "--out-dir", "out", "-f", "geojson", "--table", "all.csv", "-q"
-    )
-    assert (done.code, done.err) == (0, "")
-    assert {path.name for path in (folder / "out").glob("*.geojson")} == {
-        f"{stem}.{what}.geojson" for stem in ("two-shapes", "cells") for what in ("offset", "shape", "points")
-    }
-    assert len(rows_of((folder / "all.csv").read_text())) == 26
-
-
-def test_statistics_count(run):
-    done = run("skeleton-exact", SHAPES, "--what", "offset", "-d", "-20,5", "-o", "a.csv", "--stats", "-")
-    stats = json.loads(done.out)
-    assert (stats["distances"], stats["shapes"], stats["rings"]) == ([-20, 5], 5, 6)
-    assert "prune" not in stats
-
-
-def test_pictures(run, folder):
-    wanted = ["--what", "offset,shape,points,transects", "-d", "-10,10", "--every", "10"]
-    assert run("skeleton-exact", CELLS, *wanted, "-o", "a.png", "--overlay", CELLS).code == 0
-    for what in ("offset", "shape", "points", "transects"):
-        with Image.open(folder / f"a.{what}.png") as picture:
-            assert picture.size == (300, 200)
-    made = vorotool.offset(vorotool.read(SHAPES), [-10, 10])
-    vorotool.write(made, "b.svg")
-    assert run("skeleton-exact", SHAPES, "--what", "offset", "-d", "-10,10", "-o", "c.svg").code == 0
-    assert (folder / "b.svg").read_bytes() == (folder / "c.svg").read_bytes()
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        (["--what", "offset"], "--what"),
-        (["--what", "points,transects", "--out-dir", "x"], "--what points needs --every D"),
-        (["-d", "3"], "-d applies only to --what offset"),
-        (["--what", "points", "--every", "3", "--along", "centerline", "--side", "exterior"], "inside polygons"),
-        (["--every", "3"], "--every"),
-        (["--what", "offset", "-d", "0"], "a distance is 0"),
-        (["--what", "offset", "-d", "1,inf"], "a distance is inf"),
-        (["--what", "offset", "-d", "1,,2"], "'1,,2'"),
-        (["--what", "offset", "-d", "2,1,2"], "the distance 2 is repeated"),
-        (["--what", "points", "--every", "far"], "'far'"),
-        (["--what", "offset", "-d", "1", "--side", "both"], "--side"),
-        (["--what", "shape", "--gap", "1"], "a gap leaves the corners out"),
-        (["--what", "shape", "--side", "exterior"], "inside polygons"),
-        (["--what", "offset", "-d", "1", "-f", "graphml"], "--what"),
-        (
-            ["--what", "offset", "-d", "1", "-f", "svg", "--layers", "nodes"],
-            "a picture of offset in SVG has polygons, offset, labels",
-        ),
-        (
-            ["-f", "svg", "--layers", "offset"],
-            "skeleton in SVG has polygons, elements, points, skeleton, nodes, labels",
-        ),
-        (["--what", "offset", "-d", "-1e71"], "use at most 1e+70"),
-        (["--side", "both", "--frame", "0,0,1e71,1"], "use numbers of at most 1e+70"),
-        (["--what", "offset", "-d", "1", "--flatten", "1", "-f", "csv"], "--flatten"),
-    ],
-)
-def test_wrong_options(run, folder, options, words):
-    there = sorted(folder.iterdir())
-    done = run("skeleton-exact", SHAPES, *options)
-    assert done.code == 2
-    assert words in done.err
-    assert sorted(folder.iterdir()) == there
-
-
-def test_limits(run):
-    assert run("skeleton-exact", SHAPES, "--what", "points", "--every", "1e-9").code == 5
-    options = ["--what", "offset", "-d", "3", "-o", "a.png", "--max-pixels", "1000"]
-    assert run("skeleton-exact", SHAPES, *options).code == 5

@@ -30,7 +30,7 @@ def test_skeletons_are_led_on_to_ends(run, ell):
     assert feature["properties"]["width_max"] > feature["properties"]["width_min"] == 10
 
 
-@pytest.mark.parametrize("what", [(), ("--what", "centerline"), ("--prune", "scale=1.5", "--ends", "middle")])
+@pytest.mark.parametrize("what", [("--what", "centerline"), ("--prune", "scale=1.5", "--ends", "middle")])
 def test_smooth_lines_in_every_format(run, ell, tmp_path, what):
     command = ("skeleton-exact", ell, *what, "--smooth", "0.5", "--verify")
     rows = run(*command, "-f", "csv").rows
@@ -61,38 +61,3 @@ def test_svg_has_the_curves_of_the_table(run, ell):
     table = np.concatenate([table[0, :1], *table[:, 1:]])
     scale = np.ptp(numbers, axis=0) / np.ptp(table, axis=0)
     np.testing.assert_allclose((numbers - numbers[0]) / scale, table - table[0], atol=0.01)
-
-
-def test_units_and_counts(run, ell, tmp_path):
-    stats = tmp_path / "stats.json"
-    plain = run("skeleton-exact", ell, "--smooth", "0.5", "-f", "csv").rows
-    scaled = run(
-        "skeleton-exact", ell, "--smooth", "1um", "--pixel-size", "2um", "-f", "csv", "--stats", str(stats)
-    ).rows
-    for name in ("x1", "y2", "error"):
-        np.testing.assert_allclose([float(row[name]) for row in scaled], [2 * float(row[name]) for row in plain])
-    found = json.loads(stats.read_text())
-    assert found["curves"] == len(plain)
-    assert found["largest_error"] <= found["smooth"] == 0.5
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["--what", "branches", "--smooth", "1"], "--smooth"),
-        (["--smooth", "1", "-f", "graphml"], "--smooth"),
-        (["--ends", "middle", "-f", "html", "-o", "-"], "--ends"),
-        (["--ends", "middle", "--side", "both"], "--side"),
-        (["--smooth", "0"], "'0'"),
-    ],
-)
-def test_what_does_not_go_together(run, ell, options, message):
-    done = run("skeleton-exact", ell, *options)
-    assert done.code == 2
-    assert message in done.err
-
-
-def test_a_tolerance_that_is_too_small(run, ell):
-    done = run("skeleton-exact", ell, "--smooth", "1e-9")
-    assert done.code == 3
-    assert "fitted curves need at least" in done.err

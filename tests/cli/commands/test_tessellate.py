@@ -37,19 +37,6 @@ def test_labels(run, folder, extension):
         assert found.dtype in (np.uint16, np.int32)
 
 
-def test_text_goes_to_standard_output(run, folder):
-    done = run("tessellate", "dots.csv", "-f", "text")
-    np.testing.assert_array_equal(np.loadtxt(io.StringIO(done.out), dtype=int), LABELS)
-
-
-@pytest.mark.parametrize("extension", ["png", "tif", "npy", "txt"])
-def test_diagram(run, folder, extension):
-    assert run("tessellate", "dots.csv", "--what", "diagram", "-o", f"diagram.{extension}").code == 0
-    padded = np.pad(LABELS, 1)
-    around = np.maximum.reduce([padded[1:-1, :-2], padded[1:-1, 2:], padded[:-2, 1:-1], padded[2:, 1:-1]])
-    np.testing.assert_array_equal(read_image(folder / f"diagram.{extension}") != 0, around > LABELS)
-
-
 def test_diagram_in_bands_is_that_of_the_whole(run, folder, monkeypatch):
     run("tessellate", "dots.csv", "--size", "40x50", "--what", "diagram", "-o", "whole.npy")
     monkeypatch.setattr("vorotool.engines.tessellation.frames.BAND_PIXELS", 40 * 7)
@@ -123,17 +110,6 @@ def test_pictures(run, folder):
     assert done.out.startswith("<svg") or done.out.startswith("<?xml")
     assert '<g id="cells"' in done.out
     assert '<g id="labels"' in done.out
-
-
-def test_pictures_of_maps_are_drawn_y_upwards(run, folder):
-    (folder / "dots.wkt").write_text("POINT (2 1)\nPOINT (7 5)\nPOINT (1 6)\n")
-    options = ("--size", "8x7", "--what", "color", "--layers", "cells")
-    run("tessellate", "dots.csv", *options, "-o", "down.png")
-    run("tessellate", "dots.wkt", *options, "-o", "up.png")
-    run("tessellate", "dots.wkt", *options, "--y-down", "-o", "down2.png")
-    down, up = (np.asarray(Image.open(folder / name)) for name in ("down.png", "up.png"))
-    np.testing.assert_array_equal(up, down[::-1])
-    assert (folder / "down2.png").read_bytes() == (folder / "down.png").read_bytes()
 
 
 def test_several_results_are_named(run, folder):

@@ -24,10 +24,9 @@ def thickness(run, *arguments):
     assert (done.code, done.err) == (0, "")
 
 
-@pytest.mark.parametrize("name", ["a.tif", "a.npy"])
-def test_files_hold_floats(run, folder, expected, name):
-    thickness(run, "-o", name, "--verify")
-    made = np.load(folder / name) if name.endswith("npy") else tifffile.imread(folder / name)
+def test_files_hold_floats(run, folder, expected):
+    thickness(run, "-o", "a.tif", "--verify")
+    made = tifffile.imread(folder / "a.tif")
     assert np.array_equal(made, expected.astype(np.float32))
 
 
@@ -88,34 +87,6 @@ def test_a_legend_is_a_bar_of_the_colors(run, folder):
     assert changed[:80, 200:].any()  # the bar
     assert changed[150:, :100].any()  # the scale
     assert not changed[80:120, :200].any()
-
-
-def test_several_results_with_one_skeleton(run, folder):
-    done = run("skeleton-exact", BLOBS, "--what", "thickness,table", "-o", "all", "--prune", "angle=100")
-    assert done.code == 0
-    assert {path.name for path in folder.iterdir()} >= {"all.thickness.tif", "all.table.csv"}
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (["skeleton-exact", SHAPES], "--what"),
-        (["skeleton-exact", BLOBS, "--gap", "0.1"], "--what"),
-        (["skeleton-exact", BLOBS, "--side", "exterior"], "--side"),
-        (["skeleton-exact", BLOBS, "--prune", "angle=90"], "--prune cannot be combined with --what thickness"),
-    ],
-)
-def test_what_is_refused(run, arguments, said):
-    done = run(*arguments, "--what", "thickness", "-o", "a.tif")
-    assert done.code == 2
-    assert said in done.err
-
-
-@pytest.mark.parametrize("more", [["--width", "99"], ["--overlay", str(BLOBS)], ["--color", "thickness=red"]])
-def test_a_picture_has_the_pixels_of_the_image(run, more):
-    done = run("skeleton-exact", BLOBS, "--what", "thickness", "-o", "a.png", *more)
-    assert done.code == 2
-    assert "a picture of thickness has the pixels of the image" in done.err
 
 
 def test_an_image_without_foreground(run, folder):

@@ -55,7 +55,7 @@ def test_borders_over_an_image(run, labels, folder):
     assert len(np.unique(picture)) > 3
 
 
-@pytest.mark.parametrize("options", [(), ("--pixel-size", "0.5um"), ("--clip", LAKES)])
+@pytest.mark.parametrize("options", [("--pixel-size", "0.5um"), ("--clip", LAKES)])
 def test_a_page_names_cells(run, folder, options):
     done = run("voronoi", LAKES, "-q", "-o", "a.html", *options)
     assert done.code == 0
