@@ -191,10 +191,10 @@ from vorotool.engines.tessellation.tessellate import (
 from vorotool.engines.tessellation.tessellate import (
     verify_tessellation as verify_tessellation,
 )
-from vorotool.engines.volumes.volume_seeding import (
+from vorotool.engines.tessellation.volume_seeding import (
     seeds_from_volume as seeds_from_volume,
 )
-from vorotool.engines.volumes.volume_seeding import (
+from vorotool.engines.tessellation.volume_seeding import (
     seeds_from_xyz as seeds_from_xyz,
 )
 from vorotool.engines.voronoi.verify_voronoi import (

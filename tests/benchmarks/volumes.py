@@ -22,7 +22,7 @@ from skimage.segmentation import expand_labels
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from benchmarks.timing import best, in_own_process, options
 from vorotool import _core_testing
-from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
@@ -49,7 +49,7 @@ def output(side: int, count: int) -> np.ndarray:
 def labelled(seeds: VolumeSeeds, threads: int, out: np.ndarray) -> np.ndarray:
     """Labels, from the seeds on."""
     depth, height, width = out.shape
-    return VolumeSweep(seeds, VoxelFrame(0, 0, 0, width, height, depth), threads=threads).labels(out=out)
+    return Tessellator(seeds, VoxelFrame(0, 0, 0, width, height, depth), threads=threads).labels(out=out)
 
 
 def memory_of(what: str) -> int:

@@ -18,7 +18,7 @@ from fuzz.runner import Cases, options
 from support.families.families import fine_case, random_case
 from support.oracles.oracles import nearest_labels, nearest_labels_of_fine_seeds
 from vorotool import _core
-from vorotool.engines.tessellation.bands import SeedBand, SeedBands
+from vorotool.engines.tessellation.bands import SeedBands
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.pixel_frame import Frame
@@ -44,8 +44,7 @@ def check(rng: np.random.Generator, side: int) -> tuple[str, int, int]:
             wrong |= sweep.labels(dtype=dtype) != right
     first = int(rng.integers(whole.height))  # a band by itself, as files and clusters compute it
     rows = int(rng.integers(1, whole.height - first + 1))
-    band = Frame(whole.x, whole.y + first, whole.width, rows)
-    apart = SeedBand(SeedBands(seeds, whole).seeds_of(first, rows), band, "labels", np.dtype(np.uint32), None, sides)
+    apart = SeedBands(seeds, whole).band("labels", np.dtype(np.uint32), first, rows, sides=sides)
     wrong[first : first + rows] |= apart.rows() != right[first : first + rows]
     return name, right.size, int(wrong.sum())
 

@@ -106,9 +106,7 @@ def _of_mesh(library: Any, mesh: AnyTriangulation | ProximityGraph) -> Any:
 
 def _of_labels(library: Any, image: LabelImage | LabelVolume) -> Any:
     room = "engines.label_images.regions"
-    is_volume = isinstance(image, LabelVolume)
-    measure = "engines.volumes.volume_measures:measure_volume" if is_volume else f"{room}:measure_regions"
-    measures = resolved(measure)(image)
+    measures = resolved(f"{room}:measure_regions")(image)
     regions = resolved(f"{room}:region_table")(image, measures=measures)
     borders = dict(resolved(f"{room}:neighbor_table")(image, measures=measures))
     own = {} if image.seeds is None else image.seeds.properties

@@ -25,10 +25,10 @@ if TYPE_CHECKING:
     from vorotool.formats.opening import Opened
     from vorotool.render.canvas.layers import Backdrop
     from vorotool.types.mesh.triangulation import Triangulation
-    from vorotool.types.pixel_frame import Frame
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.raster import Raster
     from vorotool.types.points.seed_set import SeedSet
+    from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
 
 class JobInput(NamedTuple):
@@ -210,28 +210,31 @@ def seeds_of_image(run: Run, o: Options, image: Raster, mode: SeedMode | None) -
     )
 
 
-def frame_of(o: Options, seeds: SeedSet) -> Frame | None:
+def frame_of(o: Options, seeds: SeedSet | VolumeSeeds) -> Any:
     """Give the frame that is asked for, else the one that the seeds bring or need; None where there are no seeds."""
     from vorotool.engines.tessellation.frames import default_frame
 
     asked = asked_frame(o)
     if asked is not None:
         return asked
-    if not len(seeds) and not seeds.is_empty_image:
+    if not len(seeds) and seeds.frame is None:
         return None
     instead = "delaunay --what cells"
     if o.command == "tessellate":
         instead = f"--cell-size C, or {instead}"
-    return default_frame(seeds, how="give one with --size WxH or --window X,Y,W,H", instead=instead)
+    form = "WxHxD or --window X,Y,Z,W,H,D" if o.is_of_volumes else "WxH or --window X,Y,W,H"
+    return default_frame(seeds, how=f"give one with --size {form}", instead=instead)
 
 
-def asked_frame(o: Options) -> Frame | None:
-    """Give the frame of --window or --size, if there is one."""
+def asked_frame(o: Options) -> Any:
+    """Give the frame of --window or --size, if there is one: of pixels, or of voxels."""
     from vorotool.types.pixel_frame import Frame
+    from vorotool.types.volumes.voxel_frame import VoxelFrame
 
-    if o.window is not None:
-        return Frame(*o.window)
-    return None if o.size is None else Frame(0, 0, *o.size)
+    numbers = o.window if o.size is None else (*(0 for _ in o.size), *o.size)
+    if numbers is None:
+        return None
+    return Frame(*numbers) if len(numbers) == 4 else VoxelFrame(*numbers)
 
 
 def report_no_seeds(run: Run, o: Options, frame: object) -> None:

@@ -47,7 +47,7 @@ class Recipe:
 
     def make(self, run: Run, o: Options, given: JobInput) -> Results:
         """Read an input, and return what makes its results."""
-        place = "jobs.volumes.products:products" if self.is_of_volumes else COMMANDS[self.name].job
+        place = "jobs.volumes:products" if self.is_of_volumes else COMMANDS[self.name].job
         made: Results = resolved(place)(run, o, given)
         return made
 

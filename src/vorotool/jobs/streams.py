@@ -5,25 +5,36 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from functools import partial
+from functools import cached_property, partial
 from math import prod
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.tessellation.bands import Band
-from vorotool.engines.tessellation.frames import label_dtype
+from vorotool.engines.tessellation.bands import Band, SeedBands, with_neighbors
+from vorotool.engines.tessellation.frames import CELL, band_limits, label_dtype, require_memory
+from vorotool.engines.tessellation.tessellate import verify_rows
+from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.options import AUTO_LEVELS, Options
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.jobs.units import table_in_units
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.spacing import PixelSides
+from vorotool.types.table import Table
+from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.voxel_frame import VoxelFrame
+
+if TYPE_CHECKING:
+    from vorotool.engines.label_images.measured_regions import Regions
 
 PartOf = Callable[[int, int], NDArray[Any]]
 """``part_of(first, count)`` gives some rows of an image, or slices of a volume."""
@@ -74,7 +85,40 @@ class Stream:
 
 
 class Streamed(Results):
-    """Results of a tessellation, of which images and volumes are streamed."""
+    """Results of a tessellation, which are computed part by part."""
+
+    frame: Any  # of pixels or voxels
+    seeds: Any  # at least their sites
+
+    def __init__(self, run: Run, options: Options, sides: PixelSides, grid: Any) -> None:
+        super().__init__(run, options)
+        self.sides, self.grid = sides, grid
+        self.with_distances = "table" in options.what
+
+    def label_parts(self) -> Iterator[tuple[NDArray[Any], NDArray[Any] | None]]:
+        """Give labels part by part, with squared distances where a table needs them."""
+        raise NotImplementedError
+
+    @cached_property
+    def regions(self) -> Regions:
+        """Areas, borders and boxes of the regions: one pass that tables and colors share."""
+        from vorotool.engines.label_images.measured_regions import regions_of_parts
+
+        return regions_of_parts(self.label_parts(), self.frame, self.sides, self.seeds, threads=self.options.threads)
+
+    @cached_property
+    def _table(self) -> Table:
+        return self.regions.table(threads=self.options.threads)
+
+    def written(self, what: str, fmt: str) -> Table:
+        """Give a table in the units of files; of a volume, it is in the unit of distances already."""
+        from vorotool.types.identity import ends_of_regions
+
+        table = self._table if what == "table" else self.regions.neighbors()
+        if isinstance(self.frame, Frame):
+            own = {"properties": self.seeds.properties, "has_rows": True} if what == "table" else {}
+            table = table_in_units(self.options.pixel_size, table, **own)
+        return table if what == "table" else ends_of_regions(table, self.seeds)
 
     def stream(self, what: str) -> Stream:
         """Give one of `STREAMED`."""
@@ -138,17 +182,42 @@ class Streamed(Results):
 class Tessellated(Streamed):
     """Results of one tessellation of which any rows, or slices, can be computed."""
 
-    def __init__(self, run: Run, options: Options, sweep: Any, grid: Any) -> None:
-        super().__init__(run, options)
-        self.sweep, self.frame, self.seeds, self.grid = sweep, sweep.frame, sweep.seeds, grid
+    def __init__(self, run: Run, options: Options, sweep: Any, sides: PixelSides, grid: Any) -> None:
+        super().__init__(run, options, sides, grid)
+        self.sweep, self.frame, self.seeds = sweep, sweep.frame, sweep.seeds
+        self.is_held = False  # whether all labels are in memory: set before anything is written
         check_columns(options, self.seeds.properties)
         self.dtype = label_dtype(self.seeds.largest_label, options.dtype)
+
+    @cached_property
+    def whole(self) -> Any:
+        """The whole label image or volume, in memory."""
+        require_memory(self.frame, self.options.max_pixels)
+        kind = LabelImage if len(self.frame.shape) == 2 else LabelVolume
+        return kind(self.labels(), self.frame, self.seeds, sides=self.sides)
+
+    @cached_property
+    def colors(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+        """Labels, and the color class of each."""
+        from vorotool.engines.label_images.regions import region_colors
+
+        return region_colors(self.whole, measures=self.regions.measures)
 
     def labels(self, first: int = 0, count: int | None = None) -> NDArray[Any]:
         """Compute the labels of some rows or slices."""
         with self.run.phase("tessellate"):
             made: NDArray[Any] = self.sweep.labels(first, count, dtype=self.dtype)
         return made
+
+    def label_parts(self) -> Iterator[tuple[NDArray[Any], NDArray[Any] | None]]:
+        """Give labels part by part, with squared distances where a table needs them."""
+        has_squares = self.with_distances and len(self.seeds) and isinstance(self.sweep, Tessellator)
+        for first, count in self.limits():
+            labels = self.whole.labels[first : first + count] if self.is_held else self.labels(first, count)
+            squares = None
+            if has_squares:
+                squares = self.sweep.squared_distances(first, count, dtype=self.sweep.measured_dtype)
+            yield labels, squares
 
     def stream(self, what: str) -> Stream:
         """Give labels, the diagram or distances."""
@@ -163,28 +232,35 @@ class Tessellated(Streamed):
 
     def _diagram(self, first: int, count: int) -> NDArray[Any]:
         """Compute some rows of the diagram, which the ones beside them have a part in."""
-        begin, end = max(first - 1, 0), min(first + count + 1, self.frame.shape[0])
-        return self.diagram_of(self.labels(begin, end - begin))[first - begin :][:count]
+        from vorotool.engines.label_images.regions import diagram_of
 
-    def diagram_of(self, labels: NDArray[Any]) -> NDArray[Any]:
-        """Mark pixels or voxels beside others of other labels."""
-        raise NotImplementedError
+        begin, whole = with_neighbors(self.frame, first, count)
+        return diagram_of(self.labels(begin, whole), threads=self.options.threads)[first - begin :][:count]
 
     def band(self, what: Any, dtype: np.dtype[Any], first: int, count: int) -> Band:
         """Give some rows or slices as what computes them anywhere."""
-        raise NotImplementedError
+        limit = self.options.max_distance
+        return self._seed_bands.band(what, dtype, first, count, sides=self.sides, max_distance=limit)
+
+    @cached_property
+    def _seed_bands(self) -> SeedBands:
+        return SeedBands(self.seeds, self.frame)
 
     def limits(self) -> Limits:
         """Give the parts in which it is streamed."""
-        raise NotImplementedError
+        return band_limits(self.frame, len(self.seeds))
 
     def about(self, what: str, dtype: np.dtype[Any]) -> Mapping[str, Any]:
         """Give further options of the writer of a result."""
         return {}
 
+    def verify(self, progress: Progress) -> None:
+        """Check the labels of every part against an independent nearest-seed search."""
+        verify_rows(self.sweep, threads=self.options.threads, progress=progress)
+
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        seeds = self.seeds
+        seeds, frame = self.seeds, self.frame
         return {
             "seeds": len(seeds),
             "labels": len(seeds.site_labels) if seeds.site_labels is not None else 0,
@@ -192,6 +268,10 @@ class Tessellated(Streamed):
             "duplicates": self.sweep.duplicates,
             "snapped": seeds.snapped,
             "largest_move": seeds.largest_move,
+            f"steps_per_{CELL[len(frame.shape)]}": seeds.scale,
+            "frame": [*frame.origin, *reversed(frame.shape)],
+            "method": self.options.method,
+            "threads": self.options.threads,
         }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property, partial
@@ -13,13 +13,15 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.tessellation.bands import Band, SeedBand, SeedBands
-from vorotool.engines.tessellation.frames import band_limits, require_memory, squared_limit
+from vorotool.engines.tessellation.bands import Band
+from vorotool.engines.tessellation.frames import band_limits, label_dtype, require_memory, squared_limit
 from vorotool.engines.tessellation.propagation import PropagatedRows
+from vorotool.engines.tessellation.raster_objects import PartwiseObjects
 from vorotool.engines.tessellation.seeding import seeds_in_frame
-from vorotool.engines.tessellation.tessellate import labeled_rows, verify_rows
+from vorotool.engines.tessellation.streamed_image import StreamedImage
+from vorotool.engines.tessellation.tessellate import labeled_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.errors import LimitError
+from vorotool.errors import LimitError, UsageError
 from vorotool.jobs.checked_columns import tell_outside
 from vorotool.jobs.inputs import JobInput, asked_frame, frame_of, no_seeds, opened_input, read_opened, seeds_of_image
 from vorotool.jobs.map_cells import seeds_on_map
@@ -27,27 +29,34 @@ from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import lengths_of_image, with_pixel_size, written_grid
 from vorotool.jobs.refusals import check_image_size, refuse
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
-from vorotool.jobs.streams import STREAMED, Limits, Tessellated, check_chunks, scale_of_squares
+from vorotool.jobs.streams import Stream, Streamed, Tessellated, check_chunks, scale_of_squares
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import sides_of, table_in_units, unit_columns, unit_text
+from vorotool.jobs.units import known_length, sides_of, unit_columns, unit_text
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import ANIMATIONS
 from vorotool.types.axis import is_up
-from vorotool.types.pixel_frame import Frame
 from vorotool.types.pixel_grid import PixelGrid
-from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.raster import Raster
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.spacing import SQUARE
-from vorotool.types.table import Table
 
 if TYPE_CHECKING:
-    from vorotool.engines.label_images.regions import RegionMeasures
+    from vorotool.formats.images.band_reader import TiffRows, ZarrRows
+    from vorotool.formats.opening import Opened
     from vorotool.render.label_images.picture import LabelPicture
     from vorotool.render.looks import World
+
+LARGE = 2**24
+"""Pixels from which an image that can be read in bands is not held: a seed in memory takes some 40 bytes."""
+
+LEAST_ROWS = 128
+"""Rows that are read at a time, however low chunks are: for each band two lists are kept."""
+
+TABLES = frozenset({"table", "neighbors"})
+OF_LARGE = TABLES | {"labels", "distance", "distance2"}
+"""What can be written of an image that is not held."""
 
 DARK_LABELS = 1024
 """Labels up to here look black in a 16-bit image."""
@@ -143,28 +152,8 @@ class Products(Tessellated):
         read: ReadSeeds,
         rows: Tessellator | PropagatedRows,
     ) -> None:
-        super().__init__(run, options, rows, written_grid(options.pixel_size, read.grid))
-        self.backdrop, self.sides = given.backdrop, sides_of(options)
-
-    @cached_property
-    def image(self) -> LabelImage:
-        """The whole label image, in memory."""
-        require_memory(self.frame, self.options.max_pixels)
-        return LabelImage(self.labels(), self.frame, self.seeds, sides=self.sides)
-
-    @cached_property
-    def measures(self) -> RegionMeasures:
-        """Areas, borders and boxes of the regions: one pass that tables and colors share."""
-        from vorotool.engines.label_images.regions import measure_regions
-
-        return measure_regions(self.image, threads=self.options.threads)
-
-    @cached_property
-    def colors(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-        """Labels, and the color class of each."""
-        from vorotool.engines.label_images.regions import region_colors
-
-        return region_colors(self.image, measures=self.measures)
+        super().__init__(run, options, rows, sides_of(options), written_grid(options.pixel_size, read.grid))
+        self.backdrop, self.with_distances = given.backdrop, self.with_distances or given.has_page
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written in the format of a target, before anything is."""
@@ -184,8 +173,9 @@ class Products(Tessellated):
             _ = self._exact_rows().square_dtype
         if fmt == "zarr":
             check_chunks(self.options, self.stream(what))
-        if what not in STREAMED or self.is_picture(target):
+        if self.is_picture(target) or fmt == "html" or fmt in ANIMATIONS:
             require_memory(self.frame, self.options.max_pixels)
+            self.is_held = True
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result, and say what may surprise in it."""
@@ -217,55 +207,19 @@ class Products(Tessellated):
             made |= {"palette": LINE_ON_PAPER, "bit_depth": 1}
         return made if what != "distance2" else {**made, "scale": scale_of_squares(self._exact_rows().step)}
 
-    def limits(self) -> Limits:
-        """Give bands of rows."""
-        return list(band_limits(self.frame))
-
-    def band(self, what: Any, dtype: np.dtype[Any], first: int, count: int) -> Band:
-        """Give some rows as what computes them anywhere."""
-        frame = self.frame
-        place = Frame(frame.x, frame.y + first, frame.width, count)
-        seeds = self._seed_bands.seeds_of(first, count)
-        return SeedBand(seeds, place, what, dtype, self.options.max_distance, self.sides)
-
-    @cached_property
-    def _seed_bands(self) -> SeedBands:
-        return SeedBands(self.seeds, self.frame)
-
-    def diagram_of(self, labels: NDArray[Any]) -> NDArray[Any]:
-        """Mark pixels beside others of other labels."""
-        from vorotool.engines.label_images.regions import voronoi_diagram
-
-        return voronoi_diagram(labels, threads=self.options.threads)
-
-    def written(self, what: str, fmt: str) -> Table:
-        """Give a table of the whole image, in the units of files."""
-        from vorotool.engines.label_images.regions import neighbor_table, region_table
-        from vorotool.types.identity import ends_of_regions
-
-        image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
-        size, seeds = self.options.pixel_size, self.seeds
-        if what == "neighbors":
-            return ends_of_regions(table_in_units(size, neighbor_table(image, measures=measures)), seeds)
-        has_distances = isinstance(self.sweep, Tessellator) and len(seeds)
-        rows = self._exact_rows() if has_distances else None
-        squares = None if rows is None else rows.squared_distances(dtype=rows.measured_dtype)
-        table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
-        return table_in_units(size, table, properties=seeds.properties, has_rows=True)
-
     def write_page(self, out: BinaryIO) -> None:
         """Write a page that shows the regions."""
         from vorotool.render.pages.html import write_labels_html
 
         more = unit_columns(self.options.pixel_size, len(self.colors[0]))
-        write_labels_html(out, self.image, self.colors, self.written("table", "html"), more, y_up=is_up(self.image))
+        write_labels_html(out, self.whole, self.colors, self.written("table", "html"), more, y_up=is_up(self.whole))
 
     def drawing(self, what: str, fmt: str) -> LabelPicture:
         """Prepare a picture, which shows the seeds as well."""
         from vorotool.render.label_images.picture import label_picture
 
-        y_up = self.backdrop is None and is_up(self.image)
-        return label_picture(self.image, self.colors, self.products[what], self.wanted, y_up=y_up)
+        y_up = self.backdrop is None and is_up(self.whole)
+        return label_picture(self.whole, self.colors, self.products[what], self.wanted, y_up=y_up)
 
     def frames(self, what: str) -> Callable[[Fraction], NDArray[np.uint8]]:
         """Draw cells that grow from their seeds until they fill the frame, or to the largest distance."""
@@ -298,20 +252,157 @@ class Products(Tessellated):
         assert isinstance(self.sweep, Tessellator)  # the command refuses distances of the propagation
         return self.sweep
 
-    def verify(self, progress: Progress) -> None:
-        """Check the labels of every band against an independent nearest-seed search."""
-        verify_rows(self.sweep, threads=self.options.threads)
-
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        rows, frame = self.sweep, self.frame
-        counts: dict[str, Any] = {
-            **super().stats(),
-            "steps_per_pixel": self.seeds.scale,
-            "frame": [frame.x, frame.y, frame.width, frame.height],
-            "method": self.options.method,
-            "threads": self.options.threads,
-        }
+        rows, counts = self.sweep, super().stats()
         if isinstance(rows, Tessellator):
             return {**counts, "distance2_step": str(rows.step), "arithmetic": rows.arithmetic, "simd": rows.simd}
         return {**counts, "passes": self.options.passes or 2, **rows.compare_with_exact()}
+
+
+def rows_of_large(o: Options, source: Opened) -> ZarrRows | TiffRows | None:
+    """Give an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
+    held = o.verify or o.seeds == "centroids" or o.threshold == "otsu" or o.method != "exact" or o.columns is not None
+    rows = None if held or not set(o.what) <= OF_LARGE else source.rows()
+    if rows is None:
+        return None
+    height, width = rows.shape
+    if o.cleans_masks:
+        if height * width > max(o.max_pixels, LARGE):
+            raise LimitError(
+                f"{o.cleans_masks} needs the whole image in memory, but its {width} x {height} pixels are more than "
+                f"--max-pixels {o.max_pixels}: raise that if there is memory for it, or leave out {o.cleans_masks} to "
+                "read the image in bands"
+            )
+        return None
+    on_cluster = o.cluster is not None and o.out_dir is None
+    return rows if on_cluster or height * width > LARGE else None
+
+
+class StreamedProducts(Streamed):
+    """Results of one image that is not held."""
+
+    def __init__(self, run: Run, options: Options, image: ZarrRows | TiffRows) -> None:
+        refuse(
+            options.of_frame,
+            "applies to lists of points, but the input is an image with its own frame",
+        )
+        super().__init__(run, options, sides_of(options), written_grid(options.pixel_size, image.grid))
+        if image.note:
+            run.note(image.note)
+        from vorotool.formats.zarr.writer import CHUNK
+
+        assert options.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held
+        assert options.threshold != "otsu"
+        source = PartwiseObjects(
+            image,
+            options.seeds,
+            int(options.connectivity or 8),
+            options.threshold,
+            options.invert,
+            CHUNK[0] if options.chunk is None else max(LEAST_ROWS, options.chunk[1]),
+        )
+        self.image = StreamedImage(
+            source,
+            max_sites=options.max_sites,
+            strict=options.strict,
+            progress=run.progress("read"),
+            note=run.note,
+            sides=self.sides,
+            has_sites=bool(TABLES & set(options.what)),
+        )
+        self.frame, self.seeds = self.image.frame, self.image.seeds
+        if set(options.what) & {"distance", "distance2"}:
+            self.image.check_distances()
+        self.dtype = label_dtype(self.image.largest_label, options.dtype)
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written in the format of a target."""
+        from vorotool.formats.images.label_images import check_png
+
+        if target.fmt in ("svg", "html"):
+            raise UsageError("the image is too large for a picture: write a PNG, a TIFF or a Zarr store")
+        if target.what in TABLES:
+            return
+        stream = self.stream(target.what)
+        if target.fmt == "png":
+            check_png(stream.dtype, stream.about["largest_label"])
+        if target.fmt == "zarr":
+            check_chunks(self.options, stream)
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+        if target.what == "distance2" and self.options.spacing is not None:
+            step = self.sides.step
+            self.run.note(f"squared distances are in squares of a step of {step}{unit_text(self.options.pixel_size)}")
+        super().write(target, inputs=inputs)
+
+    def stream(self, what: Any) -> Stream:
+        """Labels or distances, band by band."""
+        dtype, largest, frame = self.dtype, self.image.largest_label, self.frame
+        if what == "distance":
+            dtype, largest = np.dtype(np.float32), 0
+        elif what == "distance2":
+            dtype = self.image.square_dtype
+            largest = int(np.iinfo(dtype).max)
+        limit = self.options.max_distance if what == "labels" else None
+        band = partial(self.image.band, what, dtype, max_distance=limit)
+        scale = scale_of_squares(self.sides.step) if what == "distance2" else None
+        about = {"grid": self.grid, "nodata": None if limit is None else 0, "scale": scale, "tiled": self.options.tiled}
+        about["largest_label"] = largest
+        return Stream(frame, partial(self._rows, band), dtype, band, band_limits(frame), about)
+
+    def label_parts(self) -> Iterator[tuple[NDArray[Any], NDArray[Any] | None]]:
+        """Give labels band by band, with squared distances where a table needs them."""
+        has_squares = self.with_distances and self.image.pixels
+        labels = self.stream("labels")
+        for first, count in labels.limits:
+            squares = None
+            if has_squares:
+                squares = self.image.band("distance2", self.image.measured_dtype, first, count).rows(
+                    threads=self.options.threads
+                )
+            yield labels.part_of(first, count), squares
+
+    def _rows(self, band: Callable[[int, int], Band], first: int, rows: int) -> NDArray[Any]:
+        show = self._progress
+        with self.run.phase("tessellate"):
+            made = band(first, rows).rows(threads=self.options.threads)
+        if show is not None:
+            show((first + rows) / self.frame.height)
+        return made
+
+    @cached_property
+    def _progress(self) -> Progress:
+        return self.run.progress("tessellate")
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        frame = self.frame
+        with_sides: dict[str, Any] = {}
+        if self.options.spacing is not None:
+            with_sides = {"distance2_step": str(self.sides.step), "arithmetic": self.image.arithmetic}
+        return {
+            **with_sides,
+            "seeds": self.image.pixels,
+            "largest_label": self.image.largest_label,
+            "frame": [*frame.origin, *reversed(frame.shape)],
+            "objects": self.image.source.mode,
+            "method": "exact",
+            "threads": self.options.threads,
+        }
+
+
+def check(o: Options, _targets: Sequence[Target]) -> None:
+    """Refuse sizes without a depth for a volume, those with one for an image, and cells of no size."""
+    depth = 3 if o.is_of_volumes else 2
+    for name, sides in (("--size", o.size), ("--chunk", o.chunk)):
+        if sides is not None and len(sides) != depth:
+            shown = "x".join(map(str, sides))
+            form = "WxHxD for a volume, such as 256x256x64" if depth == 3 else "WxH for an image, such as 2048x512"
+            raise UsageError(f"{name} {shown} has {len(sides)} numbers: give {name} {form}")
+    if o.window is not None and len(o.window) != 2 * depth:
+        raise UsageError("--window has four numbers: give six for a volume, X,Y,Z,W,H,D")
+    side = known_length(o.cell_size)
+    if side is not None and not 1e-100 < side < 1e100:
+        raise UsageError("--cell-size must be more than 0, and at most 1e100")

@@ -34,7 +34,7 @@ Example:
 INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG, NPY,
 Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept. With --volume it is a volume: a
 stack (TIFF, NPY, Zarr), or points with a z.""",
-        check="jobs.tessellation_checks:check",
+        check="jobs.tessellation:check",
     ),
     "delaunay": Command(
         "Exact Delaunay triangulation of points or of an image.",

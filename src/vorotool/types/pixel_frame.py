@@ -67,6 +67,15 @@ class Frame:
         return (self.height, self.width)
 
     @property
+    def origin(self) -> tuple[int, int]:
+        """Column and row of the first pixel."""
+        return (self.x, self.y)
+
+    def part(self, first: int, count: int) -> Frame:
+        """Return the frame of some rows."""
+        return Frame(self.x, self.y + first, self.width, count)
+
+    @property
     def box(self) -> Box:
         """The rectangle that the pixels cover, with their centers at integers."""
         from vorotool.types.box import Box

@@ -165,7 +165,7 @@ def test_auto_takes_what_the_file_says(run, tmp_path, kind):
 @pytest.mark.parametrize("large", [2**24, 100])
 @pytest.mark.parametrize("name", ["dots.csv", "in.tif"])
 def test_images_that_are_written_say_the_spacing(run, dots, monkeypatch, name, large):
-    monkeypatch.setattr("vorotool.jobs.streamed_tessellation.LARGE", large)
+    monkeypatch.setattr("vorotool.jobs.tessellation.LARGE", large)
     write(dots / "in.tif", "ome", (2, 2))
     frame = FRAME if name == "dots.csv" else []
     for end in (".tif", ".ome.zarr"):
@@ -215,7 +215,7 @@ def test_images_that_pass_by_have_the_same_bytes(run, tmp_path, monkeypatch, wha
     args = ["tessellate", "in.tif", "--what", what, "--spacing", "0.325,0.5um", "-q", *options]
     limit = ["--max-distance", "2"] if what == "labels" else []
     assert run(*args, *limit, "-o", "held.npy").code == 0
-    monkeypatch.setattr("vorotool.jobs.streamed_tessellation.LARGE", 100)
+    monkeypatch.setattr("vorotool.jobs.tessellation.LARGE", 100)
     monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.SWEEP_PIXELS", 60 * 7)
     done = run(*args, *limit, "-o", "passed.npy", "--stats", "s.json", "--chunk", "60x8")
     assert done.code == 2  # chunks are for stores

@@ -298,7 +298,7 @@ def test_tiles(run, tmp_path, size, what):
 
 
 def test_tiles_of_images_that_are_not_held(run, tmp_path, monkeypatch):
-    import vorotool.jobs.streamed_tessellation as streamed
+    import vorotool.jobs.tessellation as streamed
 
     write(tmp_path / "in.tif")
     assert run("tessellate", "in.tif", "-o", "held.tif", "--tiled").code == 0
@@ -325,7 +325,7 @@ def test_nodata_is_background(run, tmp_path, options):
 
 @pytest.mark.parametrize("options", [[], ["--invert"], ["--threshold", "100"], ["--threshold", "100", "--invert"]])
 def test_nodata_of_images_that_are_not_held(run, tmp_path, monkeypatch, options):
-    import vorotool.jobs.streamed_tessellation as streamed
+    import vorotool.jobs.tessellation as streamed
 
     values = MASK.copy()
     values[:, 40:] = 7

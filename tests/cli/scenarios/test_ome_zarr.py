@@ -55,7 +55,7 @@ def test_plain_stores_are_as_they_were(run, store):
 
 
 def test_bands_and_batches(run, store, monkeypatch):
-    import vorotool.jobs.streamed_tessellation as streamed
+    import vorotool.jobs.tessellation as streamed
 
     run("tessellate", "in.ome.tif", "-o", "a.ome.zarr", "--max-distance", "0", "-q")
     run("tessellate", "a.ome.zarr", "-o", "held.tif", "-q")

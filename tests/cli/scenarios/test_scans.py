@@ -85,7 +85,7 @@ def test_the_note_has_whole_pixels(run, scans):
 
 
 def test_images_beyond_memory_are_refused_with_a_way_out(run, scans, monkeypatch):
-    import vorotool.jobs.streamed_tessellation as streamed
+    import vorotool.jobs.tessellation as streamed
 
     monkeypatch.setattr(streamed, "LARGE", 100)
     done = run("tessellate", "specks.tif", "-o", "a.tif", "--fill-holes", "--max-pixels", "500")
@@ -94,7 +94,7 @@ def test_images_beyond_memory_are_refused_with_a_way_out(run, scans, monkeypatch
 
 
 def test_large_images_are_held_for_it(run, scans, monkeypatch):
-    import vorotool.jobs.streamed_tessellation as streamed
+    import vorotool.jobs.tessellation as streamed
 
     options = ["--min-area", "5", "--fill-holes", "-q"]
     assert run("tessellate", "specks.tif", "-o", "held.tif", *options).code == 0

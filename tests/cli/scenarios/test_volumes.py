@@ -12,8 +12,8 @@ import vorotool
 from support.processes.leftovers import contents, wait_until
 from support.processes.peak_memory import peak_memory
 from support.readers.written import rows_of
-from vorotool.engines.volumes import volume_frames
-from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.engines.tessellation import frames as volume_frames
+from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.formats.samples import sample
 
 MASK = np.zeros((7, 9, 11), np.uint8)
@@ -149,7 +149,7 @@ def test_the_largest_distance_leaves_objects_whole(run, stack):
 @pytest.mark.parametrize("what", ["table", "neighbors"])
 def test_tables_are_those_of_the_library_in_the_unit_of_the_spacing(run, stack, what):
     result = vorotool.tessellate(vorotool.read(stack / "stack.tif", geometry="volume"), spacing=SPACING)
-    squares = VolumeSweep(result.seeds, result.frame, sides=result.sides).squared_distances()
+    squares = Tessellator(result.seeds, result.frame, sides=result.sides).squared_distances()
     table = vorotool.region_table(result, distance2=squares) if what == "table" else vorotool.neighbor_table(result)
     rows = run("tessellate", "--volume", "stack.tif", "--spacing", "auto", "--what", what, "-q").rows
     for name in table:
@@ -179,8 +179,8 @@ def test_tables_are_streamed(run, points, monkeypatch, what):
 
         return give
 
-    monkeypatch.setattr(VolumeSweep, "labels", counted(VolumeSweep.labels))
-    monkeypatch.setattr(VolumeSweep, "squared_distances", counted(VolumeSweep.squared_distances))
+    monkeypatch.setattr(Tessellator, "labels", counted(Tessellator.labels))
+    monkeypatch.setattr(Tessellator, "squared_distances", counted(Tessellator.squared_distances))
     monkeypatch.setattr(volume_frames, "BAND_PIXELS", 40 * 30 * 3)
     assert run("tessellate", *options, "--max-pixels", "1200").out == expected
     passes = 2 if what == "table" else 1
@@ -250,8 +250,8 @@ def test_bytes_depend_neither_on_slabs_nor_threads(run, stack, monkeypatch):
         for name in ("a.tif", "a.npy"):
             run(*options, "--what", what, "-o", name)
         run(*options, "--what", what, "-o", "a.zarr", *chunks)
-        monkeypatch.setattr("vorotool.engines.volumes.volume_frames.BAND_PIXELS", 2 * 9 * 11)
-        monkeypatch.setattr("vorotool.engines.volumes.volume_frames._VOXELS_A_SEED", 0)
+        monkeypatch.setattr("vorotool.engines.tessellation.frames.BAND_PIXELS", 2 * 9 * 11)
+        monkeypatch.setattr("vorotool.engines.tessellation.frames._VOXELS_A_SEED", 0)
         for threads in ("1", "3"):
             for name in ("b.tif", "b.npy"):
                 run(*options, "--what", what, "-o", name, "--threads", threads)
@@ -374,14 +374,14 @@ def test_the_result_is_checked(run, stack, monkeypatch):
     options = ["tessellate", "--volume", "stack.tif", "--spacing", "auto", "-o", "out.tif", "--verify", "-q"]
     assert run(*options).code == 0
     assert run(*options, "--max-distance", "1um").code == 0
-    right = VolumeSweep.labels
+    right = Tessellator.labels
 
     def wrong(self, *given, **more):
         labels = right(self, *given, **more)
         labels[-1, -1, -1] = 1
         return labels
 
-    monkeypatch.setattr(VolumeSweep, "labels", wrong)
+    monkeypatch.setattr(Tessellator, "labels", wrong)
     assert run(*options).code == 1
 
 

@@ -140,7 +140,7 @@ def test_a_failure_leaves_the_older_store(run, tmp_path, seeds, monkeypatch):
 @pytest.fixture
 def tiles(tmp_path, monkeypatch):
     """A mask in tiles, of which some rows are read and fewer are labelled at a time."""
-    monkeypatch.setattr("vorotool.jobs.streamed_tessellation.LARGE", 1000)
+    monkeypatch.setattr("vorotool.jobs.tessellation.LARGE", 1000)
     monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.BAND_PIXELS", 37 * 200)
     monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.SWEEP_PIXELS", 16 * 200)
     mask = (np.random.default_rng(3).random((150, 200)) < 0.02).astype(np.uint8)

@@ -149,16 +149,16 @@ def test_bands_leave_no_trace(threads):
     whole = regions.measure_regions(LabelImage(labels), threads=threads)
     small = labels[:, ::8192]
     table = regions.region_table(LabelImage(small))
-    assert whole.columns["area"].tolist() == (8192 * table["area"]).tolist()
-    assert whole.columns["components"].tolist() == table["components"].tolist()
+    assert whole.cells.tolist() == (8192 * table["area"]).tolist()
+    assert whole.components.tolist() == table["components"].tolist()
     ends = np.pad(small.astype(int), ((0, 0), (1, 1)))
     across = {k: sum(int(((row == k) != (row_next == k)).sum()) for row, row_next in pairwise(ends.T)) for k in (1, 2)}
     downs = {k: p - across[k] for k, p in zip((1, 2), table["perimeter"].tolist(), strict=True)}
-    assert whole.columns["perimeter"].tolist() == [across[k] + 8192 * downs[k] for k in (1, 2)]
+    assert whole.faces.sum(axis=1).tolist() == [across[k] + 8192 * downs[k] for k in (1, 2)]
     reference = regions.measure_regions(LabelImage(labels), threads=1)
-    assert whole.border_length.tolist() == reference.border_length.tolist()
-    for name, column in reference.columns.items():
-        assert whole.columns[name].tolist() == column.tolist()
+    assert whole.border_faces.tolist() == reference.border_faces.tolist()
+    for name in ("cells", "components", "faces", "sums", "low", "high"):
+        assert getattr(whole, name).tolist() == getattr(reference, name).tolist()
 
 
 @pytest.mark.parametrize("pattern", ["comb", "rings", "chequers"])

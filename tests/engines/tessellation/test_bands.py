@@ -53,8 +53,7 @@ def test_bands_are_those_of_the_whole(name, points, height, sides):
         rows = min(height, FRAME.height - first)
         needed = bands.seeds_of(first, rows)
         for what, image in expected.items():
-            place = Frame(FRAME.x, FRAME.y + first, FRAME.width, rows)
-            band = pickle.loads(pickle.dumps(SeedBand(needed, place, what, image.dtype, 20, sides)))
+            band = pickle.loads(pickle.dumps(SeedBand(needed, FRAME, first, rows, what, image.dtype, sides, 20)))
             np.testing.assert_array_equal(band.rows(threads=1), image[first : first + rows], f"{name}, {what}")
 
 

@@ -9,10 +9,10 @@ import vorotool
 from support.families.families import fine_case
 from support.few import few
 from support.oracles.oracles import nearest_labels_of_fine_seeds
-from vorotool.engines.tessellation.bands import SeedBand, SeedBands
+from vorotool.engines.tessellation.bands import SeedBands
 from vorotool.engines.tessellation.seed_lattice import finest_scale
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.engines.tessellation.verify_tessellation import verify_label_image
+from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.spacing import pixel_sides
@@ -28,12 +28,11 @@ def test_labels_of_fine_seeds_in_one_and_in_bands(seed):
     right = nearest_labels_of_fine_seeds(x, y, labels, where, scale, sides.units)
     sweep = Tessellator(seeds, frame, sides=sides, threads=int(rng.integers(1, 4)))
     assert (sweep.labels() == right).all()
-    verify_label_image(right, sweep.seeds, frame, sides=sides)
+    verify_labels(right, sweep.seeds, frame, sides=sides)
     bands, height = SeedBands(seeds, frame), max(1, frame.height // 3)
     for first in range(0, frame.height, height):
         rows = min(height, frame.height - first)
-        band = Frame(frame.x, frame.y + first, frame.width, rows)
-        apart = SeedBand(bands.seeds_of(first, rows), band, "labels", np.dtype(np.uint32), None, sides)
+        apart = bands.band("labels", np.dtype(np.uint32), first, rows, sides=sides)
         assert (apart.rows() == right[first : first + rows]).all()
 
 

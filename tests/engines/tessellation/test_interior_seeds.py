@@ -6,10 +6,11 @@ import pytest
 from support.few import few
 from support.oracles.oracles import nearest_labels, nearest_squares
 from vorotool import _core
+from vorotool.engines.tessellation.frames import simd_level
 from vorotool.engines.tessellation.interior_seeds import needed_seeds
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellate import verify_rows
-from vorotool.engines.tessellation.tessellator import Tessellator, simd_level
+from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.raster import Raster

@@ -10,7 +10,7 @@ import vorotool
 from support.few import few
 from vorotool.engines import peers
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.engines.tessellation.verify_tessellation import verify_label_image
+from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import UsageError, VerificationError
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SeedSet
@@ -59,12 +59,12 @@ def test_every_pixel_has_the_smallest_label_of_its_nearest_seeds(sides, scale, s
     assert np.array_equal(sweep.squared_distances(), least)
     expected = np.sqrt(least.astype(np.float64) * float((sides.step / scale) ** 2))
     assert np.array_equal(sweep.distances(), expected.astype(np.float32))
-    verify_label_image(labels, seeds, frame, sides=sides)
+    verify_labels(labels, seeds, frame, sides=sides)
     rows = [sweep.labels(row, 1) for row in range(frame.height)]
     assert np.array_equal(np.concatenate(rows), labels)
     if len(np.unique(labels)) > 1:
         with pytest.raises(VerificationError):
-            verify_label_image(np.where(labels == labels.max(), labels.min(), labels), seeds, frame, sides=sides)
+            verify_labels(np.where(labels == labels.max(), labels.min(), labels), seeds, frame, sides=sides)
 
 
 @pytest.mark.parametrize("level", LEVELS)
@@ -80,7 +80,7 @@ def test_the_instruction_sets_agree(level, monkeypatch):
     except UsageError:
         pytest.skip("this machine has it not")
     assert np.array_equal(sweep.labels(), expected)
-    verify_label_image(expected, seeds, frame, sides=sides)
+    verify_labels(expected, seeds, frame, sides=sides)
 
 
 def test_ties_across_sides_belong_to_the_smaller_label():

@@ -89,7 +89,7 @@ def test_borders_of_neighbors_count_both_kinds_of_sides(spacing):
     for row, (a, b) in enumerate(zip(table["label_a"], table["label_b"], strict=True)):
         counts = [(np.sort(pairs, axis=1) == (a, b)).all(axis=1).sum() for pairs in (vertical, horizontal)]
         assert table["border_length"][row] == pytest.approx(counts[0] * height + counts[1] * width)
-        assert (measures.border_vertical[row], measures.border_length[row]) == (counts[0], sum(counts))
+        assert measures.border_faces[row].tolist() == counts
         step = (image.seeds.sites[a - 1] - image.seeds.sites[b - 1]) * (width, height)
         assert table["centroid_distance"][row] == pytest.approx(np.hypot(*step))
 
@@ -101,11 +101,11 @@ def test_vertical_sides_are_counted_over_bands(threads):
     vertical, horizontal = sides_between(labels)
     for row, label in enumerate(measures.labels.tolist()):
         counts = [((pairs == label).sum(axis=1) == 1).sum() for pairs in (vertical, horizontal)]
-        assert measures.columns["vertical_sides"][row] == counts[0]
-        assert measures.columns["perimeter"][row] == sum(counts)
+        assert measures.faces[row, 0] == counts[0]
+        assert measures.faces[row].sum() == sum(counts)
     for row, (a, b) in enumerate(measures.labels[measures.borders].tolist()):
         counts = [(np.sort(pairs, axis=1) == (a, b)).all(axis=1).sum() for pairs in (vertical, horizontal)]
-        assert (measures.border_vertical[row], measures.border_length[row]) == (counts[0], sum(counts))
+        assert measures.border_faces[row].tolist() == counts
 
 
 @pytest.mark.parametrize("factor", [3, Fraction(1, 7), 0.1])

@@ -11,8 +11,9 @@ from scipy import ndimage
 
 from support.few import few
 from support.processes.heard_signals import stop
+from vorotool.engines.tessellation.raster_objects import PartwiseObjects
 from vorotool.engines.tessellation.seeding import seeds_from_raster
-from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
+from vorotool.engines.tessellation.streamed_image import StreamedImage
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, VorotoolWarning
 from vorotool.types.spacing import PixelSides
@@ -99,7 +100,7 @@ def test_masks(name, mask, mode, connectivity, bands):
     values = mask.astype(np.uint8)
     seeds = seeds_from_raster(values, mode=mode, connectivity=connectivity)
     whole = Tessellator(seeds, max_distance=8)
-    source = ObjectRows(Held(values), mode, connectivity)
+    source = PartwiseObjects(Held(values), mode, connectivity)
     for what, expected in (("labels", whole.labels()), ("distance", whole.distances())):
         for heights in ([1000], [7, 1, 16]) if what == "labels" else ([7, 1, 16],):
             found = streamed(source, what, expected.dtype, heights, 8 if what == "labels" else None)
@@ -114,7 +115,7 @@ def test_rectangular_pixels(bands, dtype):
     labels = ndimage.label(blobs((80, 60), 0.6))[0].astype(dtype)
     sides = PixelSides((60, 13), Fraction(1, 40))
     whole = Tessellator(seeds_from_raster(labels), max_distance=2, sides=sides)
-    image = StreamedImage(ObjectRows(Held(labels)), sides=sides)
+    image = StreamedImage(PartwiseObjects(Held(labels)), sides=sides)
     assert image.square_dtype == whole.square_dtype
     for what, expected in (("labels", whole.labels()), ("distance2", whole.squared_distances())):
         found = [image.band(what, expected.dtype, first, 16, 2).rows(threads=1) for first in range(0, 80, 16)]
@@ -122,7 +123,7 @@ def test_rectangular_pixels(bands, dtype):
 
 
 def test_squares_of_rectangular_pixels_that_do_not_fit():
-    image = StreamedImage(ObjectRows(Held(np.eye(3000, dtype=np.uint8))), sides=PixelSides((2**21, 1)))
+    image = StreamedImage(PartwiseObjects(Held(np.eye(3000, dtype=np.uint8))), sides=PixelSides((2**21, 1)))
     assert image.arithmetic == "filtered float64 with int128"
     with pytest.raises(LimitError, match="may exceed 64 bits"):
         _ = image.square_dtype
@@ -133,8 +134,8 @@ def test_label_images(bands, dtype):
     labels = ndimage.label(blobs((80, 60), 0.6))[0].astype(dtype)
     labels[labels == 3] = 2  # one label of two pieces
     whole = Tessellator(seeds_from_raster(labels))
-    source = ObjectRows(Held(labels))
-    assert source.with_mode().mode == "labels"
+    source = PartwiseObjects(Held(labels))
+    assert source.kind() == "labels"
     np.testing.assert_array_equal(streamed(source, "labels", np.dtype(np.uint16), [9]), whole.labels())
 
 
@@ -142,13 +143,13 @@ def test_threshold_and_inversion(bands):
     grey = rng.integers(0, 200, (50, 40)).astype(np.uint8)
     for options in ({"threshold": 180}, {"threshold": 20, "invert": True}, {"invert": True}):
         expected = Tessellator(seeds_from_raster(grey, **options)).labels()
-        found = streamed(ObjectRows(Held(grey), **options), "labels", expected.dtype, [11])
+        found = streamed(PartwiseObjects(Held(grey), **options), "labels", expected.dtype, [11])
         np.testing.assert_array_equal(found, expected)
 
 
 def test_what_shares_a_label_is_found_out():
     def mode(values):
-        return ObjectRows(Held(np.array(values))).with_mode().mode
+        return PartwiseObjects(Held(np.array(values))).kind()
 
     assert mode([[0, 1], [1, 0]]) == "components"
     assert mode([[0, 0], [0, 0]]) == "components"
@@ -157,7 +158,7 @@ def test_what_shares_a_label_is_found_out():
     assert mode([[7, 7], [7, 7]]) == "labels"
     assert mode([[7, 7], [8, 8]]) == "labels"
     with pytest.raises(InputError, match="a photograph"):
-        ObjectRows(Held(rng.integers(0, 200, (90, 90)))).with_mode()
+        PartwiseObjects(Held(rng.integers(0, 200, (90, 90)))).kind()
 
 
 VALUES, TYPES = [1, 7, 255, 65535], [np.uint8, np.uint16, np.int32, np.float32]
@@ -171,14 +172,14 @@ def test_one_value_is_a_mask_or_a_label_as_in_memory(bands, value, dtype):
     values = np.where(blobs((40, 30), 0.6), value, 0).astype(dtype)
     told, heard = [], []
     seeds = seeds_from_raster(values, note=heard.append)
-    source = ObjectRows(Held(values))
+    source = PartwiseObjects(Held(values))
     StreamedImage(source, note=told.append)
     assert told == heard
     np.testing.assert_array_equal(streamed(source, "labels", np.dtype(np.uint32), [9]), Tessellator(seeds).labels())
 
 
 def test_without_foreground_all_labels_are_0(bands):
-    source = ObjectRows(Held(np.zeros((30, 20), np.uint16)))
+    source = PartwiseObjects(Held(np.zeros((30, 20), np.uint16)))
     with pytest.warns(VorotoolWarning, match="no foreground"):
         image = StreamedImage(source)
     band = pickle.loads(pickle.dumps(image.band("labels", np.dtype(np.uint16), 3, 20, 5)))
@@ -190,25 +191,25 @@ def test_without_foreground_all_labels_are_0(bands):
 
 def test_what_is_refused(bands):
     with pytest.raises(InputError, match="no foreground"):
-        StreamedImage(ObjectRows(Held(np.zeros((30, 20), np.uint8))), strict=True)
+        StreamedImage(PartwiseObjects(Held(np.zeros((30, 20), np.uint8))), strict=True)
     noise = Held((rng.random((40, 40)) < 0.3).astype(np.uint8))
     for mode in ("pixels", "components"):
         with pytest.raises(LimitError, match="more than max_sites=5"):
-            StreamedImage(ObjectRows(noise, mode), max_sites=5)
+            StreamedImage(PartwiseObjects(noise, mode), max_sites=5)
     bad = np.zeros((30, 20), np.int64)
     bad[29, 3] = -1
     with pytest.raises(InputError, match="the value -1 in row 29, column 3"):
-        StreamedImage(ObjectRows(Held(bad), "labels"))
+        StreamedImage(PartwiseObjects(Held(bad), "labels"))
     with pytest.raises(InputError, match="NaN"):
-        StreamedImage(ObjectRows(Held(np.full((30, 20), np.nan))))
+        StreamedImage(PartwiseObjects(Held(np.full((30, 20), np.nan))))
 
 
 def test_progress_is_told_and_stops():
     told = []
     mask = Held((rng.random((40, 40)) < 0.3).astype(np.uint8))
-    image = StreamedImage(ObjectRows(mask), progress=told.append)
+    image = StreamedImage(PartwiseObjects(mask), progress=told.append)
     image.band("labels", np.dtype(np.uint16), 10, 20).rows(progress=told.append)
     assert told == [1.0, 1.0]
 
     with pytest.raises(KeyboardInterrupt):
-        StreamedImage(ObjectRows(mask), progress=stop)
+        StreamedImage(PartwiseObjects(mask), progress=stop)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vorotool.engines.tessellation.verify_tessellation import verify_label_image
+from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SeedSet
@@ -26,7 +26,7 @@ def brute_force(seeds, frame, limit=None):
 def check_both_ways(seeds, frame, limit=None, dtype=np.uint32):
     """The right labels pass; any other label at any pixel is found and named."""
     labels = brute_force(seeds, frame, limit).astype(dtype)
-    verify_label_image(labels, seeds, frame, max_distance2=limit, threads=2)
+    verify_labels(labels, seeds, frame, max_distance2=limit, threads=2)
     random = np.random.default_rng(0)
     r, c = (int(random.integers(size)) for size in frame.shape)
     wrong = labels.copy()
@@ -36,7 +36,7 @@ def check_both_ways(seeds, frame, limit=None, dtype=np.uint32):
         rf"has label {wrong[r, c]}, not {labels[r, c]}$"
     )
     with pytest.raises(VerificationError, match=expected.replace("pixels?", "pixels")):
-        verify_label_image(wrong, seeds, frame, max_distance2=limit, threads=2)
+        verify_labels(wrong, seeds, frame, max_distance2=limit, threads=2)
 
 
 def seed_sets(low, high, most=25):
@@ -94,7 +94,7 @@ def test_many_duplicates():
     count = 5000
     labels = np.random.default_rng(0).permutation(count) + 1
     seeds = SeedSet(np.full(count, 3), np.full(count, 2), labels)
-    verify_label_image(np.ones((40, 40), dtype=np.uint16), seeds, Frame(0, 0, 40, 40))
+    verify_labels(np.ones((40, 40), dtype=np.uint16), seeds, Frame(0, 0, 40, 40))
 
 
 def test_no_seeds_and_one_seed():
@@ -109,21 +109,21 @@ def test_count_and_first_do_not_depend_on_threads(threads):
     seeds = SeedSet(random.integers(0, 300, 50), random.integers(0, 300, 50), np.arange(1, 51))
     rows, columns = np.indices((300, 300))
     labels = ((columns[..., None] - seeds.x) ** 2 + (rows[..., None] - seeds.y) ** 2).argmin(axis=2) + 1
-    verify_label_image(labels, seeds, Frame(0, 0, 300, 300), threads=threads)
+    verify_labels(labels, seeds, Frame(0, 0, 300, 300), threads=threads)
     labels[[150, 7, 299], [3, 288, 299]] = 51
     with pytest.raises(VerificationError, match=r"^3 of 90000 pixels are wrong: the first, \(x, y\) = \(288, 7\)"):
-        verify_label_image(labels, seeds, Frame(0, 0, 300, 300), threads=threads)
+        verify_labels(labels, seeds, Frame(0, 0, 300, 300), threads=threads)
 
 
 def test_limits():
     seeds = SeedSet(np.array([2**40 + 1]), np.array([0]), np.array([1]))
     with pytest.raises(InputError, match=r"cannot be verified: a seed lies beyond 2\^40 lattice steps"):
-        verify_label_image(np.ones((1, 1), dtype=np.uint8), seeds, Frame(0, 0, 1, 1))
+        verify_labels(np.ones((1, 1), dtype=np.uint8), seeds, Frame(0, 0, 1, 1))
     near = SeedSet(np.array([0]), np.array([0]), np.array([1]), 256)
     with pytest.raises(InputError, match=r"a seed lies beyond 2\^40"):
-        verify_label_image(np.ones((1, 1), dtype=np.uint8), near, Frame(2**33, 0, 1, 1))
+        verify_labels(np.ones((1, 1), dtype=np.uint8), near, Frame(2**33, 0, 1, 1))
     with pytest.raises(UsageError, match="max_distance2 is -1"):
-        verify_label_image(np.ones((1, 1), dtype=np.uint8), near, Frame(0, 0, 1, 1), max_distance2=-1)
-    verify_label_image(np.ones((1, 1), dtype=np.uint8), near, Frame(0, 0, 1, 1), max_distance2=2**200)
+        verify_labels(np.ones((1, 1), dtype=np.uint8), near, Frame(0, 0, 1, 1), max_distance2=-1)
+    verify_labels(np.ones((1, 1), dtype=np.uint8), near, Frame(0, 0, 1, 1), max_distance2=2**200)
     with pytest.raises(InputError, match="labels have shape"):
-        verify_label_image(np.ones((1, 2), dtype=np.uint8), near, Frame(0, 0, 1, 1))
+        verify_labels(np.ones((1, 2), dtype=np.uint8), near, Frame(0, 0, 1, 1))

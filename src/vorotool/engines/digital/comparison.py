@@ -100,7 +100,7 @@ def compare_digital(
     measures = measure_regions(labeled, threads=threads, progress=progress)
     digital = digital_triangulation(labeled, threads=threads, progress=progress)
     components = np.zeros(len(digital.points), np.int64)
-    components[np.searchsorted(digital.labels, measures.labels)] = measures.columns["components"]
+    components[np.searchsorted(digital.labels, measures.labels)] = measures.components
     mesh = delaunay(digital.points, threads=threads, progress=progress)
     causes = Causes(digital, mesh, frame, components > 0, components > 1)
     ties = CocircularTies(mesh)

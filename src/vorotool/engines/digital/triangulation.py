@@ -12,6 +12,7 @@ from vorotool import _core
 from vorotool.convert.spacings import asked_sides
 from vorotool.engines.common import label_array
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, delaunay, triangulation_fault
+from vorotool.engines.label_images.measured_regions import Regions
 from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.frames import (
     as_seeds,
@@ -145,10 +146,8 @@ def _sites_of_image(image: LabelImage, threads: int) -> tuple[NDArray[np.float64
     if image.seeds is not None:
         return _sites_of_seeds(image.seeds, image.sides)
     assert image.frame is not None
-    measures = measure_regions(image, threads=threads)
-    area = measures.columns["area"]
-    x, y = (measures.columns[name] / area for name in ("sum_x", "sum_y"))
-    return np.stack([x + image.frame.x, y + image.frame.y], axis=1) * (image.sides.x, image.sides.y), measures.labels
+    regions = Regions(measure_regions(image, threads=threads), image.frame, image.sides)
+    return regions.sites, regions.labels
 
 
 def _read(

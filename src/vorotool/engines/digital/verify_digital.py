@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool.convert.spacings import asked_sides
 from vorotool.engines.tessellation.frames import as_seeds, asked_frame, band_limits, default_frame
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.engines.tessellation.verify_tessellation import verify_label_image
+from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import VerificationError
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
@@ -73,7 +73,7 @@ def verify_digital_triangulation(
             lap = min(first, 1)
             labels = sweep.labels(first - lap, count + lap)
             band = Frame(frame.x, frame.y + first - lap, frame.width, count + lap)
-            verify_label_image(labels, sweep.seeds, band, sides=sides, threads=threads)
+            verify_labels(labels, sweep.seeds, band, sides=sides, threads=threads)
             edges = np.concatenate([edges, _edges(labels)])
             triangles = np.concatenate([triangles, _triangles(labels)])
     for name, rows, right in (("edge", found.edges, edges), ("triangle", found.triangles, triangles)):

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.common import label_array
-from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
+from vorotool.engines.tessellation.interior_seeds import surrounded
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.label_image import LabelImage
@@ -61,7 +61,7 @@ def seed_objects(image: LabelImage) -> LabelImage | None:
 def outermost_pixels(image: LabelImage) -> NDArray[np.bool_]:
     """Find the pixels of regions that lie beside another label, or on a side of the image."""
     labels = label_array(image.labels)
-    outermost: NDArray[np.bool_] = (labels != 0) & ~surrounded_pixels(labels)
+    outermost: NDArray[np.bool_] = (labels != 0) & ~surrounded(labels)
     return outermost
 
 
@@ -81,7 +81,7 @@ def _painted(image: LabelImage, seeds: SeedSet) -> LabelImage:
 
 def _squares_to_outermost(labels: NDArray[np.unsignedinteger], threads: int) -> NDArray[np.unsignedinteger]:
     """Squared distance of each pixel from the nearest one that lies beside another label, or on a side of the image."""
-    y, x = np.nonzero(~surrounded_pixels(labels))
+    y, x = np.nonzero(~surrounded(labels))
     one = np.ones(len(x), np.uint32)
     seeds = SeedSet(x, y, one, sites=np.empty((0, 2)), site_labels=one[:0])
     return Tessellator(seeds, Frame(0, 0, labels.shape[1], labels.shape[0]), threads=threads).squared_distances()

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common import label_array
 from vorotool.engines.label_images.regions import region_colors
-from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
+from vorotool.engines.tessellation.interior_seeds import surrounded
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.label_image import LabelImage
@@ -20,7 +20,7 @@ def object_colors(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.ui
     if labels.all() or not labels.any():
         return region_colors(image, threads=threads)
     # Of an object the pixels inside it are nearest to no other pixel: its outermost ones are enough.
-    y, x = np.nonzero((labels != 0) & ~surrounded_pixels(labels))
+    y, x = np.nonzero((labels != 0) & ~surrounded(labels))
     found = np.unique(labels)[1:].astype(np.uint32)
     seeds = SeedSet(x, y, labels[y, x].astype(np.uint32), sites=np.empty((len(found), 2)), site_labels=found)
     frame = Frame(0, 0, labels.shape[1], labels.shape[0])

@@ -1,7 +1,8 @@
-"""Measures of a label image: its regions, their neighbors, the diagram, a coloring (section 2.1)."""
+"""Measures of a label image or volume: its regions, their neighbors, the diagram, a coloring (section 2.1)."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -9,33 +10,25 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.images import as_label_image
-from vorotool.convert.volumes import is_of_space
-from vorotool.engines.common import (
-    described,
-    in_unit,
-    label_array,
+from vorotool.convert.volumes import as_volume, is_of_space
+from vorotool.engines.common import described, label_array, next_row
+from vorotool.engines.label_images.measured_regions import (
+    CELL,
+    RegionMeasures,
+    Regions,
     largest_by_label,
-    nearest_sites,
-    next_row,
-    refuse_negative,
-    rows_of,
-    spread,
+    measure_parts,
 )
 from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.errors import InputError, LimitError
-from vorotool.numeric.checks import as_array, checked_flag, checked_threads
+from vorotool.numeric.checks import as_array, checked_flag, checked_threads, naming
 from vorotool.numeric.numbers import finite_double
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
-from vorotool.products.formats import resolved
-from vorotool.types.points.label_image import LabelImage
 from vorotool.types.table import Table
+from vorotool.types.volumes.label_volume import LabelVolume
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, VolumeLike
-
-_IN_SPACE = "engines.volumes.volume_"
-"""Modules of what is made of volumes, whose room is above this one."""
 
 LARGEST_COLOR_TABLE = 1 << 28
 """Entries that an array indexed by label may have."""
@@ -53,30 +46,9 @@ class Bordered(Protocol):
         """(b, 2) indices of neighbors."""
 
 
-@plain
-class RegionMeasures:
-    """Measures of the regions of a label image; what `measure_regions` gives."""
-
-    labels: NDArray[np.uint32]  # (k,) uint32 array: the labels that occur, increasing, without 0
-    # dict of str to (k,) int64 array: `area`, `perimeter`, `vertical_sides`, `components`, `sum_x`, `sum_y`, and the
-    # pixels `left`, `right`, `top` and `bottom` of the bounding box, both ends inside, counted from the corner of the
-    # image. A perimeter counts sides of pixels, and `vertical_sides` those of them that are left or right of a pixel
-    columns: dict[str, NDArray[np.int64]]
-    # (b, 2) uint32 array: indices of two regions that share a pixel side, the smaller first, in lexicographic order
-    borders: NDArray[np.uint32]
-    border_length: NDArray[np.int64]  # (b,) int64 array: pixel sides that the two share
-    border_vertical: NDArray[np.int64]  # (b,) int64 array: of these, the vertical ones
-
-
 def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
-    """Measure all regions of a label image in one pass."""
-    image = _labeled(image)
-    found = _core.label_images.measure_regions(label_array(image.labels), checked_threads(threads), progress)
-    labels = found.pop("labels")
-    refuse_negative(image.labels.dtype, int(labels.max(initial=0)))
-    borders = np.stack([found.pop("border_a"), found.pop("border_b")], axis=1)
-    length, vertical = (found.pop(name) for name in ("border_length", "border_vertical"))
-    return RegionMeasures(labels, found, borders, length, vertical)
+    """Measure all regions of a label image or volume in one pass."""
+    return measure_parts([_labeled(image).labels], threads=threads, progress=progress)
 
 
 def region_table(
@@ -102,8 +74,8 @@ def region_table(
         it ``max_distance`` does not exist.
     distance_scale : int, optional
         Lattice steps a pixel of ``distance2``; by default the scale of the seeds, else 1.
-    measures : RegionMeasures or VolumeMeasures, optional
-        The result of `measure_regions` for this image, or of `measure_volume`.
+    measures : RegionMeasures, optional
+        The result of `measure_regions` for this image.
     properties : bool
         Whether to add the input's own columns.
     threads : int
@@ -135,40 +107,17 @@ def region_table(
     >>> table["perimeter"].tolist(), table["nearest_label"].tolist()
     ([8, 8], [2, 1])
     """
-    if is_of_space(image):
-        options = {"distance2": distance2, "distance_scale": distance_scale, "measures": measures}
-        own: Table = _in_space("tables:volume_table", image, threads, progress, properties=properties, **options)
-        return own
     image = _labeled(image)
-    threads = checked_threads(threads)
-    measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
-    labels, sites = _sites(image, measures)
-    rows = _rows_of(measures.labels, labels, image)
-    nearest_label, nearest_distance = nearest_sites(labels, sites, threads, progress)
-    degree = np.bincount(measures.borders.ravel(), minlength=len(measures.labels))
-    area = spread(_areas(image, measures.columns["area"]), rows, len(labels))
-    around = _border_lengths(image, measures.columns["perimeter"], measures.columns["vertical_sides"])
-    absent = area == 0
-    columns: dict[str, Any] = {
-        "label": labels.astype(np.int64),
-        "x": sites[:, 0].copy(),
-        "y": sites[:, 1].copy(),
-        "area": area,
-        "perimeter": spread(around, rows, len(labels)),
-        "neighbors": spread(degree.astype(np.int64), rows, len(labels)),
-        "nearest_label": nearest_label,
-        "nearest_distance": nearest_distance,
-    }
-    box = _box_columns(image, measures)
+    threads, properties = checked_threads(threads), checked_flag(properties, "properties")
+    regions = _regions(image, measures, threads, progress)
     if distance_scale is not None:
         finite_double(distance_scale, "distance_scale")
-    largest = _max_distance(image, distance2, distance_scale, labels, threads, progress)
-    columns["touches_frame"] = np.ma.array(spread(box.pop("touches_frame"), rows, len(labels)), mask=absent)
-    columns["max_distance"] = np.ma.array(largest, mask=absent | (distance2 is None))
-    columns["components"] = spread(measures.columns["components"], rows, len(labels))
-    for name, values in box.items():
-        columns[name] = np.ma.array(spread(values, rows, len(labels)), mask=absent)
-    return _with_input_columns(columns, image, properties)
+    if distance2 is not None:
+        squares = _largest_squares(image, distance2, regions.labels, threads, progress)
+        scale = 1 if regions.seeds is None else regions.seeds.scale
+        scale = scale if distance_scale is None else distance_scale
+        regions = replace(regions, largest_squares=squares, scale=scale)
+    return regions.table(properties=properties, threads=threads, progress=progress)
 
 
 def neighbor_table(
@@ -184,8 +133,8 @@ def neighbor_table(
     ----------
     image : LabelImage, LabelVolume, or (H, W) or (D, H, W) array of integers or truth values
         Label 0 is no region.
-    measures : RegionMeasures or VolumeMeasures, optional
-        The result of `measure_regions` for this image, or of `measure_volume`.
+    measures : RegionMeasures, optional
+        The result of `measure_regions` for this image.
     threads : int
         Number of threads; 0 uses all. The result does not depend on it.
     progress : callable, optional
@@ -211,23 +160,7 @@ def neighbor_table(
     >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_length"))))
     [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
     """
-    if is_of_space(image):
-        own: Table = _in_space("tables:volume_neighbors", image, threads, progress, measures=measures)
-        return own
-    image = _labeled(image)
-    measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
-    labels, sites = _sites(image, measures)
-    position = sites[_rows_of(measures.labels, labels, image)]
-    step = position[measures.borders[:, 0]] - position[measures.borders[:, 1]]
-    table = Table(
-        {
-            "label_a": measures.labels[measures.borders[:, 0]].astype(np.int64),
-            "label_b": measures.labels[measures.borders[:, 1]].astype(np.int64),
-            "border_length": _border_lengths(image, measures.border_length, measures.border_vertical),
-            "centroid_distance": np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1]),
-        }
-    )
-    return in_unit(table, image.sides)
+    return _regions(_labeled(image), measures, threads, progress).neighbors()
 
 
 def voronoi_diagram(
@@ -272,16 +205,30 @@ def voronoi_diagram(
     array([[1, 1, 1, 0],
            [0, 0, 0, 0]], dtype=uint8)
     """
-    if is_of_space(image):
-        given = {"before": above, "after": below, "out": out}
-        return np.asarray(_in_space("measures:volume_diagram", image, threads, progress, **given))
-    labels = label_array(_labeled(image).labels)
+    labels = _labeled(image).labels
+    return diagram_of(labels, above=above, below=below, out=out, threads=threads, progress=progress)
+
+
+def diagram_of(
+    labels: NDArray[Any],
+    *,
+    above: NDArray[Any] | None = None,
+    below: NDArray[Any] | None = None,
+    out: NDArray[np.uint8] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> NDArray[np.uint8]:
+    """Mark the diagram of labels with two axes or three: see `voronoi_diagram`."""
+    is_flat = labels.ndim == 2
+    labels = label_array(labels, CELL[labels.ndim])
     if out is None:
         out = np.empty(labels.shape, dtype=np.uint8)
     elif described(out) != f"uint8 of shape {labels.shape}" or not out.flags.c_contiguous:
         raise InputError(f"out must be a C-contiguous uint8 array of shape {labels.shape}, but is {described(out)}")
-    rows = [next_row(row, name, labels) for row, name in ((above, "above"), (below, "below"))]
-    _core.label_images.mark_diagram(labels, rows[0], rows[1], out, checked_threads(threads), progress)
+    names = ("above", "below") if is_flat else ("before", "after")
+    beside = [next_row(each, name, labels) for each, name in zip((above, below), names, strict=True)]
+    mark: Any = (_core.label_images if is_flat else _core.volumes).mark_diagram
+    mark(labels, *beside, out, checked_threads(threads), progress)
     return out
 
 
@@ -293,8 +240,6 @@ def region_colors(
     progress: Progress = None,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
     """Color the regions so that neighbors never share a color."""
-    if measures is None and is_of_space(image):
-        measures = _in_space("measures:measure_volume", image, threads, progress)
     measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
     a, b = (np.ascontiguousarray(measures.borders[:, side]) for side in (0, 1))
     return measures.labels, _core.graphs.color_graph(len(measures.labels), a, b, progress)
@@ -313,8 +258,8 @@ def color_regions(
     ----------
     image : LabelImage, LabelVolume, or (H, W) or (D, H, W) array of integers or truth values
         Label 0 is no region.
-    measures : RegionMeasures or VolumeMeasures, optional
-        The result of `measure_regions` for this image, or of `measure_volume`.
+    measures : RegionMeasures, optional
+        The result of `measure_regions` for this image.
     threads : int
         Number of threads; 0 uses all. The result does not depend on it.
     progress : callable, optional
@@ -348,40 +293,27 @@ def color_regions(
     return by_label
 
 
-def _in_space(function: str, image: Any, threads: int, progress: Progress, **options: Any) -> Any:
-    return resolved(f"{_IN_SPACE}{function}")(image, threads=threads, progress=progress, **options)
+def _labeled(image: Any) -> Any:
+    """Give a label image or volume: of truth values the components are numbered, integers are labels."""
+    if isinstance(image, LabelVolume) or not is_of_space(image):
+        return image if isinstance(image, LabelVolume) else as_label_image(image, "image", numbered_components)
+    made = as_volume(image, "volume")
+    values = made.values
+    if values.dtype.kind == "f":
+        with naming("volume"):
+            raise InputError(f"expected labels, a 3-D array of integers, but got {described(values)}")
+    return LabelVolume(_numbered(values) if values.dtype == bool else values, grid=made.grid)
 
 
-def _labeled(image: Any) -> LabelImage:
-    return as_label_image(image, "image", numbered_components)
-
-
-# ---- columns of the table -------------------------------------------------------------------------------
-
-
-def _sites(image: LabelImage, measures: RegionMeasures) -> tuple[NDArray[np.uint32], NDArray[np.float64]]:
-    """Labels and positions of the sites, in steps of the sides: those of the seeds, else the regions' centroids."""
-    sides = np.array([image.sides.x, image.sides.y])
-    if image.seeds is not None:
-        assert image.seeds.site_labels is not None
-        assert image.seeds.sites is not None
-        return image.seeds.site_labels, image.seeds.sites * sides
-    frame, columns = image.frame, measures.columns
-    assert frame is not None
-    x = columns["sum_x"] / columns["area"] + frame.x
-    y = columns["sum_y"] / columns["area"] + frame.y
-    return measures.labels, np.stack([x, y], axis=1) * sides
-
-
-def _areas(image: LabelImage, pixels: NDArray[Any]) -> NDArray[Any]:
-    """Areas in squares of a step of the sides."""
-    square = image.sides.x * image.sides.y
-    return pixels if square == 1 else pixels * float(square)
-
-
-def _border_lengths(image: LabelImage, count: NDArray[np.int64], vertical: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Lengths in steps of the sides, of so many sides of pixels of which some are vertical."""
-    return (count - vertical) * image.sides.x + vertical * image.sides.y
+def _numbered(mask: NDArray[np.bool_]) -> NDArray[np.uint32]:
+    """Number the 26-connected components."""
+    depth, height, width = mask.shape
+    components = _core.volumes.VolumeComponents(width, height, True)
+    provisional = np.empty((depth, height, width), np.uint32)
+    components.add(np.ascontiguousarray(mask).view(np.uint8), provisional, None)
+    number = np.empty(components.size + 1, np.uint32)
+    components.settle(number)
+    return number[provisional]
 
 
 def _checked_measures(measures: Any) -> Any:
@@ -391,59 +323,29 @@ def _checked_measures(measures: Any) -> Any:
     return measures
 
 
-def _rows_of(found: NDArray[np.uint32], labels: NDArray[np.uint32], image: LabelImage) -> NDArray[np.intp]:
-    """Row of the table for each label that occurs in the image."""
-    rows, label = rows_of(found, labels)
-    if label is not None:
-        row, column = (int(k[0]) for k in np.nonzero(image.labels == label))
+def _regions(image: Any, measures: Any, threads: int, progress: Progress) -> Regions:
+    """Measure an image or a volume, of whose labels each is that of a site."""
+    measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
+    regions = Regions(measures, image.frame, image.sides, image.seeds)
+    if (label := regions.stranger) is not None:
+        place = np.unravel_index(int(np.argmax(image.labels == label)), image.shape)
+        axes, what = ("slice", "row", "column")[-len(place) :], "image" if len(place) == 2 else "volume"
+        at = ", ".join(f"{axis} {int(number)}" for axis, number in zip(axes, place, strict=True))
         raise InputError(
-            f"pixel (row {row}, column {column}) has label {label}, which is not one of the {len(labels)} sites: pass "
-            "the seeds that the image was computed from"
+            f"{CELL[len(place)]} ({at}) has label {label}, which is not one of the {len(regions.labels)} sites: pass "
+            f"the seeds that the {what} was computed from"
         )
-    return rows
+    return regions
 
 
-def _box_columns(image: LabelImage, measures: RegionMeasures) -> dict[str, NDArray[np.int64]]:
-    frame = image.frame
-    assert frame is not None
-    left, right, top, bottom = (measures.columns[side] for side in ("left", "right", "top", "bottom"))
-    touches = (left == 0) | (top == 0) | (right == frame.width - 1) | (bottom == frame.height - 1)
-    return {
-        "touches_frame": touches.astype(np.int64),
-        "bbox_x": (left + frame.x) * image.sides.x,
-        "bbox_y": (top + frame.y) * image.sides.y,
-        "bbox_w": (right - left + 1) * image.sides.x,
-        "bbox_h": (bottom - top + 1) * image.sides.y,
-    }
-
-
-def _max_distance(
-    image: LabelImage,
-    distance2: NDArray[Any] | None,
-    scale: int | None,
-    labels: NDArray[np.uint32],
-    threads: int,
-    progress: Progress,
-) -> NDArray[np.float64]:
-    if distance2 is None:
-        return np.zeros(len(labels))
+def _largest_squares(
+    image: Any, distance2: Any, labels: NDArray[np.uint32], threads: int, progress: Progress
+) -> NDArray[Any]:
+    """The largest squared distance in each region."""
     values = np.ascontiguousarray(as_array(distance2, "distance2"))
     if values.shape != image.shape or (values.dtype.kind not in "ui" and values.dtype != np.float64):
         raise InputError(
             f"distance2 must be an array of integers or float64 of shape {image.shape}, but is {values.dtype} of shape "
             f"{values.shape}"
         )
-    if scale is None:
-        scale = image.seeds.scale if image.seeds is not None else 1
-    largest = largest_by_label(label_array(image.labels), values, labels, threads, progress)
-    return np.sqrt(largest.astype(np.float64)) / scale
-
-
-def _with_input_columns(columns: dict[str, Any], image: LabelImage, properties: bool) -> Table:
-    seeds = image.seeds
-    if seeds is not None and seeds.object_area is not None:
-        columns["object_area"] = _areas(image, np.asarray(seeds.object_area, dtype=np.int64))
-    table = in_unit(Table(columns), image.sides)
-    if seeds is None or not checked_flag(properties, "properties") or not seeds.properties:
-        return table
-    return table.with_properties(seeds.properties)
+    return largest_by_label(label_array(image.labels), values, labels, threads, progress)

@@ -12,11 +12,10 @@ from vorotool.convert.images import as_raster
 from vorotool.convert.spacings import asked_sides
 from vorotool.convert.volumes import is_volume
 from vorotool.engines.tessellation.frames import require_memory
+from vorotool.engines.tessellation.interior_seeds import surrounded
 from vorotool.engines.tessellation.raster_objects import LARGEST_LABEL
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.engines.volumes.inner_voxels import outer_voxels
-from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import real_number, shown_number
@@ -149,12 +148,12 @@ def _require(background: NDArray[np.bool_]) -> None:
         raise InputError("invalid mask: expected at least one zero pixel to measure distances to, but all are nonzero")
 
 
-class _Background(VolumeSweep):
+class _Background(Tessellator):
     """The tessellation of a volume whose seeds are its zero voxels, of which those at the foreground are enough."""
 
     def __init__(self, background: NDArray[np.bool_], sides: PixelSides, threads: int) -> None:
         self.is_seed = background
-        self.places = np.argwhere(outer_voxels(background))
+        self.places = np.argwhere(background & ~surrounded(background))
         labels = np.arange(1, len(self.places) + 1, dtype=np.uint32)
         super().__init__(bare_seeds(self.places, labels, background.shape), sides=sides, threads=threads)
 
@@ -170,13 +169,13 @@ class _Background(VolumeSweep):
     def squared_distances(
         self,
         first: int = 0,
-        slices: int | None = None,
+        count: int | None = None,
         *,
         dtype: np.dtype[Any] | None = None,
         out: NDArray[Any] | None = None,
     ) -> NDArray[Any]:
         """Those of the sweep, and 0 where a seed is that it was not told of."""
-        squares = super().squared_distances(first, slices, dtype=dtype, out=out)
+        squares = super().squared_distances(first, count, dtype=dtype, out=out)
         squares[self.is_seed[first : first + len(squares)]] = 0
         return squares
 
@@ -291,10 +290,10 @@ def _grown_volume(values: NDArray[Any], sides: PixelSides, most: Fraction | None
     if labels.min() < 0 or labels.max() > LARGEST_LABEL:
         found = f"{labels.min()} to {labels.max()}"
         raise InputError(f"invalid labels: expected 0 to {LARGEST_LABEL}, but they are {found}")
-    outer = outer_voxels(labels)
+    outer = (labels != 0) & ~surrounded(labels)
     seeds = labels[outer].astype(np.uint32)
     bare = bare_seeds(np.argwhere(outer), seeds, values.shape)
-    sweep = VolumeSweep(bare, sides=sides, max_distance=most, threads=threads)
+    sweep = Tessellator(bare, sides=sides, max_distance=most, threads=threads)
     grown = sweep.labels(dtype=np.uint32).astype(values.dtype)
     np.copyto(grown, values, where=values != 0)
     return grown

@@ -1,1 +1,1 @@
-"""Label images of seeds: each pixel has the label of its nearest seed."""
+"""Exact digital Voronoi tessellation of images and volumes."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Sequence
 from fractions import Fraction
+from math import prod
 from numbers import Rational, Real
 from operator import index
 from typing import Any
@@ -19,7 +19,7 @@ from vorotool.convert.points import as_points
 from vorotool.convert.polygons import as_polygons
 from vorotool.convert.spacings import asked_sides
 from vorotool.engines.common import described
-from vorotool.engines.tessellation.seeding import FrameOf, seeds_from_raster, seeds_in_frame
+from vorotool.engines.tessellation.seeding import FrameOf, moved_to, seeds_from_raster, seeds_in_frame
 from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.numeric.numbers import real_number, shown_number
 from vorotool.types.pixel_frame import MAX_PIXELS, Frame
@@ -39,9 +39,25 @@ MOST_UNASKED = 2**28
 """Pixels that a frame may have which follows from the points alone: more are likely points in map units."""
 
 
-_WINDOW = option("--window X,Y,W,H", "window=(x, y, w, h)")
-_FORMS = ((2, "shape must be two integers (H, W)"), (4, "window must be four integers (x, y, w, h)"))
+_VOXELS_A_SEED, _MOST_VOXELS = 64, 2**27
+"""Of a slab of a volume."""
+
+CELL = {2: "pixel", 3: "voxel"}
+"""What frames of so many axes consist of."""
+
 _CELLS = option("delaunay --what cells", "voronoi_cells")
+_WINDOW = {
+    2: f"{option('--window X,Y,W,H', 'window=(x, y, w, h)')}, or {_CELLS}",
+    3: option("--window X,Y,Z,W,H,D", "window=(x, y, z, w, h, d)"),
+}
+_FORMS = {
+    2: ("shape must be two integers (H, W)", "window must be four integers (x, y, w, h)"),
+    3: ("shape must be three integers (D, H, W)", "window must be six integers (x, y, z, w, h, d)"),
+}
+_HOW = {
+    2: "give shape=(H, W) or window=(x, y, w, h)",
+    3: "give shape=(D, H, W) or window=(x, y, z, w, h, d)",
+}
 _RASTERIZED = option(
     "--cell-size C", "a Raster of vorotool.engines.tessellation.rasterized.rasterized(polygons, frame)"
 )
@@ -63,20 +79,12 @@ def as_seeds(
     elif is_image(source, name, image):
         raster = as_raster(source, name, max_pixels=max_pixels)
         seeds = seeds_from_raster(raster, mode="labels" if isinstance(source, LabelImage) else None)
-        seeds = _moved_to(seeds, source.frame) if isinstance(source, LabelImage) else seeds
+        seeds = moved_to(seeds, source.frame) if isinstance(source, LabelImage) else seeds
     else:
         return seeds_in_frame(_points(source, name), frame, sides=sides)
     if callable(frame):
         frame(seeds)
     return seeds
-
-
-def _moved_to(seeds: SeedSet, frame: Frame | None) -> SeedSet:
-    """Move the seeds of an image to where its frame is."""
-    assert frame is not None  # LabelImage has filled it in
-    assert seeds.sites is not None  # so has SeedSet
-    x, y = frame.x * seeds.scale, frame.y * seeds.scale
-    return replace(seeds, x=seeds.x + x, y=seeds.y + y, sites=seeds.sites + np.array([frame.x, frame.y]), frame=frame)
 
 
 def _points(source: Any, name: str) -> PointSet:
@@ -117,45 +125,41 @@ def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
     warn(f"{duplicates} of {seeds} seeds lie on another seed: the smallest label gets the region")
 
 
-def default_frame(
-    seeds: SeedSet, *, how: str = "give shape=(H, W) or window=(x, y, w, h)", instead: str = "voronoi_cells"
-) -> Frame:
+def default_frame(seeds: Any, *, how: str | None = None, instead: str = "voronoi_cells") -> Any:
     """Give the frame that the input brings, else the smallest at the origin that holds the points."""
     if seeds.frame is not None:
         return seeds.frame
-    nearest = least_sides({"x": seeds.x, "y": seeds.y}, seeds.scale, f"{_WINDOW}, or {_CELLS}")
-    if nearest[0] * nearest[1] > MOST_UNASKED:
-        raise LimitError(
-            f"the smallest frame that holds the points has {nearest[0]} x {nearest[1]} pixels, more than "
-            f"{MOST_UNASKED}: {how}; for points in map units use {instead}"
-        )
-    return Frame(0, 0, nearest[0], nearest[1])
+    axes = len(seeds.coordinates)
+    sides = _least_sides(seeds.coordinates, seeds.scale)
+    if prod(sides) > MOST_UNASKED:
+        size = f"{' x '.join(map(str, sides))} {CELL[axes]}s, more than {MOST_UNASKED}"
+        of_map = f"; for points in map units use {instead}" if axes == 2 else ""
+        raise LimitError(f"the smallest frame that holds the points has {size}: {how or _HOW[axes]}{of_map}")
+    return frame_at((0,) * axes, sides)
 
 
-def least_sides(places: dict[str, NDArray[np.int64]], scale: int, window: str) -> list[int]:
+def frame_at(origin: Sequence[int], size: Sequence[int]) -> Any:
+    """Give the frame of an image or a volume of a width, a height and maybe a depth."""
+    return Frame(*origin, *size) if len(size) == 2 else VoxelFrame(*origin, *size)
+
+
+def _least_sides(coordinates: Sequence[NDArray[np.int64]], scale: int) -> list[int]:
     """Give the sides of the smallest frame at the origin that holds seeds."""
-    for name, values in places.items():
+    for name, values in zip("xyz", coordinates, strict=False):
         if values.min() < 0:
             low, high = values.min() / scale, values.max() / scale
             raise InputError(
-                f"points have {name} from {low:g} to {high:g}, but the default frame begins at 0: use {window}"
+                f"points have {name} from {low:g} to {high:g}, but the default frame begins at 0: use "
+                f"{_WINDOW[len(coordinates)]}"
             )
-    return [int((2 * values.max() + scale) // (2 * scale)) + 1 for values in places.values()]
+    return [int((2 * values.max() + scale) // (2 * scale)) + 1 for values in coordinates]
 
 
-def asked_frame(shape: Any, window: Any) -> Frame | None:
-    """Give the frame that is asked for by ``shape`` (H, W) or ``window`` (x, y, w, h), if one is."""
-    numbers = asked_numbers(shape, window, _FORMS)
-    if numbers is None:
-        return None
-    return Frame(*numbers) if shape is None else Frame(0, 0, numbers[1], numbers[0])
-
-
-def asked_numbers(shape: Any, window: Any, forms: tuple[tuple[int, str], tuple[int, str]]) -> list[int] | None:
-    """Give the numbers of a shape or a window, whichever is given, or None."""
+def asked_frame(shape: Any, window: Any, axes: int = 2) -> Any:
+    """Give the frame that is asked for by the shape of an array, or by a window, if one is."""
     if shape is not None and window is not None:
         raise UsageError("give shape or window, not both")
-    given, (size, form) = (shape, forms[0]) if window is None else (window, forms[1])
+    given, size = (shape, axes) if window is None else (window, 2 * axes)
     if given is None:
         return None
     try:
@@ -164,24 +168,28 @@ def asked_numbers(shape: Any, window: Any, forms: tuple[tuple[int, str], tuple[i
         numbers = []
     if len(numbers) != size:
         points = ": points in space have three columns, x, y and z" * ((size, len(numbers)) in ((2, 3), (4, 6)))
-        raise UsageError(f"{form}, but is {shown_number(given)}{points}")
-    return numbers
+        raise UsageError(f"{_FORMS[axes][window is not None]}, but is {shown_number(given)}{points}")
+    return frame_at(numbers[:axes], numbers[axes:]) if shape is None else frame_at((0,) * axes, numbers[::-1])
 
 
 def require_memory(frame: Frame | VoxelFrame, max_pixels: int) -> None:
     """Refuse a frame that is too large to be held in memory."""
-    count, noun = (frame.pixels, "pixels") if isinstance(frame, Frame) else (frame.voxels, "voxels")
+    count = prod(frame.shape)
     if count > real_number(max_pixels, "max_pixels"):
         sides = " x ".join(map(shown_number, reversed(frame.shape)))
         most = option(f"--max-pixels {shown_number(max_pixels)}")
-        raise LimitError(f"the frame has {sides} = {shown_number(count)} {noun}, more than {most}")
+        noun = CELL[len(frame.shape)]
+        raise LimitError(f"the frame has {sides} = {shown_number(count)} {noun}s, more than {most}")
 
 
-def band_limits(frame: Frame) -> Iterator[tuple[int, int]]:
-    """First row and number of rows of the bands in which a frame is streamed."""
-    height = max(1, BAND_PIXELS // frame.width)
-    for first in range(0, frame.height, height):
-        yield first, min(height, frame.height - first)
+def band_limits(frame: Frame | VoxelFrame, seeds: int = 0) -> list[tuple[int, int]]:
+    """List the first row or slice, and the number of them, of the bands in which a frame is streamed."""
+    whole, *across = frame.shape
+    wanted = BAND_PIXELS
+    if len(across) == 2:
+        wanted = min(max(wanted, _VOXELS_A_SEED * seeds), _MOST_VOXELS)
+    step = max(1, wanted // prod(across))
+    return [(first, min(step, whole - first)) for first in range(0, whole, step)]
 
 
 def label_dtype(largest: int, dtype: Any = None) -> np.dtype[Any]:
@@ -210,11 +218,13 @@ def squared_limit(max_distance: float | Fraction | None, scale: int | Fraction) 
     return int(min(steps * steps, Fraction(2**127)))
 
 
-def square_dtype(largest: int) -> np.dtype[Any]:
+def square_dtype(largest: int, axes: int = 2) -> np.dtype[Any]:
     """Choose the type of squared distances up to `largest`: uint32 or uint64."""
     if largest >= 2**64:
+        what = "frame" if axes == 2 else "volume"
+        sides = "" if axes == 2 else "round the sides of voxels to fewer digits, or "
         raise LimitError(
-            f"squared distances of this frame may exceed 64 bits: use {option('--what distance', 'distances')}"
+            f"squared distances of this {what} may exceed 64 bits: {sides}use {option('--what distance', 'distances')}"
         )
     return np.dtype(np.uint32 if largest < 2**32 else np.uint64)
 

@@ -1,10 +1,11 @@
-"""Objects of an image: foreground by a threshold, a mask of components, or labels."""
+"""Objects of an image or a volume: foreground by a threshold, a mask of components, or labels."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from math import floor
-from typing import Any, Literal, cast
+from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,12 @@ from vorotool import _core
 from vorotool.errors import OTSU, STRICT, InputError, Kind, Message, VorotoolWarning, option, warn
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import finite_double
+from vorotool.plain import plain
 from vorotool.types.points.raster import Raster
+
+if TYPE_CHECKING:
+    from vorotool.types.volumes.volume import Volume
+    from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 Objects = Literal["components", "labels"]
 Threshold = float | Literal["otsu"] | None
@@ -36,6 +42,9 @@ _AS_LABELS = option("--seeds labels", 'mode="labels"')
 
 _AXES = ("slice", "row", "column")
 
+_NARROW = 2
+"""Bytes of integers that are counted by a table of all of them."""
+
 _LUMINANCE = (0.2125, 0.7154, 0.0721)
 """Weights of red, green and blue (ITU-R BT.709, as scikit-image has them)."""
 
@@ -55,10 +64,14 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
             f"the file has lossy compression, such as JPEG, so its values are not labels; use {_THRESHOLD} or "
             f"{mask_options(values)}, or a PNG"
         )
-    if values.dtype.kind == "f" and not np.isfinite(values).all():
-        raise InputError(f"the image holds NaN or infinite values: use {_THRESHOLD} with a number, or replace them")
+    _require_finite(values)
     values = values == 0 if invert else values
     return values if raster.mask is None else np.where(raster.mask, values.dtype.type(0), values)
+
+
+def _require_finite(values: NDArray[Any], what: str = "image") -> None:
+    if values.dtype.kind == "f" and not np.isfinite(values).all():
+        raise InputError(f"the {what} holds NaN or infinite values: use {_THRESHOLD} with a number, or replace them")
 
 
 def gray_values(raster: Raster) -> NDArray[Any]:
@@ -81,8 +94,7 @@ def settled_threshold(raster: Raster, threshold: float | Literal["otsu"], *, inv
     from vorotool.engines.tessellation.otsu import otsu_threshold
 
     gray = counted_values(raster)
-    if gray.dtype.kind == "f" and not np.isfinite(gray).all():
-        raise InputError(f"the image holds NaN or infinite values: use {_THRESHOLD} with a number, or replace them")
+    _require_finite(gray)
     if is_flat(gray):
         return (gray.flat[0].item() if gray.size else 0), False
     return otsu_threshold(gray), invert
@@ -233,3 +245,158 @@ def label_values(values: NDArray[Any], *, first: int = 0) -> NDArray[Any]:
             f"be integers from 0 to {LARGEST_LABEL}; use {_THRESHOLD} or {_AS_COMPONENTS} for a mask"
         )
     return values.astype(np.uint32)
+
+
+# ---- objects of what is read part by part
+
+
+class Parts(Protocol):
+    """An image that is read by ``rows``, or a volume by ``slices``; it can be pickled."""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Rows and columns, after slices if there are some."""
+
+
+@plain
+class HeldParts:
+    """A volume in memory, as one that is read."""
+
+    volume: Volume
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Slices, rows and columns."""
+        return self.volume.shape
+
+    @property
+    def grid(self) -> VoxelGrid | None:
+        """Sides of the voxels."""
+        return self.volume.grid
+
+    def slices(self, first: int, count: int) -> NDArray[Any]:
+        """Give some slices."""
+        return self.volume.values[first : first + count]
+
+
+@plain
+class PartwiseObjects:
+    """The rows of an image, or the slices of a volume, of which the objects are seeds."""
+
+    source: Any  # `Parts`
+    # what shares a label; by default as in `seeds_from_raster`, but a photograph is looked for only in the first part
+    # that has two values
+    mode: str | None = None
+    connectivity: int = 8
+    threshold: float | None = None  # foreground is what is larger
+    invert: bool = False  # exchange foreground and background
+    step: int = 512  # rows or slices that are read at a time: best those that are asked for
+
+    @property
+    def corners(self) -> bool:
+        """Whether components hang together by corners."""
+        return self.connectivity in (8, 26)
+
+    def limits(self) -> Iterator[tuple[int, int]]:
+        """First row or slice, and number of them, of the parts in which it is read."""
+        whole = self.source.shape[0]
+        return ((first, min(self.step, whole - first)) for first in range(0, whole, self.step))
+
+    def read(self, first: int, count: int) -> NDArray[Any]:
+        """Read some rows or slices."""
+        is_flat = len(self.source.shape) == 2
+        values: NDArray[Any] = (self.source.rows if is_flat else self.source.slices)(first, count)
+        return values
+
+    def values(self, first: int, count: int) -> NDArray[Any]:
+        """Read some rows or slices, of which the nonzero values are foreground."""
+        values = self.read(first, count)
+        if self.threshold is not None:
+            values = values > whole_threshold(values, self.threshold)
+        _require_finite(values, "image" if values.ndim == 2 else "volume")
+        return values == 0 if self.invert else values
+
+    def labels(self, first: int, count: int) -> NDArray[Any]:
+        """Read the values of some rows or slices as labels, in an unsigned type."""
+        return label_values(self.values(first, count), first=first)
+
+    def mask(self, first: int, count: int) -> NDArray[np.uint8]:
+        """Read the foreground of some rows or slices, as zeros and ones."""
+        return np.ascontiguousarray(self.values(first, count) != 0).view(np.uint8)
+
+    def kind(self, *, note: Note = None) -> Objects:
+        """Tell whether the nonzero values are of a mask or labels, as `default_objects` does of an image."""
+        if self.threshold is not None or checked_flag(self.invert, "invert"):
+            return "components"
+        one, found = only_value((first, self.values(first, count)) for first, count in self.limits())
+        if found is None:
+            return objects_of_value(one, note=note)
+        first, values = found
+        if values.ndim == 2:
+            refuse_photograph(values)
+        else:
+            _refuse_gray(values, first)
+        return "labels"
+
+    def with_otsu(self) -> PartwiseObjects:
+        """Settle the threshold by Otsu's method, for which the volume is read."""
+        number, is_flat = _otsu(replace(self, threshold=None))
+        return replace(self, threshold=number, invert=self.invert and not is_flat)
+
+
+def _refuse_gray(values: NDArray[Any], first: int) -> None:
+    """Refuse what looks like gray values, in the first slice that has two values beside 0."""
+    several = (
+        number for number, plane in enumerate(values) if plane.any() and (plane[plane != 0] != plane.max()).any()
+    )
+    at = next(several, None)
+    if at is None:
+        return
+    plane, number = values[at], first + at
+    if plane.dtype.kind != "f" or (plane == np.floor(plane)).all():
+        plane = label_values(plane[None], first=number)[0]
+    looks, distinct, fragments = photograph_signs(plane)
+    if looks:
+        raise InputError(
+            f"slice {number} of the volume holds {distinct} different values in {fragments} connected pieces, like "
+            f"gray values: use {mask_options(plane)}, {_THRESHOLD}, or {_AS_LABELS} if these are labels"
+        )
+
+
+def _otsu(objects: PartwiseObjects) -> tuple[float, bool]:
+    """Otsu's threshold of a volume, and whether all voxels have that value; all floats are held."""
+    from vorotool.engines.tessellation.otsu import best_split, otsu_threshold
+
+    slabs = (objects.read(first, count) for first, count in objects.limits())
+    first = next(slabs)
+    if first.dtype.kind == "f":
+        values = np.concatenate([first, *slabs])
+        _require_finite(values, "volume")
+        low, high = values.min().item(), values.max().item()
+        return (low, True) if low == high else (otsu_threshold(values), False)
+    distinct, counts = _counted(first)
+    for slab in slabs:
+        more, times = _counted(slab)
+        both = np.concatenate([distinct, more])
+        distinct, index = np.unique(both, return_inverse=True)
+        total = np.zeros(len(distinct), np.int64)
+        np.add.at(total, index, np.concatenate([counts, times]))
+        counts = total
+    if len(distinct) == 1:
+        return int(distinct[0]), True
+    offsets = distinct.astype(np.uint64) - distinct[0].astype(np.uint64)  # modulo 2^64, so right where it is signed
+    return int(distinct[best_split(offsets, counts)]), False
+
+
+def _counted(slab: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.int64]]:
+    """Give the distinct integers of a slab, and how often each occurs."""
+    slab = slab.view(np.uint8) if slab.dtype == bool else slab
+    if slab.dtype.itemsize > _NARROW:
+        distinct, counts = np.unique(slab, return_counts=True)
+        return distinct, counts.astype(np.int64)
+    least, kinds = int(np.iinfo(slab.dtype).min), 1 << 8 * slab.itemsize
+    counts = np.zeros(kinds, np.int64)
+    for plane in slab:
+        counts += np.bincount(plane.reshape(-1).astype(np.int32) - least, minlength=kinds)
+    present = np.flatnonzero(counts)
+    return (present + least).astype(slab.dtype), counts[present]

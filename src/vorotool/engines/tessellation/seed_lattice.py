@@ -15,7 +15,7 @@ from vorotool.errors import STRICT, InputError, warn
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.equality import index_of_rows
 from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.seed_set import SCALES, SeedSet
+from vorotool.types.points.seed_set import SCALES
 from vorotool.types.spacing import SQUARE, PixelSides
 from vorotool.types.values import counted
 from vorotool.types.volumes.volume_seeds import FINEST_SCALE
@@ -76,7 +76,7 @@ def least_frame(places: NDArray[np.float64]) -> Frame:
     return Frame(low[0], low[1], high[0] - low[0], high[1] - low[1])
 
 
-def on_coarser_lattice(seeds: SeedSet, frame: Frame, sides: PixelSides, *, strict: bool) -> SeedSet:
+def on_coarser_lattice(seeds: Any, frame: Any, sides: PixelSides, *, strict: bool) -> Any:
     """Give seeds of a lattice that is too fine for a frame on the finest one that is not."""
     if seeds.scale <= FINEST_SCALE or not len(seeds):
         return seeds

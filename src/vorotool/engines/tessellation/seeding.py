@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from vorotool.convert.images import as_raster
 from vorotool.convert.points import as_points
 from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
-from vorotool.engines.tessellation.label_sums import numbered, sums
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
     Note,
@@ -45,6 +44,9 @@ if TYPE_CHECKING:
 _CENTROIDS = option("--seeds centroids", 'mode="centroids"')
 
 SeedMode = Literal["pixels", "components", "labels", "centroids"]
+
+COUNTED = 1 << 22
+"""Entries that are counted at a time."""
 
 FrameOf = Frame | Callable[[SeedSet], Frame | None] | None
 """The frame that seeds are for, or a function that returns it, or raises an error for seeds that cannot be used."""
@@ -260,3 +262,44 @@ def _seeds_of_objects(
         raise LimitError(f"the image has {len(distinct)} objects, more than {option(f'--max-sites {max_sites}')}")
     seeds = seeds_in_frame(PointSet(sites, distinct), frame, strict=strict)
     return replace(seeds, properties={}, index=None, **known)
+
+
+def moved_to(seeds: Any, frame: Any) -> Any:
+    """Move the seeds of an image or a volume to where its frame is."""
+    origin = np.array(frame.origin)
+    if not origin.any():
+        return seeds
+    moved = [values + start * seeds.scale for values, start in zip(seeds.coordinates, frame.origin, strict=True)]
+    places = dict(zip("xy", moved, strict=True)) if len(moved) == 2 else {"places": np.array(moved).T}
+    return replace(seeds, **places, sites=seeds.sites + origin, frame=frame)
+
+
+# ---- sums by label over long lists, without copies of them
+
+
+def numbered(labels: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Give the distinct labels, and the index of each one among them: by a table unless the labels are sparse."""
+    largest = int(labels.max())
+    if largest > 4 * labels.size + 65536:
+        return np.unique(labels, return_inverse=True)
+    present = np.zeros(largest + 1, bool)
+    for part in parts(len(labels), COUNTED):
+        present[labels[part]] = True
+    distinct = np.flatnonzero(present)
+    if len(distinct) == largest:
+        return distinct, labels - labels.dtype.type(1)  # labels 1 to n: the commonest
+    return distinct, (np.cumsum(present, dtype=np.uint32) - np.uint32(1))[labels]
+
+
+def parts(count: int, size: int) -> Iterator[slice]:
+    """Cut a list of so many into slices of a size."""
+    for start in range(0, count, size):
+        yield slice(start, start + size)
+
+
+def sums(index: NDArray[Any], kinds: int, weights: NDArray[Any] | None = None) -> NDArray[Any]:
+    """Give the sums of weights by index, part by part: NumPy would copy all of both to 64 bits."""
+    total = np.zeros(kinds, np.int64 if weights is None else np.float64)
+    for part in parts(len(index), max(COUNTED, kinds)):
+        total += np.bincount(index[part], None if weights is None else weights[part], minlength=kinds)
+    return total

@@ -7,25 +7,20 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any, Literal, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.tessellation.bands import Quantity, SeedBand
-from vorotool.engines.tessellation.column_envelope import ColumnEnvelope, first_seeds, last_seeds
 from vorotool.engines.tessellation.frames import square_dtype
-from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
+from vorotool.engines.tessellation.interior_seeds import surrounded
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
     Note,
-    foreground_values,
-    label_values,
-    objects_of_value,
-    only_value,
+    PartwiseObjects,
     refuse_distances,
-    refuse_photograph,
     report_no_foreground,
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
@@ -33,11 +28,8 @@ from vorotool.errors import LimitError, option
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.raster import Raster
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.spacing import SQUARE, PixelSides
-
-StreamedMode = Literal["pixels", "components", "labels"]
 
 BAND_PIXELS = 2**25
 """Most pixels of a band that is read at a time; for each two lists as wide as the image are kept, in a short form."""
@@ -46,67 +38,71 @@ SWEEP_PIXELS = 2**22
 """Pixels that are labeled at a time: each may be a seed, which takes some 60 bytes."""
 
 
-class ImageRows(Protocol):
-    """An image that is read band by band; it can be pickled."""
-
-    @property
-    def shape(self) -> tuple[int, int]:
-        """Rows and columns."""
-
-    def rows(self, first: int, count: int) -> NDArray[Any]:
-        """Read some rows."""
-
-
 @plain
-class ObjectRows:
-    """The rows of an image, of which the objects are seeds."""
+class ColumnEnvelope:
+    """At most one seed a column."""
 
-    image: ImageRows
-    # what shares a label; by default as in `seeds_from_raster`, but a photograph is looked for only in the first band
-    # that has two values
-    mode: StreamedMode | None = None
-    connectivity: int = 8
-    threshold: float | None = None  # foreground is what is larger
-    invert: bool = False  # exchange foreground and background
-    # rows of a band that is read at a time, if that is not too much: best those of the bands that are asked for
-    height: int = 512
+    row: NDArray[np.int32]  # (W,) int32 array: its row
+    label: NDArray[np.uint32]  # (W,) uint32 array: its label; 0 where there is none
 
-    def values(self, first: int, count: int) -> NDArray[Any]:
-        """Read some rows, of which the nonzero values are foreground."""
-        return foreground_values(Raster(self.image.rows(first, count)), self.threshold, invert=self.invert)
+    @classmethod
+    def empty(cls, width: int) -> ColumnEnvelope:
+        """No seed in any column."""
+        return cls(np.zeros(width, np.int32), np.zeros(width, np.uint32))
 
-    def mask(self, first: int, count: int) -> NDArray[np.uint8]:
-        """Read the foreground of some rows, as zeros and ones."""
-        return np.ascontiguousarray(self.values(first, count) != 0).view(np.uint8)
+    def or_else(self, farther: ColumnEnvelope) -> ColumnEnvelope:
+        """These seeds, and in the columns that have none those of another list."""
+        has = self.label != 0
+        return ColumnEnvelope(np.where(has, self.row, farther.row), np.where(has, self.label, farther.label))
 
-    def labels(self, first: int, count: int) -> NDArray[np.uint32]:
-        """Read the values of some rows as labels."""
-        return label_values(self.values(first, count), first=first).astype(np.uint32, copy=False)
+    def numbered(self, number: NDArray[np.uint32]) -> ColumnEnvelope:
+        """The list with other labels, from a table."""
+        return ColumnEnvelope(self.row, number[self.label])
 
-    def limits(self) -> Iterator[tuple[int, int]]:
-        """First row and number of rows of the bands in which it is read."""
-        height, width = self.image.shape
-        step = max(1, min(self.height, BAND_PIXELS // width))
-        return ((first, min(step, height - first)) for first in range(0, height, step))
+    def seeds(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint32]]:
+        """Columns, rows and labels of the seeds."""
+        x = np.flatnonzero(self.label)
+        return x, self.row[x].astype(np.int64), self.label[x]
 
-    def with_mode(self, *, note: Note = None) -> ObjectRows:
-        """Find out what shares a label, where it is not said; see `objects_of_value`."""
-        if self.mode is not None:
-            return self
-        if self.threshold is not None or self.invert:
-            return replace(self, mode="components")
-        one, found = only_value((first, self.values(first, count)) for first, count in self.limits())
-        if found is None:
-            return replace(self, mode=objects_of_value(one, note=note))
-        refuse_photograph(found[1])
-        return replace(self, mode="labels")
+    def packed(self) -> bytes:
+        """Give a short form: neighboring columns are much alike."""
+        change = np.diff(self.row, prepend=np.int32(0))
+        return zlib.compress(change.tobytes() + self.label.tobytes(), 1)
+
+    @classmethod
+    def unpacked(cls, data: bytes) -> ColumnEnvelope:
+        """Give the list back."""
+        row, label = np.frombuffer(zlib.decompress(data), np.uint32).reshape(2, -1)
+        return cls(np.cumsum(row.view(np.int32), dtype=np.int32), label)
+
+
+def last_seeds(objects: NDArray[np.uint32], first: int) -> ColumnEnvelope:
+    """The lowest seed of each column, of rows from ``first`` on, which have labels and 0."""
+    found = ColumnEnvelope.empty(objects.shape[1])
+    for row, line in enumerate(objects, start=first):
+        _put(found, row, line)
+    return found
+
+
+def first_seeds(objects: NDArray[np.uint32], first: int) -> ColumnEnvelope:
+    """The uppermost seed of each column."""
+    found = ColumnEnvelope.empty(objects.shape[1])
+    for row in range(len(objects) - 1, -1, -1):
+        _put(found, first + row, objects[row])
+    return found
+
+
+def _put(found: ColumnEnvelope, row: int, line: NDArray[np.uint32]) -> None:
+    has = line != 0
+    np.copyto(found.row, row, where=has)
+    np.copyto(found.label, line, where=has)
 
 
 @plain
 class ObjectBand:
     """Some rows of objects, and all that their tessellation needs of the other rows."""
 
-    source: ObjectRows  # where they are read
+    source: PartwiseObjects  # where they are read
     first: int
     count: int
     above: bytes  # the nearest seed of each column above and below them: `ColumnEnvelope.packed`
@@ -120,13 +116,13 @@ class ObjectBand:
         """Read the rows: labels of objects, and 0."""
         source, rows = self.source, (self.first, self.count)
         if source.mode == "labels":
-            return source.labels(*rows)
+            return source.labels(*rows).astype(np.uint32, copy=False)
         mask = source.mask(*rows)
         if source.mode == "pixels":
             return _numbered_pixels(mask, self.start)
         numbers = np.empty(mask.shape, np.uint32)
         row_above = np.frombuffer(zlib.decompress(self.row_above), np.uint32)
-        _core.label_images.number_band(mask, source.connectivity == 8, row_above, self.fresh, numbers, None)
+        _core.label_images.number_band(mask, source.corners, row_above, self.fresh, numbers, None)
         return numbers
 
 
@@ -144,7 +140,7 @@ class ImageBand:
 
     def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
         """Compute the rows."""
-        out = np.empty((self.count, self.parts[0].source.image.shape[1]), self.dtype)
+        out = np.empty((self.count, self.parts[0].source.source.shape[1]), self.dtype)
         for part in self.parts:
             for first, pixels in self._pieces(part, out, threads):
                 if progress is not None:
@@ -186,7 +182,7 @@ class ImageBand:
         if not is_object.all():
             frame = Frame(0, first, objects.shape[1], len(objects))
             seeds = _seeds_near(objects, frame, above, below)
-            band = SeedBand(seeds, frame, self.what, self.dtype, self.max_distance, self.sides)
+            band = SeedBand(seeds, frame, 0, frame.height, self.what, self.dtype, self.sides, self.max_distance)
             out[...] = band.rows(threads=threads)
         np.copyto(out, objects if self.what == "labels" else 0, where=is_object, casting="unsafe")
 
@@ -196,27 +192,34 @@ class StreamedImage:
 
     def __init__(
         self,
-        source: ObjectRows,
+        source: PartwiseObjects,
         *,
         max_sites: int = LARGEST_LABEL,
         strict: bool = False,
         progress: Progress = None,
         note: Note = None,
         sides: PixelSides = SQUARE,
+        has_sites: bool = False,
     ) -> None:
-        self.source, self.sides = source.with_mode(note=note), sides
-        height, width = source.image.shape
+        height, width = source.source.shape
+        source = replace(source, step=max(1, min(source.step, BAND_PIXELS // width)))
+        self.source, self.sides = replace(source, mode=source.mode or source.kind(note=note)), sides
         self.frame = Frame(0, 0, width, height)
         self.pixels = self.largest_label = 0
         self._max_sites = max_sites
+        self.seeds: SeedSet | None = None  # sites alone, if there are any
         self._corner: tuple[int, int] | None = None
+        self._measurer = _core.volumes.VolumeMeasurer(width, 1) if has_sites else None
         self._bands: list[ObjectBand] = []
-        self._components = _core.label_images.StreamingComponents(width, source.connectivity == 8)
+        self._components = _core.label_images.StreamingComponents(width, source.corners)
         self._scan(progress)
         if not self.pixels:
             report_no_foreground(strict=strict)
-        self._number()
+        number = self._number()
         del self._components
+        if self._measurer is not None:
+            self.seeds = self._with_sites(number)
+            del self._measurer
 
     def band(
         self,
@@ -247,6 +250,14 @@ class StreamedImage:
         return square_dtype(dx * dx + dy * dy)
 
     @property
+    def measured_dtype(self) -> np.dtype[Any]:
+        """The type of squared distances that are measured only, as `Tessellator.measured_dtype`."""
+        try:
+            return self.square_dtype
+        except LimitError:
+            return np.dtype(np.float64)
+
+    @property
     def arithmetic(self) -> str:
         """The narrowest arithmetic that is exact wherever in the image seeds are."""
         x, y = np.array([0, self.frame.width - 1]), np.array([0, self.frame.height - 1])
@@ -263,6 +274,8 @@ class StreamedImage:
             start = end
             objects, end = self._provisional(first, count, start)
             self._count(objects, first)
+            if self._measurer is not None:
+                self._measurer.add(objects[:, None], 0, None)
             below = first_seeds(objects, first).packed()
             row = zlib.compress(row_above.tobytes(), 1)
             none = np.empty(0, np.uint32)
@@ -275,7 +288,7 @@ class StreamedImage:
     def _provisional(self, first: int, count: int, start: int) -> tuple[NDArray[np.uint32], int]:
         """Label some rows, as far as the rows above them tell; gives how many labels need numbers so far, too."""
         if self.source.mode == "labels":
-            objects = self.source.labels(first, count)
+            objects = self.source.labels(first, count).astype(np.uint32, copy=False)
             self.largest_label = max(self.largest_label, int(objects.max()))
             return objects, 0
         mask = self.source.mask(first, count)
@@ -304,7 +317,27 @@ class StreamedImage:
             self._corner = x, first + y
         self.pixels += count
 
-    def _number(self) -> None:
+    def _with_sites(self, number: NDArray[np.uint32]) -> SeedSet:
+        """Give the sites of the objects, as `seeds_from_raster` does, but none of their seeds."""
+        assert self._measurer is not None
+        found = self._measurer.finish(None)
+        label = found["labels"] if self.source.mode != "components" else number[found["labels"]]
+        distinct, row = np.unique(label, return_inverse=True)
+        area, total = np.zeros(len(distinct), np.int64), np.zeros((len(distinct), 2), np.int64)
+        np.add.at(area, row, found["voxels"])
+        np.add.at(total, row, found["sums"][:, ::2])  # along x and z: each row of the image is a slice
+        nothing = np.empty(0, np.int64)
+        return SeedSet(
+            nothing,
+            nothing,
+            np.empty(0, np.uint32),
+            frame=self.frame,
+            sites=total / area[:, None],
+            site_labels=distinct,
+            object_area=None if self.source.mode == "pixels" else area,
+        )
+
+    def _number(self) -> NDArray[np.uint32]:
         """Read the lists from bottom to top: each band gets the list of what is below it, and all get their numbers."""
         number = np.empty(self._components.size + 1, np.uint32)
         if self.source.mode == "components":
@@ -325,6 +358,7 @@ class StreamedImage:
                 )
             self._bands[k] = band
             below = own.or_else(below)
+        return number
 
 
 def _numbered_pixels(mask: NDArray[np.uint8], start: int) -> NDArray[np.uint32]:
@@ -337,7 +371,7 @@ def _numbered_pixels(mask: NDArray[np.uint8], start: int) -> NDArray[np.uint32]:
 
 def _seeds_near(objects: NDArray[np.uint32], frame: Frame, above: ColumnEnvelope, below: ColumnEnvelope) -> SeedSet:
     """Give the seeds that are nearest to pixels of these rows: those that are not surrounded, and the lists."""
-    y, x = np.nonzero((objects != 0) & ~surrounded_pixels(objects))
+    y, x = np.nonzero((objects != 0) & ~surrounded(objects))
     (x_above, y_above, above_labels), (x_below, y_below, below_labels) = above.seeds(), below.seeds()
     return SeedSet(
         np.concatenate([x_above, x, x_below]),

@@ -1,4 +1,4 @@
-"""Digital Voronoi tessellations: exact, and by the paper's propagation (sections 2.1 and 2.2)."""
+"""Digital Voronoi tessellations of images and volumes: exact, and by the paper's propagation (sections 2.1, 2.2)."""
 
 from __future__ import annotations
 
@@ -20,31 +20,28 @@ from vorotool.engines.tessellation.frames import (
 )
 from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.engines.tessellation.verify_tessellation import verify_label_image
+from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import UsageError
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import Progress
-from vorotool.products.formats import resolved
 from vorotool.types.arguments import check_value
 from vorotool.types.pixel_frame import MAX_PIXELS, Frame
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.spacing import SQUARE, PixelSides, distance_as_written
 from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike
 
     from vorotool.types.volumes.volume import Volume
     from vorotool.types.volumes.volume_points import VolumePoints
-    from vorotool.types.volumes.volume_seeds import VolumeSeeds
     from vorotool.typing import SeedsLike, Spacing, VolumeSeedsLike
 
 Method = Literal["exact", "propagation"]
-
-_IN_SPACE = "engines.volumes.tessellate_volume:tessellate_volume"
-"""It is loaded where a volume is asked for: its room is above this one."""
 
 
 @overload
@@ -198,17 +195,14 @@ def tessellate(
     [[[1, 1, 2]], [[1, 2, 2]]]
     """
     check_image_choice(image)
-    if image is not True and is_of_space(seeds, shape, window):
-        asked: dict[str, Any] = {"method": method, "passes": passes, "dtype": dtype, "out": out, "threads": threads}
-        asked |= {"max_distance": max_distance, "spacing": spacing, "max_pixels": max_pixels, "progress": progress}
-        made: LabelVolume = resolved(_IN_SPACE)(seeds, shape=shape, window=window, **asked)
-        return made
-    refuse_triples(seeds, "seeds", image=image)
-    sides = sides_of(seeds, spacing)
-    frame = asked_frame(shape, window)
+    axes = 3 if image is not True and is_of_space(seeds, shape, window) else 2
+    if axes == 2:
+        refuse_triples(seeds, "seeds", image=image)
+    sides = sides_of(seeds, spacing, axes)
+    frame = asked_frame(shape, window, axes)
 
-    def needed_frame(made: SeedSet) -> Frame | None:
-        if not len(made) and not made.is_empty_image:
+    def needed_frame(made: SeedSet | VolumeSeeds) -> Any:
+        if not len(made) and made.frame is None:
             return None
         whole = default_frame(made)
         require_memory(whole, max_pixels)
@@ -216,9 +210,14 @@ def tessellate(
 
     if frame is not None:
         require_memory(frame, max_pixels)
-    seed_set = as_seeds(seeds, image=image, max_pixels=max_pixels, frame=frame or needed_frame, sides=sides)
+    if axes == 2:
+        given: Any = as_seeds(seeds, image=image, max_pixels=max_pixels, frame=frame or needed_frame, sides=sides)
+    else:
+        from vorotool.engines.tessellation.volume_seeding import as_volume_seeds
+
+        given = as_volume_seeds(seeds, max_pixels=max_pixels, check=needed_frame if frame is None else None)
     rows = labeled_rows(
-        seed_set,
+        given,
         frame,
         method=method,
         passes=passes,
@@ -228,12 +227,14 @@ def tessellate(
         max_pixels=max_pixels,
         progress=progress,
     )
-    return LabelImage(rows.labels(dtype=dtype, out=out), rows.frame, rows.seeds, sides=sides)
+    kind: Any = LabelImage if axes == 2 else LabelVolume
+    made: LabelImage | LabelVolume = kind(rows.labels(dtype=dtype, out=out), rows.frame, rows.seeds, sides=sides)
+    return made
 
 
 def labeled_rows(
-    seeds: SeedSet,
-    frame: Frame | None = None,
+    seeds: SeedSet | VolumeSeeds,
+    frame: Frame | VoxelFrame | None = None,
     *,
     method: Method = "exact",
     passes: int = 2,
@@ -244,10 +245,12 @@ def labeled_rows(
     max_pixels: int = MAX_PIXELS,
     progress: Progress = None,
 ) -> Tessellator | PropagatedRows:
-    """Prepare what gives any rows of a tessellation; arguments and errors as of `tessellate`."""
+    """Prepare what gives any rows or slices of a tessellation; arguments and errors as of `tessellate`."""
     if not is_choice(method, ("exact", "propagation")):
         raise UsageError(f"method is {shown_number(method)}: it must be 'exact' or 'propagation'")
     if method == "propagation":
+        if not isinstance(seeds, SeedSet) or isinstance(frame, VoxelFrame):
+            raise UsageError("method='propagation' applies to images only: a volume needs method='exact'")
         if max_distance is not None:
             raise UsageError("max_distance needs method='exact': the paper's propagation has no distance limit")
         if sides != SQUARE:
@@ -260,13 +263,14 @@ def labeled_rows(
     )
 
 
-def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None:
+def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0, progress: Progress = None) -> None:
     """Check every label against an independent exact nearest-seed search, band by band."""
-    for first, count in band_limits(rows.frame):
-        frame = Frame(rows.frame.x, rows.frame.y + first, rows.frame.width, count)
-        limit, sides = (rows.most_squared, rows.sides) if isinstance(rows, Tessellator) else (None, SQUARE)
-        labels = rows.labels(first, count)
-        verify_label_image(labels, rows.seeds, frame, max_distance2=limit, sides=sides, threads=threads)
+    limit, sides = (rows.most_squared, rows.sides) if isinstance(rows, Tessellator) else (None, SQUARE)
+    for first, count in band_limits(rows.frame, len(rows.seeds)):
+        place = rows.frame.part(first, count)
+        verify_labels(rows.labels(first, count), rows.seeds, place, max_distance2=limit, sides=sides, threads=threads)
+        if progress is not None:
+            progress((first + count) / rows.frame.shape[0])
 
 
 def verify_tessellation(
@@ -294,12 +298,11 @@ def verify_tessellation(
     --------
     >>> verify_tessellation(tessellate([[0, 0], [2, 1]], shape=(2, 3)))
     """
-    if isinstance(image, LabelVolume):
-        resolved("engines.volumes.verify_volume:verify_volume")(image, max_distance=max_distance, threads=threads)
-        return
-    check_value(image, "image", "LabelImage")
-    if not isinstance(image, LabelImage) or image.seeds is None or image.frame is None:
-        raise UsageError("the label image carries no seeds: compute it with vorotool.tessellate")
+    if not isinstance(image, LabelVolume):
+        check_value(image, "image", "LabelImage")
+    if not isinstance(image, LabelImage | LabelVolume) or image.seeds is None or image.frame is None:
+        what = "volume" if isinstance(image, LabelVolume) else "image"
+        raise UsageError(f"the label {what} carries no seeds: compute it with vorotool.tessellate")
     sides = image.sides
     limit = squared_limit(distance_as_written(max_distance, sides), image.seeds.scale / sides.step)
-    verify_label_image(image.labels, image.seeds, image.frame, max_distance2=limit, sides=sides, threads=threads)
+    verify_labels(image.labels, image.seeds, image.frame, max_distance2=limit, sides=sides, threads=threads)

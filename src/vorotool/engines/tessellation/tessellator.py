@@ -1,4 +1,4 @@
-"""The exact digital tessellation of a frame (section 2.1), row by row."""
+"""The exact digital tessellation of an image (section 2.1) or a volume, row by row or slice by slice."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.tessellation.frames import (
+    CELL,
     check_out,
     default_frame,
     label_dtype,
@@ -20,7 +21,7 @@ from vorotool.engines.tessellation.frames import (
     square_dtype,
     squared_limit,
 )
-from vorotool.engines.tessellation.interior_seeds import needed_seeds, paint_seeds
+from vorotool.engines.tessellation.interior_seeds import needed_seeds, paint_inner, paint_seeds
 from vorotool.engines.tessellation.raster_objects import refuse_distances
 from vorotool.engines.tessellation.seed_lattice import on_coarser_lattice
 from vorotool.errors import InputError, LimitError, UsageError, option
@@ -29,7 +30,11 @@ from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.pixel_frame import MAX_SIDE, Frame
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.spacing import PixelSides
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
+
+_WHOLE = {2: "image", 3: "volume"}
 
 
 class NothingLabeled:
@@ -39,7 +44,7 @@ class NothingLabeled:
     is_wide = False
     products_exact = True
 
-    def __init__(self, what: str = "image") -> None:
+    def __init__(self, what: str) -> None:
         self._what = what
 
     def labels(self, rows: NDArray[Any], *_: Any) -> None:
@@ -54,112 +59,119 @@ class NothingLabeled:
 
 
 class Tessellator:
-    """The exact tessellation of a frame, ready to give any of its rows."""
+    """The exact tessellation of a frame, ready to give any of its rows, or of its slices where it is a volume."""
+
+    seeds: Any  # SeedSet, or VolumeSeeds
+    frame: Any  # Frame, or VoxelFrame
 
     def __init__(
         self,
-        seeds: SeedSet,
-        frame: Frame | None = None,
+        seeds: SeedSet | VolumeSeeds,
+        frame: Frame | VoxelFrame | None = None,
         *,
         max_distance: float | Fraction | None = None,
-        sides: PixelSides = SQUARE,
+        sides: PixelSides | None = None,
         threads: int = 0,
         strict: bool = False,
         progress: Progress = None,
+        way: str = "quicker",
     ) -> None:
         require_seeds(seeds)
+        self.axes = len(seeds.coordinates)
         self.frame = frame or default_frame(seeds)
         if max(self.frame.shape) > MAX_SIDE:
-            width, height = shown_number(self.frame.width), shown_number(self.frame.height)
-            raise LimitError(f"the frame is {width} x {height}: a side has at most 2^30 pixels")
+            size = " x ".join(map(shown_number, reversed(self.frame.shape)))
+            raise LimitError(f"the frame is {size}: a side has at most 2^30 {CELL[self.axes]}s")
         self.simd = simd_level()
-        self.sides = sides
-        self.seeds = seeds = on_coarser_lattice(seeds, self.frame, sides, strict=strict)
-        self.most_squared = squared_limit(max_distance, seeds.scale / sides.step)
+        self.sides = sides or PixelSides((1,) * self.axes)
+        self.seeds = on_coarser_lattice(seeds, self.frame, self.sides, strict=strict)
+        self.most_squared = squared_limit(max_distance, self.seeds.scale / self.sides.step)
         self._threads = checked_threads(threads)
         self._progress = progress
-        self._core = self._prepare()
+        self._leaves_out = False  # seeds that only matter where they lie
+        self._core = self._prepare(way)
         self.duplicates: int = self._core.duplicates
         report_duplicates(self.duplicates, len(seeds), strict=strict)
 
-    def _prepare(self) -> _core.tessellation.Tessellation | NothingLabeled:
-        seeds, frame = self.seeds, self.frame
-        self._paints = False
+    def _prepare(self, way: str) -> Any:
+        seeds, frame, size = self.seeds, self.frame, self.frame.shape[::-1]
         if not len(seeds):
-            return NothingLabeled()
-        needed = needed_seeds(seeds)
-        self._paints = needed is not None
+            return NothingLabeled(_WHOLE[self.axes])
+        needed = needed_seeds(seeds) if self.axes == 2 else None
+        self._leaves_out = needed is not None or getattr(seeds, "filled", None) is not None
         chosen = slice(None) if needed is None else needed
+        arrays: Any = [values[chosen] for values in (*seeds.coordinates, seeds.labels)]
+        rest: Any = (seeds.scale, self.sides.units[::-1], self.simd)
         try:
-            return _core.tessellation.Tessellation(
-                seeds.x[chosen],
-                seeds.y[chosen],
-                seeds.labels[chosen],
-                frame.x,
-                frame.y,
-                frame.width,
-                frame.height,
-                seeds.scale,
-                (self.sides.x, self.sides.y),
-                self.simd,
-            )
+            if self.axes == 2:
+                return _core.tessellation.Tessellation(*arrays, *frame.origin, *size, *rest)
+            in_space: Any = _core.volumes.VolumeTessellation
+            return in_space(*arrays, frame.origin, size, *rest, way, self._threads)
         except _core.tessellation.SeedTooFarError as error:
             (index,) = error.args  # from 0, of the seeds that the core was given
             raise self._too_far(index if needed is None else int(needed[index])) from None
 
     def _too_far(self, index: int) -> InputError:
-        seeds, frame = self.seeds, self.frame
-        x, y = (int(values[index]) / seeds.scale for values in (seeds.x, seeds.y))
-        most = 2**40 // (seeds.scale * max(self.sides.x, self.sides.y))
+        scale, cell = self.seeds.scale, CELL[self.axes]
+        place = ", ".join(f"{int(values[index]) / scale:.17g}" for values in self.seeds.coordinates)
+        sides = "" if self.axes == 2 else ", or round the sides of voxels to fewer digits"
         return InputError(
-            f"seed {index + 1} at ({x:.17g}, {y:.17g}) is too far from the frame, which begins at ({frame.x}, "
-            f"{frame.y}), for exact arithmetic: coordinates relative to the middle of the frame must be at most "
-            f"2^40 lattice steps ({most} pixels for these seeds); use a nearer {option('--window')}"
+            f"seed {index + 1} at ({place}) is too far from the frame, which begins at {self.frame.origin}, for exact "
+            "arithmetic: coordinates relative to the middle of the frame must be at most 2^40 lattice steps "
+            f"({2**40 // (scale * max(self.sides.units))} {cell}s for these seeds); use a nearer "
+            f"{option('--window')}{sides}"
         )
 
-    def _paint(self, rows: NDArray[Any], first: int, value: int | None = None) -> None:
-        """Put the seeds on their pixels, where those that only matter there were left out."""
-        if self._paints:
-            place = Frame(self.frame.x, self.frame.y + first, self.frame.width, len(rows))
-            paint_seeds(rows, self.seeds, place, value)
+    def _paint(self, part: NDArray[Any], first: int, value: int | None = None) -> None:
+        """Put the seeds where they lie, if those that only matter there were left out."""
+        if self._leaves_out:
+            paint: Any = paint_seeds if self.axes == 2 else paint_inner
+            paint(part, self.seeds, self.frame.part(first, len(part)), value)
 
-    def _progress_of(self, first: int, rows: int) -> Progress:
+    def _progress_of(self, first: int, count: int) -> Progress:
         """Progress while some rows are made: the fraction of the frame, rows above them included."""
-        tell, height = self._progress, self.frame.height
+        tell, whole = self._progress, self.frame.shape[0]
         if tell is None:
             return None
-        return lambda fraction: tell((first + fraction * rows) / height)
+        return lambda fraction: tell((first + fraction * count) / whole)
 
     @property
     def arithmetic(self) -> str:
         """The narrowest arithmetic that is exact for these seeds."""
         if self._core.is_wide:
-            return "filtered float64 with int128"
+            return "filtered float64 with int128" if self.axes == 2 else "int128"
         return "float64" if self._core.products_exact else "float64 with int128"
 
     def labels(
-        self, first: int = 0, rows: int | None = None, *, dtype: Any = None, out: NDArray[Any] | None = None
+        self, first: int = 0, count: int | None = None, *, dtype: Any = None, out: NDArray[Any] | None = None
     ) -> NDArray[Any]:
-        """Labels of some rows of the frame."""
+        """Labels of some rows or slices of the frame."""
         kind = label_dtype(self.seeds.largest_label, getattr(out, "dtype", dtype))
-        array = self._output(first, rows, kind, out)
+        array = self._output(first, count, kind, out)
         limit = None if self.most_squared is None else divmod(self.most_squared, 2**64)
-        self._core.labels(array, first, limit, self._threads, self._progress_of(first, len(array)))
-        self._paint(array, first)
+        written = array.view(np.uint32) if kind == np.int32 else array
+        self._core.labels(written, first, limit, self._threads, self._progress_of(first, len(array)))
+        if limit is not None:  # without one, the seeds that are left have the label of those that are not
+            self._paint(array, first)
         return array
 
     def squared_distances(
-        self, first: int = 0, rows: int | None = None, *, dtype: np.dtype[Any] | None = None
+        self,
+        first: int = 0,
+        count: int | None = None,
+        *,
+        dtype: np.dtype[Any] | None = None,
+        out: NDArray[Any] | None = None,
     ) -> NDArray[Any]:
         """Exact squared distances to the nearest seed, in squares of a step of the sides over ``seeds.scale``."""
-        array = self._output(first, rows, dtype or self.square_dtype, None)
+        array = self._output(first, count, np.dtype(dtype or self.square_dtype), out)
         self._core.squared_distances(array, first, self._threads, self._progress_of(first, len(array)))
         self._paint(array, first, 0)
         return array
 
-    def distances(self, first: int = 0, rows: int | None = None) -> NDArray[np.float32]:
+    def distances(self, first: int = 0, count: int | None = None) -> NDArray[np.float32]:
         """Distances to the nearest seed in the unit of the sides, rounded once from double precision."""
-        array = self._output(first, rows, np.dtype(np.float32), None)
+        array = self._output(first, count, np.dtype(np.float32), None)
         square = float(self.step * self.step)
         self._core.distances(array, first, square, self._threads, self._progress_of(first, len(array)))
         self._paint(array, first, 0)
@@ -168,23 +180,26 @@ class Tessellator:
     def check_distances(self) -> None:
         """Refuse distances where there are no seeds."""
         if not len(self.seeds):
-            refuse_distances()
+            refuse_distances(_WHOLE[self.axes])
 
     @property
     def step(self) -> Fraction:
         """The length whose square is the unit of squared distances."""
-        return self.sides.step / self.seeds.scale
+        step: Fraction = self.sides.step / self.seeds.scale
+        return step
 
     @cached_property
     def square_dtype(self) -> np.dtype[Any]:
         """The type of squared distances: the smaller one that holds the largest possible."""
         self.check_distances()
-        scale, frame = self.seeds.scale, self.frame
+        scale, frame, largest = self.seeds.scale, self.frame, 0
         # No pixel is farther from its nearest seed than from this one, and none farther than a corner.
-        dx = max(abs(int(self.seeds.x[0]) - scale * c) for c in (frame.x, frame.x + frame.width - 1))
-        dy = max(abs(int(self.seeds.y[0]) - scale * r) for r in (frame.y, frame.y + frame.height - 1))
-        dx, dy = dx * self.sides.x, dy * self.sides.y
-        return square_dtype(dx * dx + dy * dy)
+        for values, start, side, unit in zip(
+            self.seeds.coordinates, frame.origin, frame.shape[::-1], self.sides.units[::-1], strict=True
+        ):
+            farthest = unit * max(abs(int(values[0]) - scale * end) for end in (start, start + side - 1))
+            largest += farthest * farthest
+        return square_dtype(largest, self.axes)
 
     @property
     def measured_dtype(self) -> np.dtype[Any]:
@@ -192,13 +207,19 @@ class Tessellator:
         try:
             return self.square_dtype
         except LimitError:
+            if self.axes != 2:
+                raise
             return np.dtype(np.float64)
 
-    def _output(self, first: int, rows: int | None, dtype: np.dtype[Any], out: NDArray[Any] | None) -> NDArray[Any]:
-        rows = self.frame.height - first if rows is None else rows
-        if not 0 <= first < self.frame.height or not 1 <= rows <= self.frame.height - first:
-            raise UsageError(f"rows {first} to {first + rows - 1} are not all in a frame of {self.frame.height} rows")
+    def _output(self, first: int, count: int | None, dtype: np.dtype[Any], out: NDArray[Any] | None) -> NDArray[Any]:
+        whole, *across = self.frame.shape
+        count = whole - first if count is None else count
+        if not 0 <= first < whole or not 1 <= count <= whole - first:
+            what = "rows" if self.axes == 2 else "slices"
+            raise UsageError(f"{what} {first} to {first + count - 1} are not all in a frame of {whole} {what}")
         if out is None:
-            return np.empty((rows, self.frame.width), dtype)
-        check_out(out, (rows, self.frame.width))
+            return np.empty((count, *across), dtype)
+        check_out(out, (count, *across))
+        if out.dtype != dtype:
+            raise UsageError(f"out must be of type {dtype}, but is of type {out.dtype}")
         return out

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.volumes.inner_voxels import inner_runs
+from vorotool.engines.tessellation.interior_seeds import inner_runs
 from vorotool.errors import LimitError, UsageError
 from vorotool.numeric.ragged import ranges
 from vorotool.plain import plain

@@ -110,6 +110,11 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
         return len(self.x)
 
     @property
+    def coordinates(self) -> tuple[NDArray[np.int64], ...]:
+        """Columns and rows of the seeds, in steps."""
+        return (self.x, self.y)
+
+    @property
     def is_empty_image(self) -> bool:
         """Whether these are the seeds of an image without foreground: no list of points brings a frame."""
         return not len(self) and self.frame is not None

@@ -122,6 +122,11 @@ class VolumeSeeds(Value):
         return self.places[:, 2]
 
     @property
+    def coordinates(self) -> tuple[NDArray[np.int64], ...]:
+        """Columns, rows and slices of the seeds, in steps."""
+        return (self.x, self.y, self.z)
+
+    @property
     def is_empty_volume(self) -> bool:
         """Whether these are the seeds of a volume without foreground: no list of points brings a frame."""
         return not len(self) and self.frame is not None

@@ -51,10 +51,10 @@ class VoxelFrame:
 
         for each in fields(self):  # NumPy's integers would wrap around in what follows
             object.__setattr__(self, each.name, whole_number(getattr(self, each.name), f"{each.name} of the frame"))
-        origin, size = (self.x, self.y, self.z), (self.width, self.height, self.depth)
-        if max(map(abs, origin)) > FARTHEST:
+        size = (self.width, self.height, self.depth)
+        if max(map(abs, self.origin)) > FARTHEST:
             raise InputError(
-                f"the frame begins at {shown_number(origin)}: its coordinates must be at most 2^44; "
+                f"the frame begins at {shown_number(self.origin)}: its coordinates must be at most 2^44; "
                 f"use a nearer {option('--window')}"
             )
         text = " x ".join(map(shown_number, size))
@@ -70,6 +70,15 @@ class VoxelFrame:
     def shape(self) -> tuple[int, int, int]:
         """Slices, rows and columns, as NumPy orders them."""
         return (self.depth, self.height, self.width)
+
+    @property
+    def origin(self) -> tuple[int, int, int]:
+        """Column, row and slice of the first voxel."""
+        return (self.x, self.y, self.z)
+
+    def part(self, first: int, count: int) -> VoxelFrame:
+        """Return the frame of some slices."""
+        return VoxelFrame(self.x, self.y, self.z + first, self.width, self.height, count)
 
     @property
     def voxels(self) -> int:

@@ -1,17 +1,25 @@
-"""The input of a tessellation of a volume: a stack, read slab by slab, or points of space; and its voxels' sides."""
+"""Tessellations of volumes: stacks, read slab by slab, or points of space; and what can be written of them."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.convert.spacings import sides_of_voxels
 from vorotool.engines.tessellation.cleaned_masks import Cleaning
-from vorotool.engines.volumes.volume_frames import default_voxel_frame
-from vorotool.engines.volumes.volume_objects import SLAB_VOXELS, VolumeObjects
-from vorotool.engines.volumes.volume_seeding import seeds_from_xyz, seeds_of_slabs
-from vorotool.errors import InputError, UsageError
+from vorotool.engines.tessellation.frames import require_memory
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.volume_seeding import (
+    SLAB_VOXELS,
+    objects_of_volume,
+    seeds_from_xyz,
+    seeds_of_slabs,
+)
+from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import reading
@@ -19,22 +27,142 @@ from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.points import read_xyz
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
-from vorotool.jobs.inputs import JobInput, report_no_seeds
+from vorotool.jobs.inputs import JobInput, frame_of, report_no_seeds
 from vorotool.jobs.masks import report_cleaning
 from vorotool.jobs.options import Options, changed
+from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.pixel_sizes import lengths_of_voxels
 from vorotool.jobs.refusals import check_voxel_size, refuse
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.units import PixelSize, sides_of, unit_stats
+from vorotool.jobs.streams import Tessellated, check_chunks
+from vorotool.jobs.targets import Target
+from vorotool.jobs.units import PixelSize, sides_of, unit_columns, unit_stats
+from vorotool.numeric.length_units import unit_name
 from vorotool.plain import plain
 from vorotool.products.inputs import VOLUME_NAMES
+from vorotool.products.registry import VOLUME_PRODUCTS, Product
+from vorotool.render.label_images.slices import SlicePicture
+from vorotool.types.pixel_frame import Frame
 from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame, VoxelGrid
 
+if TYPE_CHECKING:
+    from vorotool.render.label_images.picture import LabelPicture
+    from vorotool.render.looks import World
+
 _TIFF_HEADS = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 
+_OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert", "min-area", "fill-holes"})
+"""Options that images and volumes have, and points have not."""
 
+
+def products(run: Run, o: Options, given: JobInput) -> VolumeProducts:
+    """Read points or a volume, and prepare what labels any slices."""
+    with run.phase("read"):
+        o, read = read_volume_seeds(run, o, given)
+    if len(read.seeds) > o.max_sites:
+        raise LimitError(f"the input has {len(read.seeds)} seeds, more than --max-sites {o.max_sites}")
+    with run.phase("prepare"):
+        sweep = Tessellator(
+            read.seeds,
+            read.frame,
+            sides=read.sides,
+            max_distance=o.max_distance,
+            threads=o.threads,
+            strict=o.strict,
+            progress=run.progress("tessellate"),
+        )
+        if {"distance", "distance2"} & set(o.what):
+            sweep.check_distances()
+    return VolumeProducts(run, o, read, sweep, has_page=given.has_page)
+
+
+class VolumeProducts(Tessellated):
+    """Results of one tessellation."""
+
+    def __init__(
+        self, run: Run, options: Options, read: ReadVolume, sweep: Tessellator, *, has_page: bool = False
+    ) -> None:
+        super().__init__(run, options, sweep, read.sides, read.grid)
+        self.is_held = has_page or "color" in options.what
+        self.with_distances = self.with_distances or has_page
+
+    @cached_property
+    def products(self) -> Mapping[str, Product]:
+        """All results of volumes."""
+        return VOLUME_PRODUCTS
+
+    @cached_property
+    def _views(self) -> SlicePicture:
+        return SlicePicture(self.frame, self.sides.units, self.options.slice)
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written, before anything is."""
+        from vorotool.render.pages.html import check_volume_page
+
+        what, fmt = target.what, target.fmt
+        if fmt == "html":
+            check_volume_page(self.frame.shape)
+        elif what == "color":
+            self._views.check(self.options.max_pixels)
+        if what == "distance2" or (self.with_distances and len(self.seeds)):
+            _ = self.sweep.square_dtype
+        if what == "color" or fmt == "html":
+            require_memory(self.frame, self.options.max_pixels)
+        elif fmt == "zarr":
+            check_chunks(self.options, self.stream(what))
+        elif self.frame.width * self.frame.height > self.options.max_pixels:
+            size = f"{self.frame.width} x {self.frame.height}"
+            raise LimitError(f"a slice has {size} voxels, more than --max-pixels {self.options.max_pixels}")
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+        if target.what == "distance2" and self.sweep.step != 1:
+            self.run.note(f"squared distances are in units of {self._unit_of_squares}")
+        super().write(target, inputs=inputs)
+
+    @property
+    def _unit_of_squares(self) -> str:
+        """What squared distances are counted in, exactly: ``(1/40 µm)²``."""
+        size, step = self.options.pixel_size, self.sweep.step
+        unit = "voxel" if size is None else size.unit
+        return f"{step}²" if unit is None else f"({step} {unit_name(unit)})²"
+
+    def write_page(self, out: BinaryIO) -> None:
+        """Write a page that shows all slices."""
+        from vorotool.render.pages.html import columns_of, write_volume_html
+
+        columns = columns_of(self._table, self.colors[0]) | unit_columns(self._size, len(self.colors[0]))
+        first, units = self.frame.z, self.sides.units
+        write_volume_html(out, self.whole.labels, self.colors, columns, first=first, units=units)
+
+    @property
+    def _size(self) -> PixelSize | None:
+        """The side of a pixel of pictures, which is the shortest of a voxel."""
+        size = self.options.pixel_size
+        return None if size is None else PixelSize(min(self.sides.lengths), size.unit)
+
+    def drawing(self, what: str, fmt: str) -> LabelPicture:
+        """Prepare a picture of slices."""
+        from vorotool.render.label_images.picture import label_picture
+
+        image = self._views.image(self.whole)
+        return label_picture(image, self.colors, self.products[what], self.wanted, sites=self.seeds)
+
+    @cached_property
+    def world(self) -> World:
+        """Where the slices lie in a picture."""
+        height, width = self._views.shape
+        return world_of(self.run, self.options, frame=Frame(0, 0, width, height).box, size=self._size)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        more = {"unit_of_distance2": self._unit_of_squares, "arithmetic": self.sweep.arithmetic}
+        return {**super().stats(), "voxels": self.frame.voxels, **more}
+
+
+# ---- input
 @plain
 class ReadVolume:
     """Seeds, and what else an input says."""
@@ -96,26 +224,12 @@ def _read_points(run: Run, o: Options, given: JobInput) -> tuple[Options, ReadVo
             properties=("table" in o.what or o.names_columns or given.has_page) and not o.no_properties,
             note=run.note,
         )
-        seeds = seeds_from_xyz(points, strict=o.strict, check=lambda seeds: _frame_of(o, seeds))
-    sides, frame = sides_of(o, 3), _frame_of(o, seeds)
+        seeds = seeds_from_xyz(points, strict=o.strict, check=lambda seeds: frame_of(o, seeds))
+    sides, frame = sides_of(o, 3), frame_of(o, seeds)
     if not len(seeds):
         report_no_seeds(run, o, frame)
         seeds = replace(seeds, frame=frame)
     return o, ReadVolume(seeds, frame, sides, _written_grid(o.pixel_size, sides, None))
-
-
-_OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert", "min-area", "fill-holes"})
-"""Options that images and volumes have, and points have not."""
-
-
-def _frame_of(o: Options, seeds: VolumeSeeds) -> VoxelFrame | None:
-    if o.window is not None:
-        return VoxelFrame(*o.window)
-    if o.size is not None:
-        return VoxelFrame(0, 0, 0, *o.size)
-    if not len(seeds):
-        return None
-    return default_voxel_frame(seeds, how="give one with --size WxHxD or --window X,Y,Z,W,H,D")
 
 
 def _is_volume(o: Options, path: str) -> bool:
@@ -139,7 +253,7 @@ def _foreground(run: Run, o: Options, source: VolumeSource) -> tuple[float | Non
     """Give the threshold, which is in the statistics, and whether foreground is what is not above it."""
     threshold, invert = o.threshold, o.invert
     if threshold == "otsu":
-        found = VolumeObjects.of(source, "otsu", invert=invert, slices=_slices_at_a_time(source))
+        found = objects_of_volume(source, "otsu", invert=invert, slices=_slices_at_a_time(source))
         threshold, invert = found.threshold, found.invert
         run.note(f"threshold {threshold:.17g}, by Otsu's method")
     if threshold is not None:

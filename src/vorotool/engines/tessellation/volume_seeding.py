@@ -9,20 +9,25 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.convert.volumes import as_volume, as_volume_points
-from vorotool.engines.tessellation.cleaned_masks import Cleaning
-from vorotool.engines.tessellation.label_sums import numbered, parts, sums
-from vorotool.engines.tessellation.raster_objects import Note, report_no_foreground
+from vorotool import _core
+from vorotool.convert.volumes import as_volume, as_volume_points, is_volume
+from vorotool.engines.tessellation.cleaned_masks import CleanedSlices, Cleaning
+from vorotool.engines.tessellation.interior_seeds import inner_runs, surrounded
+from vorotool.engines.tessellation.raster_objects import (
+    HeldParts,
+    Note,
+    PartwiseObjects,
+    report_no_foreground,
+)
 from vorotool.engines.tessellation.seed_lattice import report_snapped, sites_of_points, snapped_places
-from vorotool.engines.tessellation.seeding import SeedMode
-from vorotool.engines.volumes.cleaned_slices import CleanedSlices
-from vorotool.engines.volumes.inner_voxels import inner_runs
-from vorotool.engines.volumes.outer_seeds import OuterSeeds
-from vorotool.engines.volumes.volume_objects import HeldSlices, SlicesSource, VolumeObjects
+from vorotool.engines.tessellation.seeding import SeedMode, moved_to, numbered, parts, sums
 from vorotool.errors import LimitError, UsageError, option
 from vorotool.numeric.checks import is_choice
-from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.numeric.numbers import finite_double, shown_number, whole_number
 from vorotool.numeric.parallel import Progress
+from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
 from vorotool.types.volumes.volume_points import VolumePoints
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
@@ -38,7 +43,31 @@ MOST_SEEDS = 2**31 - 1
 
 NO_CLEANING = Cleaning()
 
+SLAB_VOXELS = 2**23
+"""Voxels that are read at a time, or one slice: each takes up to some 16 bytes while its slab is looked at."""
+
+CHUNK = 1 << 22
+"""Seeds that are placed at a time."""
+
 _CONNECTIVITY = (26, 6)
+_CENTROIDS = option("--seeds centroids", 'mode="centroids"')
+
+
+def as_volume_seeds(
+    source: Any, name: str = "seeds", *, max_pixels: int = MAX_PIXELS, check: Check = None
+) -> VolumeSeeds:
+    """Give seeds from whatever `tessellate` accepts in three dimensions."""
+    if isinstance(source, VolumeSeeds):
+        seeds = source
+    elif isinstance(source, LabelVolume):
+        seeds = moved_to(seeds_from_volume(source, mode="labels"), source.frame)
+    elif isinstance(source, Volume) or is_volume(source) or len(getattr(source, "shape", ())) == 3:
+        seeds = seeds_from_volume(as_volume(source, name, max_pixels=max_pixels))  # the last axis is not that of colors
+    else:
+        return seeds_from_xyz(source, check=check, name=name)
+    if check is not None:
+        check(seeds)
+    return seeds
 
 
 def seeds_from_xyz(
@@ -163,7 +192,7 @@ def seeds_from_volume(
     [1, 2, 2]
     """
     return seeds_of_slabs(
-        HeldSlices(as_volume(volume, "volume", is_gray=True)),
+        HeldParts(as_volume(volume, "volume", is_gray=True)),
         mode=mode,
         connectivity=connectivity,
         threshold=threshold,
@@ -176,7 +205,7 @@ def seeds_from_volume(
 
 
 def seeds_of_slabs(
-    source: SlicesSource,
+    source: Any,
     *,
     mode: SeedMode | None = None,
     connectivity: int = 26,
@@ -198,18 +227,18 @@ def seeds_of_slabs(
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
     depth, height, width = source.shape
     frame = VoxelFrame(0, 0, 0, width, height, depth)
-    objects = VolumeObjects.of(source, threshold, invert=invert, slices=slices)
+    objects = objects_of_volume(source, threshold, invert=invert, slices=slices)
     kind = objects.kind(note=note) if mode in (None, "centroids") else mode
+    objects = replace(objects, mode=kind, connectivity=connectivity)
     if cleaning:
         cleaning.require_mask(str(kind), "volume")
-        mask = CleanedSlices(objects, cleaning, connectivity)
+        mask = CleanedSlices(objects, cleaning)
         objects = replace(objects, source=mask, threshold=None, invert=False)
         if report is not None:
             report(mask)
     most = min(whole_number(max_sites, "max_sites"), MOST_SEEDS)
     is_alone = mode == "centroids"
-    outer = OuterSeeds(objects, kind, connectivity, None if is_alone else most)
-    made = outer.read(frame, progress)
+    made = OuterSeeds(objects, None if is_alone else most).read(frame, progress)
     if not len(made):
         report_no_foreground(strict=strict, what="volume")
         volume = None if kind == "pixels" else np.empty(0, np.int64)
@@ -223,6 +252,20 @@ def seeds_of_slabs(
         raise LimitError(f"the volume has {len(known['sites'])} objects, more than {option(f'--max-sites {most}')}")
     seeds = seeds_from_xyz(VolumePoints(known["sites"], known["site_labels"].astype(np.int64)), strict=strict)
     return replace(seeds, properties={}, index=None, **known)
+
+
+def objects_of_volume(
+    source: Any, threshold: float | Literal["otsu"] | None, *, invert: bool = False, slices: int | None = None
+) -> PartwiseObjects:
+    """Settle the threshold, for which ``otsu`` reads the volume, and how many slices are read at a time."""
+    _, height, width = source.shape
+    made = PartwiseObjects(source, invert=invert, step=slices or max(1, SLAB_VOXELS // (height * width)))
+    if threshold is None:
+        return made
+    if isinstance(threshold, str) and threshold == "otsu":
+        return made.with_otsu()
+    finite_double(threshold, "threshold")
+    return replace(made, threshold=threshold)
 
 
 def _measured(seeds: VolumeSeeds) -> dict[str, Any]:
@@ -245,3 +288,114 @@ def _measured(seeds: VolumeSeeds) -> dict[str, Any]:
         "site_labels": distinct.astype(np.uint32),
         "object_volume": volume.astype(np.int64),
     }
+
+
+class OuterSeeds:
+    """The seeds of a volume: all foreground voxels where each has its own label, else the outer ones of objects."""
+
+    def __init__(self, objects: PartwiseObjects, most: int | None = None) -> None:
+        self._objects, self._kind, self._most = objects, objects.mode, most
+        _, height, width = objects.source.shape
+        self._plane = height * width
+        self._components = (
+            _core.volumes.VolumeComponents(width, height, objects.corners) if self._kind == "components" else None
+        )
+        self._waiting = np.empty((0, height, width), np.uint32)  # the last two slices that were read
+        self._read = self._done = 0  # slices that were read, and whose seeds are known
+        self._places: list[NDArray[np.int64]] = []
+        self._labels: list[NDArray[np.uint32]] = []
+        self._filled: list[NDArray[np.bool_]] = []
+        self._count = 0
+
+    def read(self, frame: VoxelFrame, progress: Progress = None) -> VolumeSeeds:
+        """Read the volume, and give its seeds, without sites."""
+        depth = frame.depth
+        for first, count in self._objects.limits():
+            if self._kind == "pixels":
+                self._keep(first, np.flatnonzero(self._objects.values(first, count)), None, None)
+            else:
+                self._add(self._fields(first, count), is_last=first + count == depth)
+            if progress is not None:
+                progress((first + count) / depth)
+        return self._seeds(frame)
+
+    def _fields(self, first: int, count: int) -> NDArray[Any]:
+        """Labels of some slices, or provisional numbers of components."""
+        if self._components is None:
+            return self._objects.labels(first, count)
+        mask = self._objects.mask(first, count)
+        numbers = np.empty(mask.shape, np.uint32)
+        self._components.add(mask, numbers, None)
+        return numbers
+
+    def _add(self, slab: NDArray[Any], *, is_last: bool) -> None:
+        block = np.concatenate([self._waiting, slab]) if len(self._waiting) else slab
+        begin = self._done - (self._read - len(self._waiting))  # slices of the block that are only there as neighbors
+        self._read += len(slab)
+        end = len(block) if is_last else len(block) - 1
+        self._waiting = block[-2:].copy()
+        # Provisional numbers differ within a component, whose voxels side by side are of one: the mask tells.
+        is_outer = ~surrounded(block != 0 if self._components is not None else block)[begin:end]
+        chosen = block[begin:end]
+        is_outer &= chosen != 0
+        places = np.flatnonzero(is_outer)
+        is_inner = np.logical_and(chosen != 0, ~is_outer).reshape(-1)
+        after = np.minimum(places + 1, max(is_inner.size - 1, 0))  # the last voxel of a row is outer
+        self._keep(self._done, places, chosen.reshape(-1)[places].astype(np.uint32), is_inner[after])
+        self._done += end - begin
+
+    def _keep(
+        self,
+        first: int,
+        places: NDArray[np.intp],
+        labels: NDArray[np.uint32] | None,
+        filled: NDArray[np.bool_] | None,
+    ) -> None:
+        self._count += len(places)
+        if self._most is not None and self._count > self._most:
+            what = "foreground voxels" if labels is None else "outer voxels of objects"
+            raise LimitError(
+                f"the volume has at least {self._count} {what}, more than {option(f'--max-sites {self._most}')}: use "
+                f"{_CENTROIDS}, or a larger limit"
+            )
+        places += first * self._plane
+        self._places.append(places)
+        if labels is not None and filled is not None:
+            self._labels.append(labels)
+            self._filled.append(filled)
+
+    def _seeds(self, frame: VoxelFrame) -> VolumeSeeds:
+        """Put what was kept together; each list goes as soon as it is used."""
+        labels = self._numbers()
+        places = np.empty((self._count, 3), np.int64, order="F")
+        start = 0
+        self._places.reverse()
+        while self._places:
+            flat = self._places.pop()
+            for part in parts(len(flat), CHUNK):
+                rows, x = np.divmod(flat[part], frame.width)
+                z, y = np.divmod(rows, frame.height)
+                for axis, values in enumerate((x, y, z)):
+                    places[start : start + len(x), axis] = values
+                start += len(x)
+        filled = np.concatenate(self._filled) if self._filled else np.zeros(0, bool)
+        return VolumeSeeds(
+            places,
+            labels,
+            frame=frame,
+            sites=np.empty((0, 3)),
+            site_labels=np.empty(0, np.uint32),
+            filled=filled if filled.any() else None,
+        )
+
+    def _numbers(self) -> NDArray[np.uint32]:
+        if self._kind == "pixels":
+            return np.arange(1, self._count + 1, dtype=np.uint32)
+        labels = np.concatenate(self._labels) if self._labels else np.empty(0, np.uint32)
+        self._labels.clear()
+        if self._components is None:
+            return labels
+        number = np.empty(self._components.size + 1, np.uint32)
+        self._components.settle(number)
+        numbers: NDArray[np.uint32] = number[labels]
+        return numbers

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vorotool.engines.volumes.slabs import SeedSlab
+from vorotool.engines.tessellation.bands import SeedBand
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
@@ -20,4 +20,4 @@ FRAME = VoxelFrame(0, 0, 0, 5, 1, 10)
     ],
 )
 def test_a_slice_is_that_of_the_whole(what, dtype, expected):
-    assert SeedSlab(SEEDS, FRAME, 5, 1, what, np.dtype(dtype)).rows()[0, 0].tolist() == list(expected)
+    assert SeedBand(SEEDS, FRAME, 5, 1, what, np.dtype(dtype)).rows()[0, 0].tolist() == list(expected)

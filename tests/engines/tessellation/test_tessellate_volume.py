@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import vorotool
-from vorotool.engines.volumes.volume_frames import asked_voxel_frame, default_voxel_frame, slab_limits
-from vorotool.engines.volumes.volume_seeding import seeds_from_volume, seeds_from_xyz
-from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.engines.tessellation.frames import asked_frame, band_limits, default_frame
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.volume_seeding import seeds_from_volume, seeds_from_xyz
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.types.spacing import PixelSides, pixel_sides
 from vorotool.types.volumes.label_volume import LabelVolume
@@ -47,14 +47,14 @@ def test_frames_and_seeds_between_voxels(origin, scale, units):
     labels = random.integers(1, 40, 60).astype(np.uint32)
     seeds = VolumeSeeds(near, labels, scale=scale)
     limit = Fraction(int(random.integers(1, 9)), 2)
-    sweep = VolumeSweep(seeds, frame, sides=PixelSides(units, Fraction(1, 2)), max_distance=limit)
+    sweep = Tessellator(seeds, frame, sides=PixelSides(units, Fraction(1, 2)), max_distance=limit)
     nearest, least = brute(seeds, frame, units)
     within = least <= (limit * scale * 2) ** 2
     assert np.array_equal(sweep.labels(), np.where(within, nearest, 0))
     assert np.array_equal(sweep.squared_distances(), least)
     assert sweep.step == Fraction(1, 2 * scale)
     assert np.array_equal(sweep.distances(), np.sqrt(least * float(sweep.step**2)).astype(np.float32))
-    whole = VolumeSweep(seeds, frame, sides=PixelSides(units, Fraction(1, 2)), threads=3)
+    whole = Tessellator(seeds, frame, sides=PixelSides(units, Fraction(1, 2)), threads=3)
     for first, count in ((0, 1), (4, 5), (10, 1)):
         assert np.array_equal(whole.labels(first, count), nearest[first : first + count])
         assert np.array_equal(whole.squared_distances(first, count), least[first : first + count])
@@ -122,7 +122,7 @@ def test_volumes_in_every_form(wrap):
     shape = (7, 8, 9) if wrap is list else None
     made = vorotool.tessellate(wrap(mask), shape=shape)
     assert np.array_equal(made.labels, brute(seeds_from_volume(mask), made.frame)[0])
-    assert np.array_equal(VolumeSweep(made.seeds).labels(), made.labels)
+    assert np.array_equal(Tessellator(made.seeds).labels(), made.labels)
 
 
 def test_colors_are_no_slices_but_where_a_volume_is_asked_for():
@@ -164,7 +164,7 @@ POINTS = np.array([[1.0, 2, 0], [4, 4, 3]])
         ({"window": (0, 0, 0, 1, 2, 3.5)}, UsageError, r"window must be six integers \(x, y, z, w, h, d\), but is"),
         ({"shape": (5, 0, 7)}, InputError, "the frame is 7 x 0 x 5 voxels"),
         ({"shape": (5, 6, 7), "method": "propagation"}, UsageError, "a volume needs method='exact'"),
-        ({"shape": (5, 6, 7), "method": "fast"}, UsageError, "method is 'fast': it must be 'exact' in a volume"),
+        ({"shape": (5, 6, 7), "method": "fast"}, UsageError, "method is 'fast': it must be 'exact'"),
         ({"shape": (5, 6, 7), "passes": 1}, UsageError, "passes is 1, which needs method='propagation'"),
         ({"shape": (5, 6, 7), "spacing": (1, 2)}, UsageError, r"or 3 of them, \(depth, height, width\)"),
         ({"shape": (5, 6, 7), "max_pixels": 209}, LimitError, "the frame has 7 x 6 x 5 = 210 voxels, more than max"),
@@ -215,7 +215,7 @@ def test_seeds_at_one_place_are_told_of():
         made = vorotool.tessellate([[1, 1, 1], [1, 1, 1]], shape=(3, 3, 3))
     assert (made.labels == 1).all()
     with pytest.raises(InputError, match="remove the duplicates"):
-        VolumeSweep(made.seeds, made.frame, strict=True)
+        Tessellator(made.seeds, made.frame, strict=True)
 
 
 def test_moved_seeds_are_told_of_after_what_makes_them_useless():
@@ -226,7 +226,7 @@ def test_moved_seeds_are_told_of_after_what_makes_them_useless():
 def test_squares_that_may_exceed_64_bits_are_refused_and_distances_are_not():
     sides = PixelSides((2**21 - 1, 1, 1))
     seeds = VolumeSeeds(np.array([[0, 0, 0]]), np.array([1]), scale=256)
-    sweep = VolumeSweep(seeds, VoxelFrame(0, 0, 0, 1, 1, 12), sides=sides)
+    sweep = Tessellator(seeds, VoxelFrame(0, 0, 0, 1, 1, 12), sides=sides)
     assert sweep.arithmetic == "int128"
     with pytest.raises(LimitError, match=r"may exceed 64 bits.*use distances"):
         sweep.squared_distances()
@@ -234,7 +234,7 @@ def test_squares_that_may_exceed_64_bits_are_refused_and_distances_are_not():
 
 
 def test_slices_outside_of_the_frame_are_refused():
-    sweep = VolumeSweep(seeds_from_xyz([[0, 0, 0]]), VoxelFrame(0, 0, 0, 2, 2, 4))
+    sweep = Tessellator(seeds_from_xyz([[0, 0, 0]]), VoxelFrame(0, 0, 0, 2, 2, 4))
     for first, slices in ((4, 1), (-1, 2), (2, 3), (0, 0)):
         with pytest.raises(UsageError, match="not all in a frame of 4 slices"):
             sweep.labels(first, slices)
@@ -243,8 +243,8 @@ def test_slices_outside_of_the_frame_are_refused():
 def test_progress_goes_up_to_one():
     told = []
     seeds = seeds_from_xyz(np.random.default_rng(1).integers(0, 90, (9, 3)))
-    sweep = VolumeSweep(seeds, VoxelFrame(0, 0, 0, 90, 90, 90), progress=told.append)
-    for first, slices in slab_limits(sweep.frame):
+    sweep = Tessellator(seeds, VoxelFrame(0, 0, 0, 90, 90, 90), progress=told.append)
+    for first, slices in band_limits(sweep.frame):
         sweep.labels(first, slices)
     assert told == sorted(told)
     assert all(0 <= part <= 1 for part in told)
@@ -252,12 +252,12 @@ def test_progress_goes_up_to_one():
 
 def test_slabs_cover_a_frame():
     for frame in (VoxelFrame(0, 0, 0, 4000, 4000, 9), VoxelFrame(0, 0, 0, 3, 3, 9), VoxelFrame(0, 0, 0, 9000, 9000, 2)):
-        limits = list(slab_limits(frame))
+        limits = list(band_limits(frame))
         assert limits[0][0] == 0
         assert sum(count for _, count in limits) == frame.depth
 
 
 def test_frames():
-    assert asked_voxel_frame(None, (1, 2, 3, 4, 5, 6)) == VoxelFrame(1, 2, 3, 4, 5, 6)
-    assert asked_voxel_frame(None, None) is None
-    assert default_voxel_frame(seeds_from_xyz([[0, 0, 0]])).shape == (1, 1, 1)
+    assert asked_frame(None, (1, 2, 3, 4, 5, 6), 3) == VoxelFrame(1, 2, 3, 4, 5, 6)
+    assert asked_frame(None, None) is None
+    assert default_frame(seeds_from_xyz([[0, 0, 0]])).shape == (1, 1, 1)

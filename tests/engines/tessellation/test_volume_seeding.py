@@ -9,10 +9,15 @@ from skimage.filters import threshold_otsu
 
 import vorotool
 from support.few import few
-from vorotool.engines.volumes.inner_voxels import paint_inner
-from vorotool.engines.volumes.volume_objects import HeldSlices, VolumeObjects
-from vorotool.engines.volumes.volume_seeding import seeds_from_volume, seeds_from_xyz, seeds_of_slabs
-from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.engines.tessellation.interior_seeds import paint_inner
+from vorotool.engines.tessellation.raster_objects import HeldParts
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.volume_seeding import (
+    objects_of_volume,
+    seeds_from_volume,
+    seeds_from_xyz,
+    seeds_of_slabs,
+)
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
@@ -55,7 +60,7 @@ def test_components_are_numbered_by_their_first_voxels(shape, part, connectivity
     seeds = seeds_from_volume(mask, connectivity=connectivity)
     whole = np.zeros(shape, np.uint32)
     whole[seeds.z, seeds.y, seeds.x] = seeds.labels
-    paint_inner(whole, seeds, seeds.frame, 0)
+    paint_inner(whole, seeds, seeds.frame)
     assert np.array_equal(whole, expected)
     count = int(expected.max())
     assert seeds.site_labels.tolist() == list(range(1, count + 1))
@@ -72,7 +77,7 @@ def test_slabs_give_what_the_whole_gives(mode, connectivity):
     values = np.where(mask_of(random, (13, 20, 16), 0.03), random.integers(1, 4, (13, 1, 16)), 0)
     grid = VoxelGrid(Fraction(1), Fraction(1), Fraction(2), "um")
     told = []
-    source = HeldSlices(Volume(values, grid))
+    source = HeldParts(Volume(values, grid))
     whole = seeds_of_slabs(source, mode=mode, connectivity=connectivity)
     for slices in (1, 2, 3, 5, 12, 13, 99):
         asked = {"mode": mode, "connectivity": connectivity, "slices": slices, "progress": told.append}
@@ -107,8 +112,8 @@ def test_outer_voxels_give_what_all_voxels_give(window, limit, units):
     assert len(seeds) < np.count_nonzero(labels)
     frame = seeds.frame if window is None else VoxelFrame(*window)
     sides = vorotool.types.spacing.PixelSides(units)
-    ours = VolumeSweep(seeds, frame, sides=sides, max_distance=limit, threads=2)
-    every = VolumeSweep(all_voxels(labels), frame, sides=sides, max_distance=limit)
+    ours = Tessellator(seeds, frame, sides=sides, max_distance=limit, threads=2)
+    every = Tessellator(all_voxels(labels), frame, sides=sides, max_distance=limit)
     assert np.array_equal(ours.labels(), every.labels())
     assert np.array_equal(ours.squared_distances(), every.squared_distances())
     assert np.array_equal(ours.distances(), every.distances())
@@ -123,7 +128,7 @@ def test_an_inner_voxel_takes_its_own_label_and_no_tie():
     labels[4, 4, 4] = 3
     labels[:, :, 0] = 2
     seeds = seeds_from_volume(labels)
-    assert np.array_equal(VolumeSweep(seeds).labels(), labels)
+    assert np.array_equal(Tessellator(seeds).labels(), labels)
 
 
 # ---- points ----------------------------------------------------------------------------------------
@@ -227,14 +232,14 @@ def test_thresholds():
     for values in (grey, (20 * grey + 100).astype(np.uint8), (20 * grey).astype(np.int16), (9 * grey).astype(np.int64)):
         level = threshold_otsu(values)
         for slices in (1, 4, 6):
-            source = HeldSlices(Volume(values))
-            found = VolumeObjects.of(source, "otsu", slices=slices).threshold
+            source = HeldParts(Volume(values))
+            found = objects_of_volume(source, "otsu", slices=slices).threshold
             assert np.array_equal(values > found, values > level)
         above = seeds_from_volume(values, threshold="otsu", mode="pixels")
         assert len(above) == (values > level).sum()
         below = seeds_from_volume(values, threshold=float(level), invert=True, mode="pixels")
         assert len(below) == (values <= level).sum()
-    flat = VolumeObjects.of(HeldSlices(Volume(np.full((2, 2, 2), 5))), "otsu", invert=True)
+    flat = objects_of_volume(HeldParts(Volume(np.full((2, 2, 2), 5))), "otsu", invert=True)
     assert (flat.threshold, flat.invert) == (5, False)
 
 
@@ -297,7 +302,7 @@ def test_a_volume_without_foreground_has_no_seeds():
             seeds = seeds_from_volume(np.zeros((2, 3, 4), np.uint8), mode=mode)
         assert seeds.is_empty_volume
         assert (seeds.object_volume is None) == (mode == "pixels")
-        sweep = VolumeSweep(seeds)
+        sweep = Tessellator(seeds)
         assert not sweep.labels().any()
         with pytest.raises(InputError, match="the volume has no foreground"):
             sweep.squared_distances()

@@ -5,14 +5,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from vorotool.engines.volumes.volume_regions import regions_of_sweep
-from vorotool.engines.volumes.volume_tables import (
-    neighbors_of_regions,
-    table_of_regions,
-    volume_neighbors,
-    volume_table,
-)
-from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.engines.label_images.measured_regions import regions_of_parts
+from vorotool.engines.label_images.regions import neighbor_table, region_table
+from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.spacing import pixel_sides
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
@@ -27,7 +22,7 @@ def sweep_of(random, *, scale, spacing, max_distance):
     places = corner + random.integers(-extent // 4, extent + extent // 4, (12, 3))  # some are outside
     labels = random.choice([1, 2, 3, 5, 300, 70000], 12)
     seeds = VolumeSeeds(places, labels, scale=scale)
-    return VolumeSweep(seeds, FRAME, sides=pixel_sides(spacing, 3), max_distance=max_distance)
+    return Tessellator(seeds, FRAME, sides=pixel_sides(spacing, 3), max_distance=max_distance)
 
 
 @pytest.mark.parametrize(("scale", "spacing"), [(1, (1, 1, 1)), (4, (1, 1, 1)), (2, (Fraction(5, 2), 1, 3))])
@@ -38,15 +33,15 @@ def test_tables_do_not_depend_on_slabs(scale, spacing, max_distance):
         sweep = sweep_of(random, scale=scale, spacing=spacing, max_distance=max_distance)
         volume = LabelVolume(sweep.labels(), FRAME, sweep.seeds, sweep.sides)
         cuts = np.unique(random.integers(1, FRAME.depth, 4))
-        parts = zip([0, *cuts.tolist()], np.split(volume.labels, cuts), strict=True)
-        regions = regions_of_sweep(sweep, parts, distances=True)
-        assert table_of_regions(regions) == volume_table(volume, distance2=sweep.squared_distances())
-        assert neighbors_of_regions(regions) == volume_neighbors(volume)
+        parts = zip(np.split(volume.labels, cuts), np.split(sweep.squared_distances(), cuts), strict=True)
+        regions = regions_of_parts(parts, FRAME, sweep.sides, sweep.seeds)
+        assert regions.table() == region_table(volume, distance2=sweep.squared_distances())
+        assert regions.neighbors() == neighbor_table(volume)
 
 
 def test_without_distances_there_is_no_largest():
     sweep = sweep_of(np.random.default_rng(1), scale=1, spacing=(1, 1, 1), max_distance=None)
-    regions = regions_of_sweep(sweep, [(0, sweep.labels())])
+    regions = regions_of_parts([(sweep.labels(), None)], FRAME, sweep.sides, sweep.seeds)
     volume = LabelVolume(sweep.labels(), FRAME, sweep.seeds, sweep.sides)
     assert regions.largest_squares is None
-    assert table_of_regions(regions) == volume_table(volume)
+    assert regions.table() == region_table(volume)

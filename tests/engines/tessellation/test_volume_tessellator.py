@@ -12,8 +12,8 @@ from support.few import few
 from vorotool import _core
 from vorotool.engines import peers
 from vorotool.engines.peers.distance_transform import bare_seeds
-from vorotool.engines.volumes.inner_voxels import outer_voxels
-from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.engines.tessellation.interior_seeds import surrounded
+from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.spacing import PixelSides
 
@@ -27,7 +27,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:.*lie on another seed")
 
 def swept(places, labels, shape, **known):
     """The sweep of voxels: slice, row and column of each."""
-    return VolumeSweep(bare_seeds(places, labels, shape), **known)
+    return Tessellator(bare_seeds(places, labels, shape), **known)
 
 
 def brute(places, labels, shape, units):
@@ -266,10 +266,10 @@ def test_labels_grow_as_those_of_scikit_image(distance, spacing):
 
 def test_only_outer_voxels_are_needed():
     labels = np.ones((5, 6, 7), np.uint8)
-    assert outer_voxels(labels).sum() == labels.size - 3 * 4 * 5
+    assert surrounded(labels).sum() == 3 * 4 * 5
     labels[2, 3, 3] = 2
-    assert outer_voxels(labels).sum() == labels.size - 3 * 4 * 5 + 7
-    assert outer_voxels(np.ones((2, 1, 9))).all()
+    assert surrounded(labels).sum() == 3 * 4 * 5 - 7
+    assert not surrounded(np.ones((2, 1, 9))).any()
 
 
 @pytest.mark.parametrize("function", [peers.distance_transform, peers.expand_labels])

@@ -10,9 +10,8 @@ from hypothesis.extra import numpy as hnp
 from scipy import ndimage
 
 import vorotool
-from vorotool.engines.label_images.regions import measure_regions, region_colors
-from vorotool.engines.volumes.volume_measures import measure_slabs, measure_volume, volume_diagram
-from vorotool.engines.volumes.volume_tables import volume_neighbors, volume_table
+from vorotool.engines.label_images.measured_regions import measure_parts
+from vorotool.engines.label_images.regions import measure_regions, neighbor_table, region_colors, region_table
 from vorotool.errors import InputError, UsageError
 from vorotool.types.spacing import PixelSides, pixel_sides
 from vorotool.types.volumes.label_volume import LabelVolume
@@ -88,7 +87,7 @@ def expected_diagram(labels):
 
 
 def check(labels, **options):
-    table = volume_table(LabelVolume(labels), **options)
+    table = region_table(LabelVolume(labels), **options)
     expected = list(expected_rows(labels))
     assert list(table) == COLUMNS
     assert table["label"].tolist() == [row["label"] for row in expected]
@@ -98,7 +97,7 @@ def check(labels, **options):
         else:
             assert table[name].dtype.kind == "i"
             assert table[name].tolist() == [row[name] for row in expected], name
-    assert borders_of(measure_volume(labels, **options)) == expected_borders(labels)
+    assert borders_of(measure_regions(LabelVolume(labels), **options)) == expected_borders(labels)
 
 
 def nearest(shape, count, seed, units=(1, 1, 1)):
@@ -120,7 +119,7 @@ def nearest(shape, count, seed, units=(1, 1, 1)):
 @settings(max_examples=40, deadline=None)
 def test_measures_agree_with_plain_loops(labels):
     check(labels, threads=2)
-    np.testing.assert_array_equal(volume_diagram(labels), expected_diagram(labels))
+    np.testing.assert_array_equal(vorotool.voronoi_diagram(LabelVolume(labels)), expected_diagram(labels))
 
 
 @pytest.mark.parametrize("shape", [(1, 1, 1), (1, 1, 40), (1, 40, 1), (40, 1, 1), (1, 6, 33), (6, 1, 33), (6, 33, 1)])
@@ -128,13 +127,13 @@ def test_measures_agree_with_plain_loops(labels):
 def test_thin_volumes(shape, dtype):
     labels = np.random.default_rng(3).integers(0, 4, shape).astype(dtype)
     check(labels)
-    np.testing.assert_array_equal(volume_diagram(labels), expected_diagram(labels))
+    np.testing.assert_array_equal(vorotool.voronoi_diagram(LabelVolume(labels)), expected_diagram(labels))
 
 
 def test_a_tessellation():
     labels, _, _ = nearest((17, 30, 41), 40, 1)
     check(labels, threads=1)
-    np.testing.assert_array_equal(volume_diagram(labels, threads=3), expected_diagram(labels))
+    np.testing.assert_array_equal(vorotool.voronoi_diagram(LabelVolume(labels), threads=3), expected_diagram(labels))
 
 
 @pytest.mark.parametrize("pattern", ["comb", "shells", "chequers", "spiral"])
@@ -159,9 +158,9 @@ def test_components_that_meet_late(pattern):
 def test_slabs_leave_no_trace(threads):
     """Slices of 2^21 voxels make pieces of one slice; regions run through many of them."""
     small = np.random.default_rng(1).integers(0, 3, (7, 8, 8)).astype(np.uint8)
-    whole = measure_volume(small.repeat(256, axis=1).repeat(1024, axis=2), threads=threads)
-    one = measure_volume(small)
-    assert whole.voxels.tolist() == (one.voxels * 2**18).tolist()
+    whole = measure_regions(small.repeat(256, axis=1).repeat(1024, axis=2), threads=threads)
+    one = measure_regions(small)
+    assert whole.cells.tolist() == (one.cells * 2**18).tolist()
     assert whole.components.tolist() == one.components.tolist()
     scale = np.array([256, 1024, 2**18])
     assert whole.faces.tolist() == (one.faces * scale).tolist()
@@ -174,7 +173,7 @@ def test_slabs_leave_no_trace(threads):
 def test_volumes_come_slab_by_slab(cuts):
     labels, _, _ = nearest((17, 20, 21), 30, 2)
     labels[4:9, 3:7] = 0
-    whole, pieced = measure_volume(labels), measure_slabs(np.split(labels, cuts))
+    whole, pieced = measure_regions(labels), measure_parts(np.split(labels, cuts))
     for name in whole.__dataclass_fields__:
         np.testing.assert_array_equal(getattr(pieced, name), getattr(whole, name))
 
@@ -182,28 +181,28 @@ def test_volumes_come_slab_by_slab(cuts):
 def test_sparse_labels_up_to_the_last():
     names = np.array([0, 1, 70_000, 2**31, 2**32 - 1], dtype=np.uint32)
     small = np.random.default_rng(0).integers(0, 5, (8, 9, 10))
-    sparse, dense = measure_volume(names[small]), measure_volume(small)
+    sparse, dense = measure_regions(names[small]), measure_regions(small)
     assert sparse.labels.tolist() == names[1:].tolist()
-    for name in ("voxels", "faces", "components", "borders", "border_faces"):
+    for name in ("cells", "faces", "components", "borders", "border_faces"):
         np.testing.assert_array_equal(getattr(sparse, name), getattr(dense, name))
 
 
 def test_one_slice_is_an_image():
     labels = np.random.default_rng(5).integers(0, 5, (20, 30)).astype(np.uint8)
-    flat, volume = measure_regions(labels), measure_volume(labels[None])
-    assert volume.voxels.tolist() == flat.columns["area"].tolist()
-    assert volume.faces[:, :2].sum(axis=1).tolist() == flat.columns["perimeter"].tolist()
-    assert volume.faces[:, 2].tolist() == (2 * volume.voxels).tolist()
-    assert volume.components.tolist() == flat.columns["components"].tolist()
+    flat, volume = measure_regions(labels), measure_regions(labels[None])
+    assert volume.cells.tolist() == flat.cells.tolist()
+    assert volume.faces[:, :2].sum(axis=1).tolist() == flat.faces.sum(axis=1).tolist()
+    assert volume.faces[:, 2].tolist() == (2 * volume.cells).tolist()
+    assert volume.components.tolist() == flat.components.tolist()
     np.testing.assert_array_equal(volume.borders, flat.borders)
-    assert volume.border_faces.sum(axis=1).tolist() == flat.border_length.tolist()
-    np.testing.assert_array_equal(volume_diagram(labels[None])[0], vorotool.voronoi_diagram(labels))
+    assert volume.border_faces.sum(axis=1).tolist() == flat.border_faces.sum(axis=1).tolist()
+    np.testing.assert_array_equal(vorotool.voronoi_diagram(labels[None])[0], vorotool.voronoi_diagram(labels))
 
 
 def test_sides_scale_lengths_areas_and_volumes():
     labels, d2, seeds = nearest((9, 12, 14), 15, 3, (5, 2, 3))
     volume = LabelVolume(labels, None, seeds, pixel_sides((1.25, 0.5, 0.75), 3))
-    table = volume_table(volume, distance2=d2.astype(np.uint32))
+    table = region_table(volume, distance2=d2.astype(np.uint32))
     plain = list(expected_rows(labels))
     apart = list(faces(labels))
     areas = (0.625, 0.9375, 0.375)
@@ -223,7 +222,7 @@ def test_sides_scale_lengths_areas_and_volumes():
     np.fill_diagonal(between, np.inf)
     assert table["nearest_label"].tolist() == (between.argmin(axis=1) + 1).tolist()
     np.testing.assert_array_equal(table["nearest_distance"], between.min(axis=1) * 0.25)
-    pairs = volume_neighbors(volume)
+    pairs = neighbor_table(volume)
     expected_areas = [float(np.dot(count, areas)) for _, count in expected_borders(labels)]
     assert pairs["border_area"].tolist() == expected_areas
     a, b = pairs["label_a"] - 1, pairs["label_b"] - 1
@@ -233,7 +232,7 @@ def test_sides_scale_lengths_areas_and_volumes():
 def test_areas_beyond_64_bits():
     volume = LabelVolume(np.ones((2, 2, 2), np.uint8), sides=PixelSides((2**21, 2**21 - 1, 2**21 - 3), Fraction(1, 3)))
     volume = LabelVolume(np.broadcast_to(volume.labels[:1, :1, :1], (1, 1, 2**20)), sides=volume.sides)
-    (surface,) = volume_table(volume)["surface"]
+    (surface,) = region_table(volume)["surface"]
     depth, height, width = (side * Fraction(1, 3) for side in volume.sides.units)
     exact = 2 * depth * height + 2**21 * (depth * width + width * height)
     assert surface == pytest.approx(float(exact), rel=1e-15)
@@ -264,7 +263,7 @@ def test_every_site_has_a_row_with_seeds():
 
 def test_frames_move_places():
     labels = np.array([[[0, 4]], [[0, 4]]], np.uint8)
-    table = volume_table(LabelVolume(labels, VoxelFrame(-5, 7, 100, 2, 1, 2)))
+    table = region_table(LabelVolume(labels, VoxelFrame(-5, 7, 100, 2, 1, 2)))
     row = {name: table[name].tolist()[0] for name in table}
     assert (row["x"], row["y"], row["z"]) == (-4.0, 7.0, 100.5)
     assert [row[f"bbox_{name}"] for name in "xyzwhd"] == [-4, 7, 100, 1, 1, 2]
@@ -273,10 +272,10 @@ def test_frames_move_places():
 
 
 def test_no_region_at_all():
-    table = volume_table(np.zeros((2, 3, 4), dtype=np.uint16))
+    table = region_table(np.zeros((2, 3, 4), dtype=np.uint16))
     assert all(len(table[name]) == 0 for name in COLUMNS)
-    assert volume_neighbors(np.zeros((2, 3, 4), dtype=np.uint16)).rows == 0
-    assert not volume_diagram(np.zeros((2, 3, 4), dtype=np.uint16)).any()
+    assert neighbor_table(np.zeros((2, 3, 4), dtype=np.uint16)).rows == 0
+    assert not vorotool.voronoi_diagram(np.zeros((2, 3, 4), dtype=np.uint16)).any()
 
 
 # ---- the library --------------------------------------------------------------------------------------
@@ -285,14 +284,12 @@ def test_no_region_at_all():
 def test_public_functions_take_volumes():
     labels, _, seeds = nearest((8, 9, 10), 12, 4)
     volume = LabelVolume(labels, None, seeds)
-    assert vorotool.region_table(volume) == volume_table(volume)
     assert vorotool.region_table(labels)["volume"].tolist() == [row["volume"] for row in expected_rows(labels)]
-    assert vorotool.neighbor_table(volume) == volume_neighbors(volume)
     np.testing.assert_array_equal(vorotool.voronoi_diagram(volume), expected_diagram(labels))
-    measures = measure_volume(volume)
-    assert vorotool.region_table(volume, measures=measures) == volume_table(volume)
-    assert volume.table().keys() == dict(volume_table(volume)).keys()
-    assert volume.to_pandas()["label"].tolist() == volume_table(volume)["label"].tolist()
+    measures = measure_regions(volume)
+    assert vorotool.region_table(volume, measures=measures) == region_table(volume)
+    assert volume.table().keys() == dict(region_table(volume)).keys()
+    assert volume.to_pandas()["label"].tolist() == region_table(volume)["label"].tolist()
     graph = volume.to_networkx()
     assert sorted(tuple(sorted(edge)) for edge in graph.edges) == [pair for pair, _ in expected_borders(labels)]
     assert graph.nodes[1]["volume"] == int((labels == 1).sum())
@@ -307,7 +304,7 @@ def test_neighbors_never_share_a_color(labels):
     assert (colors[np.unique(labels[labels > 0])] > 0).all()
     for (a, b), _ in expected_borders(labels):
         assert colors[a] != colors[b]
-    found, again = region_colors(LabelVolume(labels), measures=measure_volume(labels))
+    found, again = region_colors(LabelVolume(labels), measures=measure_regions(LabelVolume(labels)))
     assert colors[found].tolist() == again.tolist()
 
 
@@ -357,17 +354,17 @@ def test_other_integer_types_and_layouts():
         labels.repeat(2, axis=2)[:, :, ::2].astype(np.int16),
         np.ma.masked_array(labels.astype(np.uint8), mask=False),
     ):
-        assert borders_of(measure_volume(LabelVolume(other))) == expected
-        np.testing.assert_array_equal(volume_diagram(LabelVolume(other)), expected_diagram(labels))
+        assert borders_of(measure_regions(LabelVolume(other))) == expected
+        np.testing.assert_array_equal(vorotool.voronoi_diagram(LabelVolume(other)), expected_diagram(labels))
     frozen = labels.astype(np.uint16)
     frozen.flags.writeable = False
-    assert borders_of(measure_volume(frozen)) == expected
+    assert borders_of(measure_regions(frozen)) == expected
 
 
 @pytest.mark.parametrize("dtype", [np.int8, np.int16, np.int32, np.int64])
 def test_negative_labels_are_refused(dtype):
     labels = np.array([[[1, -4]]], dtype=dtype)
-    for function in (measure_volume, volume_table, volume_neighbors, vorotool.color_regions):
+    for function in (measure_regions, region_table, neighbor_table, vorotool.color_regions):
         with pytest.raises(InputError, match="a voxel has label -4"):
             function(labels)
 
@@ -375,7 +372,7 @@ def test_negative_labels_are_refused(dtype):
 def test_a_label_without_site_is_named():
     seeds = VolumeSeeds(np.array([[0, 0, 0]]), np.array([1]))
     volume = LabelVolume(np.array([[[1, 1], [1, 7]]], dtype=np.uint8), None, seeds)
-    for function in (volume_table, volume_neighbors):
+    for function in (region_table, neighbor_table):
         with pytest.raises(InputError, match=r"voxel \(slice 0, row 1, column 1\) has label 7"):
             function(volume)
 
@@ -383,19 +380,19 @@ def test_a_label_without_site_is_named():
 def test_what_does_not_fit():
     volume = LabelVolume(np.array([[[1]]], dtype=np.uint8))
     with pytest.raises(UsageError, match="threads is -1"):
-        measure_volume(volume, threads=-1)
-    with pytest.raises(InputError, match="distance2 must be an integer array of shape"):
-        volume_table(volume, distance2=np.zeros((2, 2), dtype=np.uint32))
+        measure_regions(volume, threads=-1)
+    with pytest.raises(InputError, match="distance2 must be an array of integers or float64 of shape"):
+        region_table(volume, distance2=np.zeros((2, 2), dtype=np.uint32))
     with pytest.raises(InputError, match="label 4294967296"):
-        measure_volume(LabelVolume(np.array([[[2**32]]])))
+        measure_regions(LabelVolume(np.array([[[2**32]]])))
     with pytest.raises(InputError, match="expected truth values or integers"):
         vorotool.region_table(np.zeros((4, 5, 6)))
     with pytest.raises(InputError, match="expected labels, a 3-D array of integers"):
         vorotool.region_table(Volume(np.zeros((4, 5, 6))))
     with pytest.raises(InputError, match="slabs is empty"):
-        measure_slabs([])
+        measure_parts([])
     with pytest.raises(InputError, match="slabs must have one height and width"):
-        measure_slabs([np.zeros((1, 2, 3), np.uint8), np.zeros((1, 3, 2), np.uint8)])
+        measure_parts([np.zeros((1, 2, 3), np.uint8), np.zeros((1, 3, 2), np.uint8)])
 
 
 def test_what_progress_raises_stops_the_work():
@@ -407,6 +404,6 @@ def test_what_progress_raises_stops_the_work():
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        measure_volume(labels, threads=2, progress=stop)
+        measure_regions(labels, threads=2, progress=stop)
     assert len(seen) == 1
     assert 0 <= seen[0] <= 1

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import vorotool
 from support.few import few
-from vorotool.engines.volumes.verify_volume import verify_label_volume
+from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.types.spacing import PixelSides, pixel_sides
 from vorotool.types.volumes.label_volume import CUBE, LabelVolume
@@ -42,7 +42,7 @@ def check_both_ways(seeds, frame, sides=CUBE, limit=None, dtype=np.uint32, salt=
     labels, ties = brute_force(seeds, frame, sides, limit)
     labels = labels.astype(dtype)
     options = {"sides": sides, "max_distance2": limit, "threads": 2}
-    verify_label_volume(labels, seeds, frame, **options)
+    verify_labels(labels, seeds, frame, **options)
     random = np.random.default_rng(salt)
     places = [tuple(int(random.integers(size)) for size in frame.shape), *list(ties)[:2], *list(ties)[-1:]]
     for place in places:
@@ -54,7 +54,7 @@ def check_both_ways(seeds, frame, sides=CUBE, limit=None, dtype=np.uint32, salt=
             rf"{frame.z + z}\), has label {wrong[place]}, not {labels[place]}$"
         )
         with pytest.raises(VerificationError, match=expected):
-            verify_label_volume(wrong, seeds, frame, **options)
+            verify_labels(wrong, seeds, frame, **options)
     return ties
 
 
@@ -135,7 +135,7 @@ def test_no_seeds_and_many_at_one_place():
     check_both_ways(none, VoxelFrame(0, 0, 0, 3, 2, 2))
     labels = np.random.default_rng(0).permutation(5000) + 1
     seeds = VolumeSeeds(np.full((5000, 3), 3), labels)
-    verify_label_volume(np.ones((9, 10, 11), np.uint16), seeds, VoxelFrame(0, 0, 0, 11, 10, 9))
+    verify_labels(np.ones((9, 10, 11), np.uint16), seeds, VoxelFrame(0, 0, 0, 11, 10, 9))
 
 
 @pytest.mark.parametrize("threads", [1, 2, 5])
@@ -144,11 +144,11 @@ def test_count_and_first_do_not_depend_on_threads(threads):
     seeds = VolumeSeeds(random.integers(0, 60, (50, 3)), np.arange(1, 51))
     volume = vorotool.tessellate(seeds, shape=(60, 60, 60))
     labels = volume.labels.copy()
-    verify_label_volume(labels, seeds, volume.frame, threads=threads)
+    verify_labels(labels, seeds, volume.frame, threads=threads)
     labels[[50, 7, 7, 59], [3, 9, 9, 59], [58, 33, 2, 59]] = 51
     expected = r"^4 of 216000 voxels are wrong: the first, \(x, y, z\) = \(2, 9, 7\)"
     with pytest.raises(VerificationError, match=expected):
-        verify_label_volume(labels, seeds, volume.frame, threads=threads)
+        verify_labels(labels, seeds, volume.frame, threads=threads)
 
 
 def test_every_single_wrong_voxel_is_found():
@@ -161,14 +161,14 @@ def test_every_single_wrong_voxel_is_found():
         wrong[place] = labels[place] % 4 + 1
         z, y, x = place
         with pytest.raises(VerificationError, match=rf"^1 of 336 .* \({x}, {y}, {z}\)"):
-            verify_label_volume(wrong, seeds, frame)
+            verify_labels(wrong, seeds, frame)
 
 
 def test_labels_that_are_all_wrong():
     seeds = VolumeSeeds(np.array([[0, 0, 0], [5, 5, 5]]), np.array([1, 2]))
     noise = np.random.default_rng(6).integers(3, 9, (6, 6, 6)).astype(np.uint8)
     with pytest.raises(VerificationError, match=r"^216 of 216 voxels are wrong: the first, \(x, y, z\) = \(0, 0, 0\)"):
-        verify_label_volume(noise, seeds, VoxelFrame(0, 0, 0, 6, 6, 6))
+        verify_labels(noise, seeds, VoxelFrame(0, 0, 0, 6, 6, 6))
 
 
 def test_arrays_of_other_layouts():
@@ -182,13 +182,13 @@ def test_arrays_of_other_layouts():
         labels.repeat(2, axis=2)[:, :, ::2],
         labels.astype(int),
     ):
-        verify_label_volume(other, seeds, frame)
+        verify_labels(other, seeds, frame)
     for slice_ in range(7):
-        verify_label_volume(labels[slice_ : slice_ + 1], seeds, VoxelFrame(0, 0, slice_, 9, 8, 1))
+        verify_labels(labels[slice_ : slice_ + 1], seeds, VoxelFrame(0, 0, slice_, 9, 8, 1))
     negative = labels.astype(np.int32)
     negative[3, 4, 5] = -2
     with pytest.raises(VerificationError, match=r"\(x, y, z\) = \(5, 4, 3\), has label -2, not"):
-        verify_label_volume(negative, seeds, frame)
+        verify_labels(negative, seeds, frame)
 
 
 def test_the_public_function():
@@ -210,19 +210,17 @@ def test_limits():
     frame, one = VoxelFrame(0, 0, 0, 1, 1, 1), np.ones((1, 1, 1), np.uint8)
     far = VolumeSeeds(np.array([[0, 0, 2**40 + 1]]), np.array([1]))
     with pytest.raises(InputError, match=r"cannot be verified: a seed lies beyond 2\^40 lattice steps"):
-        verify_label_volume(one, far, frame)
+        verify_labels(one, far, frame)
     near = VolumeSeeds(np.array([[0, 0, 0]]), np.array([1]), 256)
     with pytest.raises(InputError, match=r"the frame reaches beyond 2\^40"):
-        verify_label_volume(one, near, VoxelFrame(0, 2**33, 0, 1, 1, 1))
+        verify_labels(one, near, VoxelFrame(0, 2**33, 0, 1, 1, 1))
     with pytest.raises(InputError, match=r"beyond 2\^40"):
-        verify_label_volume(
-            one, VolumeSeeds(np.array([[0, 0, 2**62]]), np.array([1])), frame, sides=PixelSides((9, 1, 1))
-        )
+        verify_labels(one, VolumeSeeds(np.array([[0, 0, 2**62]]), np.array([1])), frame, sides=PixelSides((9, 1, 1)))
     with pytest.raises(UsageError, match="max_distance2 is -1"):
-        verify_label_volume(one, near, frame, max_distance2=-1)
-    verify_label_volume(one, near, frame, max_distance2=2**200)
+        verify_labels(one, near, frame, max_distance2=-1)
+    verify_labels(one, near, frame, max_distance2=2**200)
     with pytest.raises(InputError, match="labels have shape"):
-        verify_label_volume(np.ones((1, 1, 2), np.uint8), near, frame)
+        verify_labels(np.ones((1, 1, 2), np.uint8), near, frame)
 
 
 def test_what_progress_raises_stops_the_work():
@@ -233,4 +231,4 @@ def test_what_progress_raises_stops_the_work():
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        verify_label_volume(labels, seeds, VoxelFrame(0, 0, 0, 300, 300, 30), threads=2, progress=stop)
+        verify_labels(labels, seeds, VoxelFrame(0, 0, 0, 300, 300, 30), threads=2, progress=stop)

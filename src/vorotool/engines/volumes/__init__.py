@@ -1,1 +1,0 @@
-"""Exact digital Voronoi tessellation of volumes."""

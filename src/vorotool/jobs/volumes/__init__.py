@@ -1,1 +1,0 @@
-"""Jobs of volumes: what `tessellate` reads and writes in three dimensions."""
