@@ -379,11 +379,13 @@ class StreamedProducts(Streamed):
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
         frame = self.frame
-        with_sides: dict[str, Any] = {}
+        more: dict[str, Any] = {}
         if self.options.spacing is not None:
-            with_sides = {"distance2_step": str(self.sides.step), "arithmetic": self.image.arithmetic}
+            more = {"distance2_step": str(self.sides.step), "arithmetic": self.image.arithmetic}
+        if self.seeds is not None:
+            more["labels"] = len(self.seeds.site_labels)
         return {
-            **with_sides,
+            **more,
             "seeds": self.image.pixels,
             "largest_label": self.image.largest_label,
             "frame": [*frame.origin, *reversed(frame.shape)],
