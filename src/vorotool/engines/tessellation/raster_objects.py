@@ -311,9 +311,11 @@ class PartwiseObjects:
     def values(self, first: int, count: int) -> NDArray[Any]:
         """Read some rows or slices, of which the nonzero values are foreground."""
         values = self.read(first, count)
+        if values.ndim == 2:
+            return foreground_values(Raster(values), self.threshold, invert=self.invert)  # parts may be masked
         if self.threshold is not None:
             values = values > whole_threshold(values, self.threshold)
-        _require_finite(values, "image" if values.ndim == 2 else "volume")
+        _require_finite(values, "volume")
         return values == 0 if self.invert else values
 
     def labels(self, first: int, count: int) -> NDArray[Any]:
