@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import vorotool
 from support.families.point_families import FAMILIES, draw
 from support.oracles.proximity_oracle import gabriel_edges, relative_edges, squares_of, tree_lengths
 from vorotool import (
@@ -85,3 +86,17 @@ def test_what_is_refused():
     mesh = delaunay([[0, 0], [4, 0], [0, 3], [1, 1]])
     with pytest.raises(InputError, match="give a Delaunay triangulation"):
         proximity_graph(replace(mesh, edges=mesh.edges[:3]), "relative")
+
+
+def test_what_a_graph_turns_into(tmp_path):
+    points = vorotool.PointSet([[0, 0], [4, 0], [0, 3], [1, 1]], properties={"name": list("abcd")})
+    graph = proximity_graph(points, "mst")
+    assert repr(graph) == "ProximityGraph: mst, 4 points, 3 edges"
+    assert graph.table()["label_b"].tolist() == [4, 4, 4]
+    assert sorted(dict(graph.to_networkx().degree).values()) == [1, 1, 1, 3]
+    assert [line.length for line in graph.to_shapely()] == graph.edge_lengths().tolist()
+    assert graph.to_pandas()["length"].tolist() == graph.edge_lengths().tolist()
+    for fmt in ("csv", "geojson", "obj", "edge", "npy", "svg", "png"):
+        vorotool.write(graph, tmp_path / f"graph.{fmt}")
+    assert np.load(tmp_path / "graph.npy").tolist() == graph.edges.tolist()
+    assert (tmp_path / "graph.edge").read_text().splitlines()[0] == "3 1"

@@ -13,6 +13,7 @@ from vorotool.engines.features import batches as feature_sheets
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation_of_sides, feature_approximation
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
+from vorotool.errors import LimitError
 
 ARRAYS = ("vertices", "radius", "arcs", "sites", "polygon", "side", "branch", "length", "error_bound")
 OUTER = [[0, 0], [10, 0], [10, 10], [0, 10]]
@@ -85,3 +86,13 @@ def test_groups_that_do_not_go_with_the_points_are_refused():
     for group in ([0, 0], [0, 1, 0], [-1, -1, -1], [7, 7, 7]):
         with pytest.raises(ValueError, match="groups"):
             _core.sampled_skeleton.SampledDiagram(graph, *made, np.array(group, dtype=np.int32), None, 1, None)
+
+
+def test_seeds_of_all_features_are_counted():
+    shapes = as_polygons(SETS["nested"])
+    count = feature_approximation(shapes, SamplingOptions(step=0.5)).counts()["samples"]
+    assert count == 80 + 32
+    feature_approximation(shapes, SamplingOptions(step=0.5), most=count)
+    for options in (SamplingOptions(step=0.5), SamplingOptions(tolerance=0.001)):
+        with pytest.raises(LimitError, match="more than 111"):
+            feature_approximation(shapes, options, most=count - 1)

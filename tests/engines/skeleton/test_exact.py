@@ -238,3 +238,11 @@ def test_strict_refuses_repairs():
 
 def test_the_frame_of_nothing_and_of_a_place():
     assert default_frame(vorotool.skeleton_exact({"line": [[3, 4]]}, side="exterior").polygons) == (2, 3, 2, 2)
+
+
+def test_a_corner_of_nearly_180_degrees_is_joined_too():
+    shape = [[0, 0], [10, -0.5], [20, 0], [20, 10], [0, 10]]
+    for made in (skeleton_of(shape), skeleton_of(shape, gap=1)):
+        corners = made.vertices[made.radius == 0]
+        assert sorted(map(tuple, corners.tolist())) == sorted(map(tuple, shape))
+    assert len(skeleton_of([[0, 0], [9, 0], [9, 9], [0, 9]], gap=1, side="exterior")) == 0

@@ -55,11 +55,3 @@ def test_bands_are_those_of_the_whole(name, points, height, sides):
         for what, image in expected.items():
             band = pickle.loads(pickle.dumps(SeedBand(needed, FRAME, first, rows, what, image.dtype, sides, 20)))
             np.testing.assert_array_equal(band.rows(threads=1), image[first : first + rows], f"{name}, {what}")
-
-
-def test_a_band_needs_few_seeds():
-    xy = np.random.default_rng(1).integers(0, 1000, (100_000, 2))
-    seeds = SeedBands(seeds_from_points(PointSet(xy)), Frame(0, 0, 1000, 1000)).seeds_of(500, 10)
-    assert len(seeds) < 3000
-    inside = (seeds.y >= 500) & (seeds.y < 510)
-    assert inside.sum() == len(np.unique(xy[(xy[:, 1] >= 500) & (xy[:, 1] < 510)], axis=0))

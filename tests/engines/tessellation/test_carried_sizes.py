@@ -1,8 +1,5 @@
 """Values that carry a size: warned of once, measured in with ``spacing="auto"``, in the plane and in space."""
 
-import warnings
-from fractions import Fraction
-
 import numpy as np
 import pytest
 import tifffile
@@ -71,38 +68,9 @@ def test_auto_is_what_would_be_typed(tmp_path, name, make):
     assert "0.25 x 0.5" in str(told[0].message)
 
 
-def test_distances_against_fractions():
-    """Each voxel's distance to the nearest background, in um."""
-    found = peers.distance_transform(solid() == 0, spacing="auto")
-    seeds = np.argwhere(SOLID != 0)
-    sides = (Fraction(2), Fraction(1, 2), Fraction(1, 4))
-    for place in np.ndindex(SOLID.shape):
-        squares = [
-            sum((int(a - b) * side) ** 2 for a, b, side in zip(place, seed, sides, strict=True)) for seed in seeds
-        ]
-        assert found[place] == float(min(squares)) ** 0.5
-
-
-def test_nothing_to_warn_of():
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        vorotool.tessellate(LABELS)
-        vorotool.tessellate(xarray.DataArray(LABELS, dims=("y", "x")))
-        even = {"y": np.arange(6), "x": np.arange(8)}
-        vorotool.tessellate(xarray.DataArray(LABELS, dims=("y", "x"), coords=even))
-        made = vorotool.tessellate(plane(), spacing="auto")
-        vorotool.tessellate(made)
-        peers.expand_labels(made.labels, 1)
-
-
 @pytest.mark.parametrize("value", [LABELS, SOLID])
 def test_auto_needs_a_size(value):
     with pytest.raises(UsageError, match=r"spacing='auto' needs an image that states the size"):
         vorotool.tessellate(value, spacing="auto")
     with pytest.raises(UsageError, match=r"invalid spacing 'um'"):
         vorotool.tessellate(value, spacing="um")
-
-
-def test_the_digital_triangulation():
-    found = vorotool.digital_triangulation(plane(), spacing="auto")
-    assert found.points.tolist() == vorotool.digital_triangulation(plane(), spacing=(0.5, 0.25)).points.tolist()

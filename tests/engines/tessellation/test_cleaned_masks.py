@@ -1,14 +1,10 @@
 """Masks without holes and small objects: by scikit-image and scipy, as far as they have the same rules."""
 
-from fractions import Fraction
-from math import inf, nan
-
 import numpy as np
 import pytest
 from scipy import ndimage
-from skimage.morphology import remove_small_holes
 
-from vorotool import InputError, outlines, seeds_from_raster
+from vorotool import outlines, seeds_from_raster
 from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_mask
 from vorotool.errors import UsageError
 from vorotool.types.points.raster import Raster
@@ -51,14 +47,6 @@ def test_holes_of_at_most_an_area(mask, connectivity, most):
 
 
 @pytest.mark.parametrize("connectivity", [4, 8])
-def test_small_holes_inside_are_those_of_scikit_image(connectivity):
-    mask = np.pad(RNG.random((60, 80)) < 0.7, ((2, 2), (2, 2)), constant_values=True)
-    made = cleaned_mask(mask, Cleaning.of(None, 4), connectivity=connectivity)
-    expected = remove_small_holes(mask, max_size=4, connectivity=1 if connectivity == 8 else 2)
-    assert (made.mask == expected).all()
-
-
-@pytest.mark.parametrize("connectivity", [4, 8])
 @pytest.mark.parametrize("min_area", [1, 2, 5, 1000])
 @pytest.mark.parametrize("mask", MASKS)
 def test_small_objects(mask, connectivity, min_area):
@@ -83,31 +71,6 @@ def test_holes_count_as_area_and_missing_pixels_stay():
         cleaned_mask(ring, Cleaning(), connectivity=6)
 
 
-@pytest.mark.parametrize(
-    ("min_area", "fill_holes", "expected"),
-    [
-        (Fraction(5, 2), Fraction(5, 2), Cleaning(3, 2)),
-        (3, 1, Cleaning(3, 1)),
-        (10**30, 10**30, Cleaning(10**30, 10**30)),
-        (None, inf, Cleaning(0, True)),
-        (None, np.True_, Cleaning(0, True)),
-    ],
-)
-def test_areas_are_exact(min_area, fill_holes, expected):
-    made = Cleaning.of(min_area, fill_holes)
-    assert made == expected
-    assert type(made.fill_holes) is type(expected.fill_holes)
-    cleaned_mask(MASKS[0], made)
-
-
-@pytest.mark.parametrize("area", [0, -1, nan, "5", [5]])
-def test_what_is_no_area(area):
-    with pytest.raises(UsageError, match="fill_holes"):
-        Cleaning.of(None, area)
-    with pytest.raises(UsageError, match="min_area"):
-        Cleaning.of(area, False)
-
-
 @pytest.mark.filterwarnings("ignore:.* seeds moved")
 @pytest.mark.parametrize("mode", [None, "components", "pixels", "centroids"])
 @pytest.mark.parametrize("connectivity", [4, 8])
@@ -119,14 +82,6 @@ def test_seeds_and_outlines_of_arrays(mode, connectivity):
     assert made == seeds_from_raster(clean, mode=mode, connectivity=connectivity)
     if mode in (None, "components"):
         assert outlines(grey, **options) == outlines(clean, connectivity=connectivity)
-
-
-def test_labels_are_refused():
-    for function in (seeds_from_raster, outlines):
-        with pytest.raises(InputError, match=r"the image holds labels, but min_area is for masks: use threshold=T or "):
-            function(np.array([[1, 2, 2]]), min_area=2)
-        with pytest.raises(InputError, match="but fill_holes is for masks"):
-            function(np.array([[1, 0, 1]]), mode="labels", fill_holes=True)
 
 
 def rings_of(polygons):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from vorotool import InputError, seeds_from_volume, tessellate
+from vorotool import seeds_from_volume
 from vorotool.engines.tessellation.cleaned_masks import CleanedSlices, Cleaning
 from vorotool.engines.tessellation.raster_objects import HeldParts, PartwiseObjects
 from vorotool.engines.tessellation.volume_seeding import seeds_of_slabs
@@ -72,17 +72,3 @@ def test_seeds_are_those_of_the_clean_volume(mode, connectivity, slices):
     made = seeds_of_slabs(source, **options, cleaning=Cleaning(3, 2), slices=slices, report=reported.append)
     assert made == expected
     assert len(reported) == 1
-
-
-def test_labels_and_distances_of_the_clean_volume():
-    mask = MASKS[1]
-    clean = cleaned(mask, Cleaning(4, True), 26)[0]
-    seeds = seeds_from_volume(mask, min_area=4, fill_holes=True)
-    assert (tessellate(seeds).labels == tessellate(clean).labels).all()
-
-
-def test_labels_are_refused():
-    with pytest.raises(InputError, match="the volume holds labels, but min_area is for masks: use threshold=T or mode"):
-        seeds_from_volume(np.array([[[1, 2, 2]]]), min_area=2)
-    with pytest.raises(InputError, match="but fill_holes is for masks"):
-        seeds_from_volume(np.array([[[1, 0, 1]]]), mode="labels", fill_holes=True)

@@ -10,12 +10,10 @@ from support.families.families import fine_case
 from support.few import few
 from support.oracles.oracles import nearest_labels_of_fine_seeds
 from vorotool.engines.tessellation.bands import SeedBands
-from vorotool.engines.tessellation.seed_lattice import finest_scale
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import pixel_sides
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*seeds (moved|lie)")
 
@@ -34,20 +32,6 @@ def test_labels_of_fine_seeds_in_one_and_in_bands(seed):
         rows = min(height, frame.height - first)
         apart = bands.band("labels", np.dtype(np.uint32), first, rows, sides=sides)
         assert (apart.rows() == right[first : first + rows]).all()
-
-
-def test_two_seeds_a_thousandth_from_a_tie():
-    assert vorotool.tessellate([[0, 0], [1.999, 0]], shape=(1, 3)).labels.tolist() == [[1, 2, 2]]
-    assert vorotool.tessellate([[0, 0], [2.001, 0]], shape=(1, 3)).labels.tolist() == [[1, 1, 2]]
-    assert vorotool.tessellate([[0, 0], [2, 0]], shape=(1, 3)).labels.tolist() == [[1, 1, 2]]
-
-
-@pytest.mark.parametrize("side", [1, 3, 510, 511, 512, 513, 8192, 2**20])
-def test_the_finest_lattice_is_of_the_whole_frame(side):
-    scale = finest_scale(np.empty((0, 2)), Frame(0, 0, side, 1))
-    assert side * scale <= 2**40 < 2 * side * scale
-    assert finest_scale(np.array([[0.5, 0.25]]), Frame(0, 0, side, 1)) == scale
-    assert finest_scale(np.empty((0, 2)), Frame(0, 0, side, 1), pixel_sides((0.75, 0.5))) in (scale // 2, scale // 4)
 
 
 def test_seeds_get_the_lattice_of_the_frame_and_the_coarsest_that_holds_them():

@@ -5,16 +5,12 @@ import pytest
 
 from support.few import few
 from support.oracles.oracles import nearest_labels, nearest_squares
-from vorotool import _core
-from vorotool.engines.tessellation.frames import simd_level
 from vorotool.engines.tessellation.interior_seeds import needed_seeds
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellate import verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.errors import InputError
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.raster import Raster
-from vorotool.types.points.seed_set import SeedSet
 
 
 def objects(kind, rng):
@@ -45,32 +41,3 @@ def test_against_all_seeds(kind, number, frame):
     near = Tessellator(seeds, frame, max_distance=1).labels()
     np.testing.assert_array_equal(near, nearest_labels(seeds.x, seeds.y, seeds.labels, window, most_squared=1))
     verify_rows(sweep)
-
-
-def test_seeds_that_stay_as_they_are():
-    y, x = (k.ravel() for k in np.indices((6, 6)))
-    ones = np.ones(36, int)
-    assert needed_seeds(SeedSet(x, y, ones)) is not None
-    assert needed_seeds(SeedSet(x, y, np.arange(1, 37))) is None  # no two share a label
-    assert needed_seeds(SeedSet(x, y, ones, scale=2)) is None  # between pixels
-    assert needed_seeds(SeedSet(9 * x, y, ones)) is None  # sparse
-    assert needed_seeds(SeedSet(x[::-1], y[::-1], ones)) is None  # another order
-    assert needed_seeds(SeedSet(np.repeat(x, 2), np.repeat(y, 2), np.repeat(ones, 2))) is None  # two at one place
-
-
-def test_the_seed_that_is_too_far_is_counted_from_1():
-    x, y = np.array([0, 5, 2**43]), np.array([0, 1, 2])
-    with pytest.raises(InputError, match=r"seed 3 at \(8796093022208, 2\) is too far from the frame"):
-        Tessellator(SeedSet(x, y, np.array([1, 2, 3])), Frame(0, 0, 4, 4))
-    row = np.arange(8)
-    seeds = SeedSet(np.tile(row, 8), np.repeat(row, 8) + 2**42, np.ones(64, int))
-    assert needed_seeds(seeds) is not None
-    with pytest.raises(InputError, match=r"seed 1 at \(0, 4398046511104\)"):
-        Tessellator(seeds, Frame(0, 0, 4, 4))
-
-
-def test_the_core_says_by_number_which_seed_is_too_far():
-    x, y = np.array([0, 2**60]), np.zeros(2, np.int64)
-    with pytest.raises(_core.tessellation.SeedTooFarError) as error:
-        _core.tessellation.Tessellation(x, y, np.array([1, 2], np.uint32), 0, 0, 4, 4, 1, (1, 1), simd_level())
-    assert error.value.args == (1,)

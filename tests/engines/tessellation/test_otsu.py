@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from skimage.filters import threshold_otsu
 
-from vorotool.engines.tessellation.otsu import best_split, otsu_threshold
+from vorotool.engines.tessellation.otsu import otsu_threshold
 from vorotool.engines.tessellation.raster_objects import foreground_values
 from vorotool.types.points.raster import Raster
 
@@ -44,13 +44,6 @@ def test_ordinary_images_have_the_threshold_of_scikit_image(dtype):
     random = np.random.default_rng(3)
     image = np.clip(np.concatenate([random.normal(30, 9, 500), random.normal(90, 12, 300)]), 0, 127).astype(dtype)
     assert otsu_threshold(image) == threshold_otsu(image)
-
-
-def test_splits_are_the_same_by_value_and_by_bin():
-    random = np.random.default_rng(4)
-    image = np.concatenate([random.integers(0, 300, 400), random.integers(200, 900, 300)])
-    values, counts = np.unique(image, return_counts=True)
-    assert values[best_split((values - values[0]).astype(np.uint64), counts)] == threshold_otsu(image)
 
 
 @pytest.mark.parametrize("exponent", [-1070, -600, 0, 600, 1017])

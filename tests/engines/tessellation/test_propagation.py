@@ -6,7 +6,7 @@ import pytest
 import vorotool
 from support.oracles.oracles import nearest_labels, paper_passes
 from vorotool.engines.tessellation.propagation import PropagatedRows, propagate
-from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SeedSet
 
@@ -64,19 +64,6 @@ def test_wrong_pixels_are_counted_against_brute_force():
     found = rows.compare_with_exact()
     assert found["wrong_pixels"] == wrong.sum()
     assert (found["first_wrong"]["y"], found["first_wrong"]["x"]) == tuple(np.argwhere(wrong)[0])
-
-
-def test_one_pass_leaves_pixels_without_label():
-    image = propagate(seed_set([(5, 5)]), Frame(0, 0, 9, 9), passes=1)
-    assert image.labels[0, 0] == 0
-    assert (image.labels[5:] == 1).all()
-
-
-def test_duplicates_and_shared_labels():
-    seeds = SeedSet([1, 1, 6], [1, 1, 1], [9, 4, 4])
-    with pytest.warns(VorotoolWarning, match="1 of 3 seeds"):
-        rows = PropagatedRows(seeds, Frame(0, 0, 8, 3))
-    assert set(rows.labels().ravel()) == {4}
 
 
 @pytest.mark.parametrize(

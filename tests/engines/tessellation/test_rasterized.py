@@ -7,13 +7,11 @@ import pytest
 import shapely
 
 from support.few import few
-from vorotool.engines.tessellation import rasterized as module
 from vorotool.engines.tessellation.rasterized import rasterized
 from vorotool.errors import InputError
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 
-RNG = np.random.default_rng(11)
 FRAME = Frame(0, 0, 12, 9)
 
 
@@ -98,25 +96,6 @@ def test_lines_through_corners_and_along_sides():
     assert pixels((-5, -5), (-1, -1)) == pixels((20, 0), (20, 5)) == []
     assert pixels((-9, 4), (99, 4)) == [(x, 4) for x in range(12)]
     assert pixels((2, -1e6), (2, 1e6)) == [(2, y) for y in range(9)]
-
-
-def test_points_and_segments_that_are_rings():
-    shapes = [[(SHELL, [(3, 4)])], [(SHELL, [(6, 1), (6, 3)])]]
-    made = rasterized(polygon_set(shapes), FRAME)
-    assert made[4, 3] == 1
-    assert (made[1:4, 6] == 2).all()
-    assert (made > 0).sum() == 4
-
-
-def test_parts_and_overlaps(monkeypatch):
-    """The first feature has a pixel, however the work is divided."""
-    shapes = [[(SHELL, RNG.uniform(-3, 14, (5, 2)))] for _ in range(60)]
-    polygons = polygon_set(shapes)
-    whole = rasterized(polygons, FRAME)
-    assert (whole == expected(shapes)).all()
-    for pixels in (1, 7, 50):
-        monkeypatch.setattr(module, "_PIXELS", pixels)
-        assert (rasterized(polygons, FRAME) == whole).all()
 
 
 def test_what_is_too_far():

@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from vorotool.engines.tessellation.raster_objects import _fragments
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellate import tessellate, verify_tessellation
-from vorotool.errors import InputError, LimitError, UsageError, VerificationError, VorotoolWarning
+from vorotool.errors import InputError, LimitError, VerificationError, VorotoolWarning
 from vorotool.types.points.raster import Raster
 
 INK = np.array([[200, 0, 200], [0, 0, 0]], dtype=np.uint8)
@@ -33,18 +32,6 @@ def test_nan_is_background_of_a_threshold_and_refused_by_otsu():
             seeds_from_raster(Raster(values), threshold=threshold)
 
 
-@pytest.mark.parametrize("factor", [1, 10**6])
-def test_objects_are_counted_alike_for_dense_and_sparse_labels(factor):
-    labels = np.random.default_rng(0).integers(0, 40, (30, 50)) * factor
-    seeds = seeds_from_raster(Raster(labels), mode="labels")
-    expected, area = np.unique(labels[labels > 0], return_counts=True)
-    np.testing.assert_array_equal(seeds.site_labels, expected)
-    np.testing.assert_array_equal(seeds.object_area, area)
-    np.testing.assert_array_equal(seeds.labels, labels[labels > 0])
-    for site, label in zip(seeds.sites, expected, strict=True):
-        np.testing.assert_allclose(site, np.argwhere(labels == label)[:, ::-1].mean(axis=0))
-
-
 def test_seeds_are_counted_before_memory_is_taken_for_them():
     raster = Raster(np.ones((4, 5), np.uint8))
     for mode in ("pixels", "components", "labels"):
@@ -54,14 +41,6 @@ def test_seeds_are_counted_before_memory_is_taken_for_them():
     assert len(seeds_from_raster(raster, mode="centroids", max_sites=1)) == 1
     with pytest.raises(LimitError, match="2 objects"):
         seeds_from_raster(Raster(np.array([[1, 0, 2]])), mode="centroids", max_sites=1)
-
-
-@pytest.mark.parametrize("bad", [-1.0, 2.5, 2.0**32])
-def test_a_bad_label_is_named_with_its_place(bad):
-    values = np.ones((3, 4))
-    values[1, 2] = bad
-    with pytest.raises(InputError, match=rf"value {bad} in row 1, column 2: labels must be integers"):
-        seeds_from_raster(Raster(values), mode="labels")
 
 
 TWO_PATCHES = np.array([[1, 0, 1], [0, 0, 0]])
@@ -110,13 +89,6 @@ def test_what_was_taken_is_told_where_it_may_surprise(image, words):
     assert len(told) == (words is not None)
 
 
-def test_a_value_that_can_be_no_label_is_no_mask_either():
-    for value in (-1, 0.5, 2.0**33):
-        with pytest.raises(InputError, match=r'labels must be integers .* mode="components" for a mask'):
-            seeds_from_raster(TWO_PATCHES * value)
-        assert seeds_from_raster(TWO_PATCHES * value, mode="components").site_labels.tolist() == [1, 2]
-
-
 @pytest.mark.parametrize("method", ["exact", "propagation"])
 @pytest.mark.parametrize("mode", [None, "pixels", "components", "labels", "centroids"])
 def test_an_image_without_foreground_has_no_seeds_and_labels_0(mode, method):
@@ -131,16 +103,3 @@ def test_an_image_without_foreground_has_no_seeds_and_labels_0(mode, method):
     verify_tessellation(found)
     with pytest.raises(VerificationError, match=r"^1 of 12 pixels is wrong: .* has label \d, not 0$"):
         verify_tessellation(replace(found, labels=np.eye(3, 4, dtype=np.uint16) * [0, 1, 0, 0]))
-
-
-@pytest.mark.parametrize("size", [8, 1])
-def test_fragments_are_counted_alike_for_objects_and_for_noise(size):
-    from skimage.measure import label
-
-    image = np.kron(np.random.default_rng(1).integers(0, 9, (12, 14)), np.ones((2 * size, 3 * size))).astype(np.uint16)
-    assert _fragments(image) == (9, label(image, connectivity=1).max())
-
-
-def test_an_unknown_mode_is_refused():
-    with pytest.raises(UsageError, match="mode is 'foo'"):
-        seeds_from_raster(Raster(np.eye(2)), mode="foo")

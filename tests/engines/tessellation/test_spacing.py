@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-import vorotool
 from support.few import few
 from vorotool.engines import peers
 from vorotool.engines.tessellation.tessellator import Tessellator
@@ -83,26 +82,6 @@ def test_the_instruction_sets_agree(level, monkeypatch):
     verify_labels(expected, seeds, frame, sides=sides)
 
 
-def test_ties_across_sides_belong_to_the_smaller_label():
-    # 3 columns of 4 are as far as 4 rows of 3
-    seeds = SeedSet(np.array([3, 0]), np.array([0, 4]), np.array([2, 1], dtype=np.uint32))
-    labels = Tessellator(seeds, Frame(0, 0, 4, 5), sides=PixelSides((3, 4))).labels()
-    assert labels[0, 0] == 1
-    swapped = SeedSet(seeds.x, seeds.y, seeds.labels[::-1].copy())
-    assert Tessellator(swapped, Frame(0, 0, 4, 5), sides=PixelSides((3, 4))).labels()[0, 0] == 1
-
-
-def test_equal_sides_change_nothing_but_the_unit():
-    random = np.random.default_rng(1)
-    seeds = SeedSet(*random.integers(0, 99, (2, 50)), np.arange(1, 51))
-    frame = Frame(0, 0, 100, 80)
-    plain, scaled = Tessellator(seeds, frame), Tessellator(seeds, frame, sides=PixelSides((1, 1), Fraction(1, 10)))
-    assert np.array_equal(plain.labels(), scaled.labels())
-    assert np.array_equal(plain.squared_distances(), scaled.squared_distances())
-    limited = Tessellator(seeds, frame, max_distance=Fraction(3, 10), sides=scaled.sides)
-    assert np.array_equal(limited.labels(), Tessellator(seeds, frame, max_distance=3).labels())
-
-
 @pytest.mark.parametrize("sides", SIDES)
 @pytest.mark.parametrize("limit", [0, Fraction(5, 2), 30, 77])
 def test_limits_are_exact(sides, limit):
@@ -148,9 +127,3 @@ def test_sides_without_a_coarse_step_are_refused():
     with pytest.raises(UsageError, match="round the sides to fewer digits, or give them as fractions"):
         pixel_sides((0.3333333333333333, 1))
     assert pixel_sides((Fraction(1, 3), 1)) == PixelSides((1, 3), Fraction(1, 3))
-
-
-def test_too_wide_a_range_is_refused_before_work():
-    seeds = SeedSet(np.array([0, 2**30]), np.array([0, 0]), np.array([1, 2], dtype=np.uint32))
-    with pytest.raises(vorotool.InputError, match="too far from the frame"):
-        Tessellator(seeds, Frame(0, 0, 9, 9), sides=PixelSides((1, 2**20)))

@@ -4,7 +4,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-import shapely
 
 import vorotool
 from support.few import few
@@ -12,7 +11,7 @@ from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.propagation import propagate
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.errors import InputError, UsageError, VerificationError
+from vorotool.errors import UsageError
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.spacing import SQUARE, PixelSides, pixel_sides
 
@@ -108,32 +107,6 @@ def test_vertical_sides_are_counted_over_bands(threads):
         assert measures.border_faces[row].tolist() == counts
 
 
-@pytest.mark.parametrize("factor", [3, Fraction(1, 7), 0.1])
-def test_square_pixels_of_another_side_only_scale_lengths(factor):
-    plain, scaled = image_of(2, None, max_distance=4), image_of(2, factor, max_distance=4 * Fraction(str(factor)))
-    assert np.array_equal(plain.labels, scaled.labels)
-    for make in (vorotool.region_table, vorotool.neighbor_table):
-        ours, theirs = make(scaled), make(plain)
-        for name in ours:
-            power = 2 if name == "area" else 1 if np.asarray(ours[name]).dtype.kind == "f" else 0
-            assert np.ma.allclose(ours[name], theirs[name] * float(factor) ** power), name
-
-
-def test_every_other_column_of_an_image_has_a_spacing_of_two():
-    random = np.random.default_rng(8)
-    seeds = np.unique(random.integers(0, 20, (12, 2)), axis=0)
-    fine = vorotool.tessellate(seeds * (2, 1), shape=(20, 40)).labels
-    assert np.array_equal(vorotool.tessellate(seeds, shape=(20, 20), spacing=(1, 2)).labels, fine[:, ::2])
-
-
-def test_max_distance_is_a_decimal_number_in_the_unit_of_the_spacing():
-    image = vorotool.tessellate([[0, 0]], shape=(1, 8), spacing=(1, 0.1), max_distance=0.3)
-    assert image.labels.tolist() == [[1, 1, 1, 1, 0, 0, 0, 0]]
-    vorotool.verify_tessellation(image, max_distance=0.3)
-    with pytest.raises(VerificationError, match="1 of 8 pixels is wrong"):
-        vorotool.verify_tessellation(image, max_distance=0.4)
-
-
 def test_a_label_image_brings_its_spacing_along():
     image = image_of(1, (1, 3))
     again = vorotool.tessellate(image)
@@ -142,34 +115,6 @@ def test_a_label_image_brings_its_spacing_along():
     assert image.flipped().sides == image.sides
     assert repr(image) == "LabelImage: 23 x 17, 9 labels, uint16, spacing (1, 3)"
     assert image != LabelImage(image.labels, image.frame, image.seeds)
-
-
-def test_a_spacing_of_one_changes_nothing():
-    plain, one = image_of(4, None), image_of(4, (1, 1.0))
-    assert plain == one
-    for make in (vorotool.region_table, vorotool.neighbor_table):
-        for name, column in make(plain).items():
-            assert np.array_equal(column, make(one)[name])
-            assert np.asarray(column).dtype == np.asarray(make(one)[name]).dtype
-
-
-def test_objects_of_images_have_areas_in_the_unit():
-    mask = np.zeros((6, 9), bool)
-    mask[1:3, 1:4] = mask[4, 7] = True
-    table = vorotool.region_table(vorotool.tessellate(mask, spacing=(0.5, 3)))
-    assert table["object_area"].tolist() == [9.0, 1.5]
-    assert table["x"].tolist() == [6.0, 21.0]
-
-
-def test_shapes_and_graphs_are_in_the_unit():
-    image = image_of(6, (0.5, 0.25))
-    frame = image.to_geopandas()
-    assert np.allclose(shapely.area(image.to_shapely()), frame["area"])
-    assert np.allclose(shapely.length(image.to_shapely()), frame["perimeter"])
-    left, top, right, bottom = shapely.total_bounds(image.to_shapely())
-    assert (left, top, right, bottom) == (-0.125, -0.25, 22.5 * 0.25, 16.5 * 0.5)
-    edges = image.to_networkx().edges(data=True)
-    assert sum(data["border_length"] for *_, data in edges) == vorotool.neighbor_table(image)["border_length"].sum()
 
 
 def test_pictures_show_pixels_in_their_aspect(tmp_path):
@@ -184,23 +129,8 @@ def test_pictures_show_pixels_in_their_aspect(tmp_path):
     assert axes.images[0].get_extent() == [-0.125, 5.625, 8.25, -0.25]
 
 
-def test_names_of_several_spacings_are_refused():
-    for spacing, message in (
-        (0, r"invalid spacing 0: expected a number above 0, or 2 of them, \(height, width\)"),
-        ((1, 2, 3), r"invalid spacing \(1, 2, 3\): expected a number above 0, or 2 of them"),
-        ((1e-9, 1), "round the sides to fewer digits"),
-    ):
-        with pytest.raises(UsageError, match=message):
-            image_of(0, spacing)
-
-
 def test_the_paper_has_square_pixels():
     with pytest.raises(UsageError, match="spacing needs method='exact'"):
         image_of(0, (1, 2), method="propagation")
     seeds = seeds_from_raster(np.eye(4, dtype=bool), mode="pixels")
     assert np.array_equal(vorotool.tessellate(seeds, spacing=1, method="propagation").labels, propagate(seeds).labels)
-
-
-def test_too_large_a_range_is_refused_before_work():
-    with pytest.raises(InputError, match=r"too far from the frame.*2\^40 lattice steps"):
-        vorotool.tessellate([[0, 0], [2**21, 0]], shape=(4, 4), spacing=(1, 2**20 + 1))

@@ -122,13 +122,6 @@ def test_rectangular_pixels(bands, dtype):
         np.testing.assert_array_equal(np.concatenate(found), expected)
 
 
-def test_squares_of_rectangular_pixels_that_do_not_fit():
-    image = StreamedImage(PartwiseObjects(Held(np.eye(3000, dtype=np.uint8))), sides=PixelSides((2**21, 1)))
-    assert image.arithmetic == "filtered float64 with int128"
-    with pytest.raises(LimitError, match="may exceed 64 bits"):
-        _ = image.square_dtype
-
-
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.int64, np.float32])
 def test_label_images(bands, dtype):
     labels = ndimage.label(blobs((80, 60), 0.6))[0].astype(dtype)

@@ -1,7 +1,6 @@
 """The exact engine against brute force, and the relations that any tessellation must satisfy."""
 
 import warnings
-from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -120,14 +119,6 @@ def test_distances(simd, scale, far):
     np.testing.assert_array_equal(sweep.distances(), (np.sqrt(squares.astype(float)) / scale).astype(np.float32))
 
 
-def test_max_distance_is_exact_at_the_rim(simd):
-    x, y, labels = np.array([0]), np.array([0]), np.array([1], dtype=np.uint32)
-    frame = (0, 0, 8, 8)
-    assert sweep_of(x, y, labels, frame, max_distance=5).labels()[4, 3] == 1
-    assert sweep_of(x, y, labels, frame, max_distance=Fraction(5) - Fraction(1, 10**9)).labels()[4, 3] == 0
-    assert sweep_of(x, y, labels, frame, max_distance=0).labels().sum() == 1
-
-
 # ---- bands, windows, threads, types ----------------------------------------------------------------------------
 
 
@@ -158,60 +149,10 @@ def test_large_image_takes_many_bands_and_streams_past_the_cache(simd):
     verify_rows(sweep)
 
 
-@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.uint32, np.int32])
-def test_types(simd, dtype):
-    image = vorotool.tessellate([[0, 0], [2, 1]], shape=(2, 3), dtype=dtype)
-    assert image.labels.dtype == dtype
-    assert image.labels.tolist() == [[1, 1, 2], [1, 2, 2]]
-
-
 # ---- metamorphic relations -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(5))
-def test_symmetries(simd, seed):
-    rng = np.random.default_rng(seed)
-    w, h = 57, 83
-    x, y = FAMILIES[["uniform", "lattice", "cocircular", "collinear", "clustered"][seed]](rng, w, h, 70, 1)
-    labels = rng.permutation(len(x)).astype(np.uint32) + 1
-    whole = sweep_of(x, y, labels, (0, 0, w, h)).labels()
-    np.testing.assert_array_equal(sweep_of(w - 1 - x, y, labels, (0, 0, w, h)).labels(), whole[:, ::-1])
-    np.testing.assert_array_equal(sweep_of(x, h - 1 - y, labels, (0, 0, w, h)).labels(), whole[::-1])
-    np.testing.assert_array_equal(sweep_of(y, x, labels, (0, 0, h, w)).labels(), whole.T)
-    np.testing.assert_array_equal(sweep_of(x + 10**6, y - 99, labels, (10**6, -99, w, h)).labels(), whole)
-    np.testing.assert_array_equal(sweep_of(x * 256, y * 256, labels, (0, 0, w, h), 256).labels(), whole)
-    order = rng.permutation(len(x))
-    np.testing.assert_array_equal(sweep_of(x[order], y[order], labels[order], (0, 0, w, h)).labels(), whole)
-    twice = [np.concatenate([v, v]) for v in (x, y)]
-    doubled = sweep_of(*twice, np.concatenate([labels, labels + 1000]), (0, 0, w, h))
-    np.testing.assert_array_equal(doubled.labels(), whole)
-    assert doubled.duplicates >= len(x)
-
-
 # ---- the public function and its errors ------------------------------------------------------------------------
-
-
-def test_inputs_of_every_kind():
-    from shapely import MultiPoint, Point
-
-    right = [[1, 1, 2], [1, 2, 2]]
-    for seeds in (
-        [[0, 0], [2, 1]],
-        [(0.0, 0.0), (2.0, 1.0)],
-        np.array([[0, 0], [2, 1]]),
-        [Point(0, 0), Point(2, 1)],
-        MultiPoint([(0, 0), (2, 1)]),
-        vorotool.PointSet([[0, 0], [2, 1]]),
-    ):
-        assert vorotool.tessellate(seeds, shape=(2, 3)).labels.tolist() == right
-    raster = vorotool.Raster(np.array([[5, 0, 0], [0, 0, 9]]))
-    assert vorotool.tessellate(raster).labels.tolist() == [[5, 5, 9], [5, 9, 9]]
-
-
-def test_default_frame_holds_the_points():
-    assert default_frame(vorotool.seeds_from_points(vorotool.PointSet([[2, 1], [7.5, 5.25]]))) == Frame(0, 0, 9, 6)
-    with pytest.raises(InputError, match=r"x from -3 to 12, .* use window="):
-        vorotool.tessellate([[-3, 0], [12, 1]])
 
 
 def test_snapping_warns_or_is_refused():
@@ -293,32 +234,6 @@ def test_a_progress_callback_that_raises_stops_the_kernel():
         sweep = Tessellator(points, Frame(0, 0, 20000, 20000), threads=1, progress=progress)
     with pytest.raises(StopNowError):
         sweep.labels(0, 8000)
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_seeds_that_are_nearest_nowhere_change_nothing(simd, seed):
-    """Far seeds around the frame are left out unseen; those that tie at the rim are not."""
-    rng = np.random.default_rng(seed)
-    frame = (-5, 7, 33, 21)
-    x, y = rng.integers(-200, 200, (2, 500))
-    x, y = np.append(x, [-5 - 40, 27 + 40]), np.append(y, [7, 27])
-    labels = rng.permutation(len(x)).astype(np.uint32) + 1
-    np.testing.assert_array_equal(sweep_of(x, y, labels, frame).labels(), nearest_labels(x, y, labels, frame))
-    single = sweep_of([-5, -5], [7, 27], [2, 1], (-5, 7, 1, 11))  # both 10 away from the last pixel
-    assert single.labels()[:, 0].tolist() == [2] * 10 + [1]
-
-
-@pytest.mark.parametrize("seed", few(range(4), 2))
-def test_many_rows_of_many_columns(simd, seed):
-    """Long sweeps: entries come, wait, go and come back, with several seeds a column and between pixels."""
-    rng = np.random.default_rng(seed)
-    scale = (1, 4)[seed % 2]
-    x, y = rng.integers(0, 40 * scale, 2000), rng.integers(0, 700 * scale, 2000)
-    labels = rng.permutation(2000).astype(np.uint32) + 1
-    frame = (0, 0, 40, 700)
-    np.testing.assert_array_equal(
-        sweep_of(x, y, labels, frame, scale).labels(), nearest_labels(x, y, labels, frame, scale)
-    )
 
 
 def test_a_frame_that_nobody_gave_has_at_most_2_to_28_pixels():

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 
 import vorotool
-from vorotool.engines.tessellation.frames import asked_frame, band_limits, default_frame
+from vorotool.engines.tessellation.frames import band_limits
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.engines.tessellation.volume_seeding import seeds_from_volume, seeds_from_xyz
-from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.engines.tessellation.volume_seeding import seeds_from_xyz
+from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.spacing import PixelSides, pixel_sides
 from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume import Volume
 from vorotool.types.volumes.volume_points import VolumePoints
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
@@ -74,37 +73,6 @@ def test_labels_of_every_type(dtype):
     assert np.array_equal(out, made.labels)
 
 
-@pytest.mark.parametrize(
-    "points",
-    [
-        np.array([[1, 2, 0], [4, 4, 3.5]]),
-        [[1, 2, 0], [4, 4, 3.5]],
-        VolumePoints([[1, 2, 0], [4, 4, 3.5]]),
-        {"z": [0, 3.5], "x": [1, 4], "y": [2, 4]},
-        np.array([(1, 2, 0), (4, 4, 3.5)], dtype=[("x", float), ("y", float), ("z", float)]),
-        seeds_from_xyz([[1, 2, 0], [4, 4, 3.5]]),
-    ],
-)
-def test_points_in_every_form(points):
-    expected = brute(seeds_from_xyz([[1, 2, 0], [4, 4, 3.5]]), VoxelFrame(0, 0, 0, 7, 6, 5))[0]
-    made = vorotool.tessellate(points, shape=(5, 6, 7))
-    assert isinstance(made, LabelVolume)
-    assert np.array_equal(made.labels, expected)
-    part = vorotool.tessellate(points, window=(2, 1, 3, 4, 3, 2))
-    assert np.array_equal(part.labels, expected[3:5, 1:4, 2:6])
-    assert part.frame == VoxelFrame(2, 1, 3, 4, 3, 2)
-
-
-def test_a_data_frame_keeps_its_columns_and_index():
-    pandas = pytest.importorskip("pandas")
-    frame = pandas.DataFrame({"x": [1, 4], "y": [2, 4], "z": [0, 3], "cell": ["a", "b"]}, index=["p", "q"])
-    seeds = vorotool.tessellate(frame, shape=(5, 6, 7)).seeds
-    assert seeds.properties == {"cell": ["a", "b"]}
-    assert list(seeds.index) == ["p", "q"]
-    flat = vorotool.tessellate(frame, shape=(6, 7))
-    assert flat.seeds.properties == {"z": [0, 3], "cell": ["a", "b"]}
-
-
 def test_points_have_a_frame_of_their_own():
     points = VolumePoints([[2, 1, 0], [7.25, 5.5, 3]])
     assert vorotool.tessellate(points).shape == (4, 7, 8)
@@ -114,27 +82,6 @@ def test_points_have_a_frame_of_their_own():
         LimitError, match=r"frame that holds the points has 1001 x 1001 x 1001 voxels.*shape=\(D, H, W\)"
     ):
         vorotool.tessellate(VolumePoints([[1000, 1000, 1000]]))
-
-
-@pytest.mark.parametrize("wrap", [np.asarray, Volume, list])
-def test_volumes_in_every_form(wrap):
-    mask = np.random.default_rng(4).random((7, 8, 9)) < 0.02
-    shape = (7, 8, 9) if wrap is list else None
-    made = vorotool.tessellate(wrap(mask), shape=shape)
-    assert np.array_equal(made.labels, brute(seeds_from_volume(mask), made.frame)[0])
-    assert np.array_equal(Tessellator(made.seeds).labels(), made.labels)
-
-
-def test_colors_are_no_slices_but_where_a_volume_is_asked_for():
-    colors = np.zeros((4, 5, 3), np.uint8)
-    colors[1, 2, 1] = 1
-    with pytest.raises(InputError, match="color image"):
-        vorotool.tessellate(colors)
-    made = vorotool.tessellate(colors, shape=(4, 5, 3))
-    assert made.labels.all()
-    assert np.array_equal(vorotool.tessellate(Volume(colors)).labels, made.labels)
-    with pytest.raises(InputError, match=r"stack of 4 images.*vorotool.tessellate takes it as a volume"):
-        vorotool.tessellate(np.zeros((4, 5, 6), bool), image=True)
 
 
 @pytest.mark.parametrize("spacing", [2, (3, 1, 2), (1.5, 0.325, 0.325), (Fraction(1, 3), 1, Fraction(1, 7))])
@@ -193,36 +140,6 @@ def test_what_is_no_seed_of_a_volume_is_refused(seeds, match):
         vorotool.tessellate(seeds, shape=(4, 5, 6))
 
 
-@pytest.mark.parametrize("points", [[[1, 2]], np.zeros((4, 2)), np.zeros((4, 2), int)])
-def test_points_of_the_plane_have_a_shape_of_two_numbers(points):
-    said = r"shape must be two integers \(H, W\), but is \(4, 5, 6\): .* three columns, x, y and z"
-    with pytest.raises(UsageError, match=said):
-        vorotool.tessellate(points, shape=(4, 5, 6))
-    with pytest.raises(UsageError, match=r"window must be four integers .* but is .*: .* have three"):
-        vorotool.tessellate(points, window=(0, 0, 0, 6, 5, 4))
-
-
-def test_integer_triples_are_points_or_say_that_they_are_an_image():
-    triples = np.array([[0, 1, 0], [2, 0, 0]])
-    with pytest.raises(InputError, match=r"shape=\(D, H, W\)"):
-        vorotool.tessellate(triples)
-    assert vorotool.tessellate(triples, image=True).shape == (2, 3)
-    assert vorotool.tessellate(triples.astype(bool)).shape == (2, 3)
-
-
-def test_seeds_at_one_place_are_told_of():
-    with pytest.warns(VorotoolWarning, match="1 of 2 seeds lie on another seed"):
-        made = vorotool.tessellate([[1, 1, 1], [1, 1, 1]], shape=(3, 3, 3))
-    assert (made.labels == 1).all()
-    with pytest.raises(InputError, match="remove the duplicates"):
-        Tessellator(made.seeds, made.frame, strict=True)
-
-
-def test_moved_seeds_are_told_of_after_what_makes_them_useless():
-    with pytest.raises(LimitError, match="more than max_pixels=9"):
-        vorotool.tessellate([[0.1, 0, 0]], shape=(3, 3, 3), max_pixels=9)
-
-
 def test_squares_that_may_exceed_64_bits_are_refused_and_distances_are_not():
     sides = PixelSides((2**21 - 1, 1, 1))
     seeds = VolumeSeeds(np.array([[0, 0, 0]]), np.array([1]), scale=256)
@@ -248,16 +165,3 @@ def test_progress_goes_up_to_one():
         sweep.labels(first, slices)
     assert told == sorted(told)
     assert all(0 <= part <= 1 for part in told)
-
-
-def test_slabs_cover_a_frame():
-    for frame in (VoxelFrame(0, 0, 0, 4000, 4000, 9), VoxelFrame(0, 0, 0, 3, 3, 9), VoxelFrame(0, 0, 0, 9000, 9000, 2)):
-        limits = list(band_limits(frame))
-        assert limits[0][0] == 0
-        assert sum(count for _, count in limits) == frame.depth
-
-
-def test_frames():
-    assert asked_frame(None, (1, 2, 3, 4, 5, 6), 3) == VoxelFrame(1, 2, 3, 4, 5, 6)
-    assert asked_frame(None, None) is None
-    assert default_frame(seeds_from_xyz([[0, 0, 0]])).shape == (1, 1, 1)

@@ -56,21 +56,6 @@ def test_random_seeds_with_ties_and_shared_labels(points, scale, window, limit):
     check_both_ways(SeedSet(x, y, labels, scale), Frame(*window), limit)
 
 
-@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.uint32, np.int32])
-def test_lattice(dtype):
-    x, y = (v.ravel() for v in np.meshgrid(np.arange(0, 24, 4), np.arange(0, 24, 4)))
-    labels = np.random.default_rng(1).permutation(x.size) + 1
-    check_both_ways(SeedSet(x, y, labels), Frame(-3, -3, 27, 25), dtype=dtype)
-
-
-def test_ring_about_a_center():
-    """Twelve seeds at distance 25 from (0, 0), which all tie there."""
-    ring = [(x, y) for x in range(-25, 26) for y in range(-25, 26) if x * x + y * y == 625]
-    x, y = np.array(ring).T
-    labels = np.random.default_rng(2).permutation(len(ring)) + 1
-    check_both_ways(SeedSet(x, y, labels), Frame(-12, -12, 25, 25))
-
-
 @pytest.mark.parametrize("reach", [2**31 - 40, 2**31 + 40, 2**40])
 def test_far_seeds(reach):
     """Around the bound of 64-bit distances, and at the largest coordinates: exact ties to the last unit."""
@@ -88,19 +73,6 @@ def test_far_seeds(reach):
 def test_distances_that_would_wrap_around_in_64_bits(far):
     seeds = SeedSet(np.array([far[0], 5]), np.array([far[1], 2]), np.array([1, 2]))
     check_both_ways(seeds, Frame(0, 0, 8, 6))
-
-
-def test_many_duplicates():
-    count = 5000
-    labels = np.random.default_rng(0).permutation(count) + 1
-    seeds = SeedSet(np.full(count, 3), np.full(count, 2), labels)
-    verify_labels(np.ones((40, 40), dtype=np.uint16), seeds, Frame(0, 0, 40, 40))
-
-
-def test_no_seeds_and_one_seed():
-    none = SeedSet(np.zeros(0), np.zeros(0), np.zeros(0))
-    check_both_ways(none, Frame(0, 0, 3, 2))
-    check_both_ways(SeedSet(np.array([100]), np.array([-7]), np.array([4])), Frame(0, 0, 1, 1))
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3, 4, 5])

@@ -6,7 +6,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vorotool
-from support.few import few
 from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.types.spacing import PixelSides, pixel_sides
@@ -76,22 +75,6 @@ def test_random_seeds_with_ties_and_shared_labels(points, scale, window, units, 
     check_both_ways(seeds, VoxelFrame(*window), PixelSides(units), limit)
 
 
-@pytest.mark.parametrize("dtype", few([np.uint8, np.uint16, np.uint32, np.int32], 1))
-def test_lattice(dtype):
-    places = np.stack(np.meshgrid(*[np.arange(0, 12, 4)] * 3), axis=-1).reshape(-1, 3)
-    labels = np.random.default_rng(1).permutation(len(places)) + 1
-    assert check_both_ways(VolumeSeeds(places, labels), VoxelFrame(-3, -3, -3, 14, 13, 12), dtype=dtype)
-
-
-def test_sphere_about_a_center():
-    """Thirty seeds at distance 5 from the origin, which all tie there."""
-    sphere = [at for at in np.ndindex(11, 11, 11) if sum((k - 5) ** 2 for k in at) == 25]
-    labels = np.random.default_rng(2).permutation(len(sphere)) + 1
-    seeds = VolumeSeeds(np.array(sphere) - 5, labels)
-    ties = check_both_ways(seeds, VoxelFrame(-4, -4, -4, 9, 9, 9))
-    assert ties[4, 4, 4] == len(sphere) == 30
-
-
 @pytest.mark.parametrize("reach", [2**31 - 40, 2**31 + 40, 2**40])
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_far_seeds(reach, axis):
@@ -112,30 +95,6 @@ def test_far_seeds(reach, axis):
 def test_distances_that_would_wrap_around_in_64_bits(far):
     seeds = VolumeSeeds(np.array([far, (2, 1, 1)]), np.array([1, 2]))
     check_both_ways(seeds, VoxelFrame(0, 0, 0, 5, 4, 3))
-
-
-@pytest.mark.parametrize("units", [(1, 2**20, 1), (2**21, 2**21 - 1, 2**21 - 3)])
-def test_long_sides(units):
-    random = np.random.default_rng(3)
-    seeds = VolumeSeeds(random.integers(0, 6 * 16, (20, 3)), np.arange(20) % 7 + 1, 16)
-    check_both_ways(seeds, VoxelFrame(0, 0, 0, 6, 5, 4), PixelSides(units))
-
-
-@pytest.mark.parametrize("shape", [(1, 1, 1), (1, 1, 30), (1, 30, 1), (30, 1, 1), (1, 5, 9)])
-def test_thin_volumes(shape):
-    random = np.random.default_rng(4)
-    depth, height, width = shape
-    seeds = VolumeSeeds(random.integers(-3, 33, (9, 3)), random.permutation(9) + 1)
-    check_both_ways(seeds, VoxelFrame(0, 0, 0, width, height, depth))
-    check_both_ways(seeds, VoxelFrame(0, 0, 0, width, height, depth), limit=200)
-
-
-def test_no_seeds_and_many_at_one_place():
-    none = VolumeSeeds(np.zeros((0, 3)), np.zeros(0))
-    check_both_ways(none, VoxelFrame(0, 0, 0, 3, 2, 2))
-    labels = np.random.default_rng(0).permutation(5000) + 1
-    seeds = VolumeSeeds(np.full((5000, 3), 3), labels)
-    verify_labels(np.ones((9, 10, 11), np.uint16), seeds, VoxelFrame(0, 0, 0, 11, 10, 9))
 
 
 @pytest.mark.parametrize("threads", [1, 2, 5])
@@ -162,33 +121,6 @@ def test_every_single_wrong_voxel_is_found():
         z, y, x = place
         with pytest.raises(VerificationError, match=rf"^1 of 336 .* \({x}, {y}, {z}\)"):
             verify_labels(wrong, seeds, frame)
-
-
-def test_labels_that_are_all_wrong():
-    seeds = VolumeSeeds(np.array([[0, 0, 0], [5, 5, 5]]), np.array([1, 2]))
-    noise = np.random.default_rng(6).integers(3, 9, (6, 6, 6)).astype(np.uint8)
-    with pytest.raises(VerificationError, match=r"^216 of 216 voxels are wrong: the first, \(x, y, z\) = \(0, 0, 0\)"):
-        verify_labels(noise, seeds, VoxelFrame(0, 0, 0, 6, 6, 6))
-
-
-def test_arrays_of_other_layouts():
-    random = np.random.default_rng(7)
-    seeds = VolumeSeeds(random.integers(0, 9, (6, 3)), random.integers(1, 4, 6))
-    frame = VoxelFrame(0, 0, 0, 9, 8, 7)
-    labels, _ = brute_force(seeds, frame)
-    for other in (
-        np.asfortranarray(labels),
-        labels.astype(">u2"),
-        labels.repeat(2, axis=2)[:, :, ::2],
-        labels.astype(int),
-    ):
-        verify_labels(other, seeds, frame)
-    for slice_ in range(7):
-        verify_labels(labels[slice_ : slice_ + 1], seeds, VoxelFrame(0, 0, slice_, 9, 8, 1))
-    negative = labels.astype(np.int32)
-    negative[3, 4, 5] = -2
-    with pytest.raises(VerificationError, match=r"\(x, y, z\) = \(5, 4, 3\), has label -2, not"):
-        verify_labels(negative, seeds, frame)
 
 
 def test_the_public_function():

@@ -1,7 +1,5 @@
 """Measures, tables, diagram and colors of label volumes, against plain loops and SciPy."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -13,7 +11,7 @@ import vorotool
 from vorotool.engines.label_images.measured_regions import measure_parts
 from vorotool.engines.label_images.regions import measure_regions, neighbor_table, region_colors, region_table
 from vorotool.errors import InputError, UsageError
-from vorotool.types.spacing import PixelSides, pixel_sides
+from vorotool.types.spacing import pixel_sides
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
@@ -122,20 +120,6 @@ def test_measures_agree_with_plain_loops(labels):
     np.testing.assert_array_equal(vorotool.voronoi_diagram(LabelVolume(labels)), expected_diagram(labels))
 
 
-@pytest.mark.parametrize("shape", [(1, 1, 1), (1, 1, 40), (1, 40, 1), (40, 1, 1), (1, 6, 33), (6, 1, 33), (6, 33, 1)])
-@pytest.mark.parametrize("dtype", DTYPES)
-def test_thin_volumes(shape, dtype):
-    labels = np.random.default_rng(3).integers(0, 4, shape).astype(dtype)
-    check(labels)
-    np.testing.assert_array_equal(vorotool.voronoi_diagram(LabelVolume(labels)), expected_diagram(labels))
-
-
-def test_a_tessellation():
-    labels, _, _ = nearest((17, 30, 41), 40, 1)
-    check(labels, threads=1)
-    np.testing.assert_array_equal(vorotool.voronoi_diagram(LabelVolume(labels), threads=3), expected_diagram(labels))
-
-
 @pytest.mark.parametrize("pattern", ["comb", "shells", "chequers", "spiral"])
 def test_components_that_meet_late(pattern):
     labels = np.zeros((9, 11, 13), dtype=np.uint16)
@@ -167,24 +151,6 @@ def test_slabs_leave_no_trace(threads):
     assert whole.border_faces.tolist() == (one.border_faces * scale).tolist()
     assert whole.low.tolist() == (one.low * (1024, 256, 1)).tolist()
     assert whole.high.tolist() == (one.high * (1024, 256, 1) + (1023, 255, 0)).tolist()
-
-
-@pytest.mark.parametrize("cuts", [[], [1], [4, 5], list(range(1, 17))])
-def test_volumes_come_slab_by_slab(cuts):
-    labels, _, _ = nearest((17, 20, 21), 30, 2)
-    labels[4:9, 3:7] = 0
-    whole, pieced = measure_regions(labels), measure_parts(np.split(labels, cuts))
-    for name in whole.__dataclass_fields__:
-        np.testing.assert_array_equal(getattr(pieced, name), getattr(whole, name))
-
-
-def test_sparse_labels_up_to_the_last():
-    names = np.array([0, 1, 70_000, 2**31, 2**32 - 1], dtype=np.uint32)
-    small = np.random.default_rng(0).integers(0, 5, (8, 9, 10))
-    sparse, dense = measure_regions(names[small]), measure_regions(small)
-    assert sparse.labels.tolist() == names[1:].tolist()
-    for name in ("cells", "faces", "components", "borders", "border_faces"):
-        np.testing.assert_array_equal(getattr(sparse, name), getattr(dense, name))
 
 
 def test_one_slice_is_an_image():
@@ -229,15 +195,6 @@ def test_sides_scale_lengths_areas_and_volumes():
     np.testing.assert_allclose(pairs["centroid_distance"], between[a, b] * 0.25, rtol=1e-15)
 
 
-def test_areas_beyond_64_bits():
-    volume = LabelVolume(np.ones((2, 2, 2), np.uint8), sides=PixelSides((2**21, 2**21 - 1, 2**21 - 3), Fraction(1, 3)))
-    volume = LabelVolume(np.broadcast_to(volume.labels[:1, :1, :1], (1, 1, 2**20)), sides=volume.sides)
-    (surface,) = region_table(volume)["surface"]
-    depth, height, width = (side * Fraction(1, 3) for side in volume.sides.units)
-    exact = 2 * depth * height + 2**21 * (depth * width + width * height)
-    assert surface == pytest.approx(float(exact), rel=1e-15)
-
-
 def test_every_site_has_a_row_with_seeds():
     seeds = VolumeSeeds(
         np.array([[2, 0, 0], [2, 0, 0], [900, 0, 0]]),
@@ -259,23 +216,6 @@ def test_every_site_has_a_row_with_seeds():
     assert "name" not in vorotool.region_table(volume, properties=False)
     half = vorotool.region_table(volume, distance2=distance2, distance_scale=2)
     assert half["max_distance"][0] == 1.5
-
-
-def test_frames_move_places():
-    labels = np.array([[[0, 4]], [[0, 4]]], np.uint8)
-    table = region_table(LabelVolume(labels, VoxelFrame(-5, 7, 100, 2, 1, 2)))
-    row = {name: table[name].tolist()[0] for name in table}
-    assert (row["x"], row["y"], row["z"]) == (-4.0, 7.0, 100.5)
-    assert [row[f"bbox_{name}"] for name in "xyzwhd"] == [-4, 7, 100, 1, 1, 2]
-    assert row["nearest_label"] is None
-    assert row["max_distance"] is None
-
-
-def test_no_region_at_all():
-    table = region_table(np.zeros((2, 3, 4), dtype=np.uint16))
-    assert all(len(table[name]) == 0 for name in COLUMNS)
-    assert neighbor_table(np.zeros((2, 3, 4), dtype=np.uint16)).rows == 0
-    assert not vorotool.voronoi_diagram(np.zeros((2, 3, 4), dtype=np.uint16)).any()
 
 
 # ---- the library --------------------------------------------------------------------------------------
@@ -306,13 +246,6 @@ def test_neighbors_never_share_a_color(labels):
         assert colors[a] != colors[b]
     found, again = region_colors(LabelVolume(labels), measures=measure_regions(LabelVolume(labels)))
     assert colors[found].tolist() == again.tolist()
-
-
-def test_masks_are_numbered_by_components():
-    mask = np.zeros((4, 4, 4), bool)
-    mask[0, 0, 0] = mask[1, 1, 1] = mask[3, 3, 3] = True
-    assert vorotool.region_table(mask)["volume"].tolist() == [2, 1]
-    assert vorotool.region_table(Volume(mask))["volume"].tolist() == [2, 1]
 
 
 @pytest.mark.parametrize("dtype", DTYPES)

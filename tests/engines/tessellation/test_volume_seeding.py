@@ -21,7 +21,6 @@ from vorotool.engines.tessellation.volume_seeding import (
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
-from vorotool.types.volumes.volume_points import VolumePoints
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame, VoxelGrid
 
@@ -123,14 +122,6 @@ def test_outer_voxels_give_what_all_voxels_give(window, limit, units):
         assert np.array_equal(ours.distances(first, count), every.distances(first, count))
 
 
-def test_an_inner_voxel_takes_its_own_label_and_no_tie():
-    labels = np.ones((9, 9, 9), np.uint8)
-    labels[4, 4, 4] = 3
-    labels[:, :, 0] = 2
-    seeds = seeds_from_volume(labels)
-    assert np.array_equal(Tessellator(seeds).labels(), labels)
-
-
 # ---- points ----------------------------------------------------------------------------------------
 def test_points_lie_on_the_coarsest_lattice():
     seeds = seeds_from_xyz([[0.5, 2, 0], [7, 5, 3.25], [-1, 0, 0]])
@@ -147,17 +138,6 @@ def test_points_that_move_are_told_of():
     assert seeds.largest_move == pytest.approx(abs(0.1 - round(25.6) / 256))
     with pytest.raises(InputError, match=r"point 1 is \(0.1, 0.0, 0.0\): seeds lie on multiples of 1/256 voxel"):
         seeds_from_xyz([[0.1, 0, 0], [1, 1, 1]], strict=True)
-
-
-def test_labels_and_columns_of_points():
-    points = VolumePoints([[1, 2, 3], [4, 5, 6]], [7, 3], {"cell": ["a", "b"]}, ["first", "second"])
-    seeds = seeds_from_xyz(points)
-    assert seeds.labels.tolist() == [7, 3]
-    assert seeds.site_labels.tolist() == [3, 7]
-    assert seeds.properties == {"cell": ["b", "a"]}
-    assert list(seeds.index) == ["second", "first"]
-    shared = VolumePoints([[1, 2, 3], [4, 5, 6]], [7, 7])
-    assert seeds_from_xyz(shared).site_labels.tolist() == [7]
 
 
 @pytest.mark.parametrize(
@@ -184,48 +164,6 @@ def test_points_of_shapely_need_a_z():
         seeds_from_xyz([shapely.Point(1, 2, 3), shapely.Point(1, 2)])
 
 
-# ---- what shares a label ---------------------------------------------------------------------------
-@pytest.mark.parametrize(
-    ("values", "labels"),
-    [
-        (np.array([[[True, False, True]]]), [1, 2]),
-        (np.array([[[255, 0, 255]]], np.uint8), [1, 2]),
-        (np.array([[[1, 0, 1]]], np.uint16), [1, 2]),
-        (np.array([[[7, 0, 7]]], np.uint16), [7, 7]),
-        (np.array([[[3, 0, 1]]], np.int64), [3, 1]),
-        (np.array([[[3, 0, 1]]], np.float32), [3, 1]),
-    ],
-)
-def test_masks_have_components_and_others_labels(values, labels):
-    assert seeds_from_volume(values).labels.tolist() == labels
-
-
-def test_what_may_surprise_is_noted():
-    told = []
-    seeds_from_volume(np.full((1, 1, 2), 7, np.uint16), note=told.append)
-    assert told == ['7 is the only value besides 0, and read as a label: for a mask use mode="components"']
-
-
-def test_each_voxel_may_be_a_seed():
-    seeds = seeds_from_volume(np.array([[[1, 1]], [[0, 1]]]), mode="pixels")
-    assert seeds.labels.tolist() == [1, 2, 3]
-    assert seeds.places.tolist() == [[0, 0, 0], [1, 0, 0], [1, 0, 1]]
-    assert seeds.object_volume is None
-    assert seeds.sites.tolist() == seeds.places.tolist()
-
-
-def test_centroids_are_seeds():
-    labels = np.zeros((5, 5, 5), np.uint8)
-    labels[0:2, 0:2, 0:2] = 4
-    labels[4, 4, 4] = 2
-    seeds = seeds_from_volume(labels, mode="centroids")
-    assert seeds.labels.tolist() == [2, 4]
-    assert seeds.scale == 2
-    assert (seeds.places / 2).tolist() == [[4, 4, 4], [0.5, 0.5, 0.5]]
-    assert seeds.object_volume.tolist() == [1, 8]
-    assert seeds.frame.shape == (5, 5, 5)
-
-
 def test_thresholds():
     random = np.random.default_rng(3)
     grey = random.normal(size=(6, 20, 21)).astype(np.float32) + 4 * (random.random((6, 20, 21)) < 0.3)
@@ -241,13 +179,6 @@ def test_thresholds():
         assert len(below) == (values <= level).sum()
     flat = objects_of_volume(HeldParts(Volume(np.full((2, 2, 2), 5))), "otsu", invert=True)
     assert (flat.threshold, flat.invert) == (5, False)
-
-
-@pytest.mark.parametrize("dtype", [bool, np.int8, np.uint16, np.int32, np.uint64, np.float64])
-def test_two_values_are_parted(dtype):
-    values = np.zeros((3, 4, 5), dtype)
-    values[1, 2] = 1
-    assert len(seeds_from_volume(values, threshold="otsu", mode="pixels")) == 5
 
 
 # ---- refusals --------------------------------------------------------------------------------------
@@ -267,11 +198,6 @@ def test_two_values_are_parted(dtype):
 def test_what_does_not_go_is_refused(asked, error, match):
     with pytest.raises(error, match=match):
         seeds_from_volume(np.ones((2, 2, 2), bool), **asked)
-
-
-def test_images_name_the_neighbors_of_voxels():
-    with pytest.raises(UsageError, match="connectivity is 26: it must be 4 or 8; 26 and 6 apply to volumes"):
-        vorotool.seeds_from_raster(np.eye(3, dtype=bool), connectivity=26)
 
 
 @pytest.mark.parametrize(

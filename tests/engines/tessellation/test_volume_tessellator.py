@@ -7,12 +7,10 @@ import pytest
 from scipy import ndimage
 from skimage import segmentation
 
-import vorotool
 from support.few import few
 from vorotool import _core
 from vorotool.engines import peers
 from vorotool.engines.peers.distance_transform import bare_seeds
-from vorotool.engines.tessellation.interior_seeds import surrounded
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.spacing import PixelSides
@@ -125,14 +123,6 @@ def test_seeds_are_sorted_alike_by_any_number_of_threads(way, spread):
         assert np.array_equal(sweep.distances(), sweeps[0].distances())
 
 
-def test_the_first_seed_that_is_too_far_is_named_by_any_number_of_threads():
-    places = np.zeros((200_000, 3), np.int64)
-    places[[130_000, 199_999], 1] = 2**41
-    for threads in (1, 3):
-        with pytest.raises(InputError, match="seed 130001 at"):
-            swept(places, np.ones(200_000, np.uint32), (2, 2, 2), threads=threads)
-
-
 @pytest.mark.parametrize("axes", [(0, 1, 2), (1, 0, 2), (2, 1, 0), (1, 2, 0)])
 def test_axes_may_be_exchanged(axes):
     random = np.random.default_rng(6)
@@ -145,28 +135,6 @@ def test_axes_may_be_exchanged(axes):
     assert np.array_equal(turned.labels(), whole.transpose(axes))
     mirrored = swept(np.array(shape) - 1 - places, labels, shape, sides=PixelSides(units))
     assert np.array_equal(mirrored.labels(), whole[::-1, ::-1, ::-1])
-
-
-def test_a_slice_is_an_image():
-    random = np.random.default_rng(8)
-    points = np.unique(random.integers(0, 90, (200, 2)), axis=0)
-    labels = np.arange(1, len(points) + 1, dtype=np.uint32)
-    flat = vorotool.tessellate(points, shape=(90, 90)).labels
-    places = np.stack([np.zeros(len(points), np.int64), points[:, 1], points[:, 0]], axis=1)
-    assert np.array_equal(swept(places, labels, (1, 90, 90)).labels()[0], flat)
-    assert np.array_equal(swept(places[:, [1, 0, 2]], labels, (90, 1, 90)).labels()[:, 0], flat)
-
-
-def test_many_slabs_give_what_one_gives():
-    random = np.random.default_rng(9)
-    shape = (220, 200, 190)  # more voxels than a slab has
-    places, labels = random.integers(0, shape, (500, 3)), np.arange(1, 501, dtype=np.uint32)
-    sweep = swept(places, labels, shape, threads=2)
-    whole = sweep.labels()
-    assert np.array_equal(whole[100:103], sweep.labels(100, 3))
-    at = random.integers(0, shape, (2000, 3))
-    square = ((at[:, None] - places) ** 2).sum(axis=2)
-    assert np.array_equal(whole[tuple(at.T)], labels[square.argmin(axis=1)])
 
 
 @pytest.mark.parametrize("density", few([0.2, 0.003], 1))
@@ -235,16 +203,6 @@ def test_distances_are_those_of_scipy(spacing, part):
     np.testing.assert_allclose(np.sqrt((way**2).sum(axis=0)), ours, rtol=0, atol=1e-12)
 
 
-def test_of_several_nearest_voxels_the_first_is_named():
-    mask = np.ones((3, 3, 3), bool)
-    for axis in range(3):
-        place = [1, 1, 1]
-        place[axis] = 2
-        mask[tuple(place)] = False
-    indices = peers.distance_transform(mask, return_distances=False, return_indices=True)
-    assert indices[:, 1, 1, 1].tolist() == [1, 1, 2]
-
-
 @pytest.mark.parametrize("distance", [0, 1, 2.5, float("inf")])
 @pytest.mark.parametrize("spacing", [None, (3, 1, 2), 0.5])
 def test_labels_grow_as_those_of_scikit_image(distance, spacing):
@@ -262,14 +220,6 @@ def test_labels_grow_as_those_of_scikit_image(distance, spacing):
     units = (1, 1, 1) if not isinstance(spacing, tuple) else spacing
     nearest, _ = brute(np.stack([z, y, x], axis=1), labels[z, y, x], labels.shape, units)
     assert np.array_equal(ours, np.where(ours != 0, nearest, 0))
-
-
-def test_only_outer_voxels_are_needed():
-    labels = np.ones((5, 6, 7), np.uint8)
-    assert surrounded(labels).sum() == 3 * 4 * 5
-    labels[2, 3, 3] = 2
-    assert surrounded(labels).sum() == 3 * 4 * 5 - 7
-    assert not surrounded(np.ones((2, 1, 9))).any()
 
 
 @pytest.mark.parametrize("function", [peers.distance_transform, peers.expand_labels])
@@ -293,11 +243,3 @@ def test_volumes_that_say_nothing():
         peers.expand_labels(np.full((1, 1, 2), [0, -2]))
     with pytest.raises(InputError, match="round them first"):
         peers.expand_labels(np.ones((2, 2, 2)))
-
-
-def test_masks_of_truth_values_grow_too():
-    mask = np.zeros((3, 3, 3), bool)
-    mask[1, 1, 1] = True
-    grown = peers.expand_labels(mask)
-    assert grown.dtype == bool
-    assert grown.sum() == 7

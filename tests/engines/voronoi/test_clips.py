@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 from tests.support.families.cut_scenes import lattice_clip, lattice_sites
-from tests.support.families.site_families import mixed_sites, row_houses, squares
+from tests.support.families.site_families import mixed_sites, squares
 from tests.support.oracles.cut_oracle import assert_cut_coverage, assert_nearest_in_regions
 
 import vorotool
@@ -70,18 +70,6 @@ def test_eight_symmetries(seed):
         np.testing.assert_allclose(again.perimeters.sum(), once.perimeters.sum(), rtol=1e-5)
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_the_frame_as_a_clip(seed):
-    random = np.random.default_rng(seed)
-    sites = mixed_sites(random, 9, [None, 10][seed % 2])
-    framed, clipped = quietly(sites, frame=(5, 10, 80, 60)), quietly(sites, clip=shapely.box(5, 10, 85, 70))
-    np.testing.assert_allclose(clipped.areas, framed.areas, atol=1e-5)
-    assert clipped.frame == pytest.approx(framed.frame)
-    assert len(clipped.neighbors["label_a"]) == len(framed.neighbors["label_a"])
-    both = quietly(sites, clip=shapely.box(0, 0, 100, 70), frame=(5, 10, 80, 100))
-    np.testing.assert_allclose(both.areas, framed.areas, atol=1e-5)
-
-
 @pytest.mark.parametrize("far", [30.03, 3003.3, 3.1e8])
 @pytest.mark.parametrize("others", [{}, {"enclosures": shapely.box(-1.3, -1, 5.1, 17.7)}, {"max_distance": 2.5}])
 def test_a_frame_far_around_the_clip_changes_nothing(far, others):
@@ -113,13 +101,6 @@ def test_clips_along_borders_and_walls(clip, areas):
     np.testing.assert_allclose(voronoi(squares(3), clip=clip).areas, areas, atol=1e-7)
 
 
-def test_sites_as_their_own_clip():
-    houses = row_houses(3, 4)
-    cells = voronoi(houses, clip=houses)
-    np.testing.assert_allclose(cells.areas, shapely.area(houses))
-    verify_voronoi(cells)
-
-
 @pytest.mark.parametrize("seed", range(4))
 def test_cells_as_a_clip(seed):
     """Its edges run along borders, a step of the lattice beside them."""
@@ -127,19 +108,6 @@ def test_cells_as_a_clip(seed):
     sites = mixed_sites(random, 6)
     cells = [cell for cell in quietly(sites).to_shapely(flatten=0.5) if not cell.is_empty]
     assert_cut_coverage(quietly(sites, clip=cells[::2]), shapely.union_all(cells[::2]).area)
-
-
-def test_islands_and_holes_without_borders():
-    clip = [BOX.difference(shapely.box(3, 3, 7, 7)), shapely.box(4, 4, 5, 5), shapely.box(20, 0, 22, 2)]
-    cells = voronoi([shapely.Point(1, 1), shapely.Point(60, 1)], clip=clip)
-    assert cells.areas.tolist() == [89, 0]
-    assert cells.components.tolist() == [3, 0]
-    assert len(shapely.get_parts(cells.to_shapely())[0].interiors) == 1
-
-
-def test_a_line_in_a_polygon_has_nothing_of_a_clip_in_it():
-    cells = voronoi([shapely.LineString([(4, 4), (6, 6)]), BOX], clip=shapely.box(4, 4.5, 4.9, 5.5))
-    np.testing.assert_allclose(cells.areas, [0, 0.9])
 
 
 def test_with_a_limit_of_distance():
@@ -171,13 +139,6 @@ def test_what_is_said_of_a_clip():
     assert voronoi([], clip=BOX).frame == (0, 0, 10, 10)
 
 
-def test_threads_and_the_order_of_sites():
-    sites = mixed_sites(np.random.default_rng(5), 9)
-    clip = shapely.Point(50, 50).buffer(40)
-    once = quietly(sites, clip=clip, threads=1)
-    assert once == quietly(sites, clip=clip, threads=4)
-
-
 @pytest.mark.parametrize(
     "clip",
     [
@@ -203,10 +164,3 @@ def test_systems_of_reference():
         voronoi(swiss, clip=other)
     with pytest.raises(InputError, match="the enclosures and the sites"):
         voronoi(swiss, enclosures=other)
-
-
-@pytest.mark.parametrize("first", [0, 1])
-def test_a_point_at_a_corner_has_its_wedge_in_a_clip_that_no_border_meets(first):
-    sites = [shapely.Point(4, 4), shapely.box(4, 3, 5, 4)]
-    cells = voronoi(sites if first == 0 else sites[::-1], clip=shapely.box(2, 6, 3, 7))
-    assert cells.areas.tolist() == [1, 0]

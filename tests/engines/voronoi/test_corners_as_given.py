@@ -85,16 +85,6 @@ def test_walls_meet_the_frame_at_vertices_that_are_on_it(least, most, lean):
     assert all(shapely.get_num_coordinates(each) <= 6 for each in shapes)
 
 
-def test_sides_of_a_frame_stay_straight():
-    x, y, w, h = frame = (0.1, 0.1, 60.7, 60.3)
-    sites = [shapely.box(0.1 + 1e-6, 5.3, 7.7, 8.1), shapely.LineString([(20.3, 0.1 - 1e-6), (30.1, 9)]), FAR]
-    cells = voronoi(sites, frame=frame, enclosures=[shapely.LineString([(-9.1, 3.3), (90.1, 47.7)])])
-    along = (np.tile(cells.vertices, 2) == [x, y, x + w, y + h]).any(axis=1)
-    ends = cells.arcs[(cells.sites < 0).any(axis=1)]
-    assert along[ends].all()
-    assert cells.areas.sum() == pytest.approx(w * h, rel=1e-14)
-
-
 def test_a_ring_that_might_turn_over_stays():
     thin, wide = [[0, 0], [4, 1e-3], [4, 0]], [[9, 0], [12, 0], [12, 4]]
     ends = np.array([[0, 1], [1, 2], [0, 2], [3, 4], [4, 5], [3, 5]])

@@ -1,18 +1,17 @@
 """Voronoi maps with a limit of distance: closed forms, buffers of shapely, ties, frames, symmetries."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import shapely
-from tests.support.families.site_families import mixed_sites, row_houses, squares
+from tests.support.families.site_families import mixed_sites
 from tests.support.oracles.voronoi_oracle import assert_is_within, quietly
 
 from support.few import few
 from vorotool import verify_voronoi, voronoi
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
-from vorotool.types.voronoi.tables import KINDS, kinds_of
 
 FRAME = (-10, -10, 30, 30)
 ROUND = np.pi
@@ -26,64 +25,6 @@ def within(sites, limit, frame=None):
     return cells
 
 
-# ---- closed forms ------------------------------------------------------------------------------------
-def test_around_a_point():
-    cells = within([[3, 4]], 2, FRAME)
-    assert cells.areas.tolist() == pytest.approx([4 * ROUND])
-    assert cells.perimeters.tolist() == pytest.approx([4 * ROUND])
-    assert cells.is_circle.tolist() == [True, True]
-    assert cells.center.tolist() == [[3, 4], [3, 4]]
-    assert cells.radius.tolist() == [2, 2]
-    assert cells.max_distance == 2
-    assert len(cells.edges["arc"]) == 0
-    assert cells.is_cut.all()
-    assert [KINDS[k] for k in kinds_of(cells)] == ["circle"] * 2
-
-
-@pytest.mark.parametrize("y", [0.1, 0.3, 1 / 3, 0.7])
-def test_half_a_disc_beside_a_clip(y):
-    """Its ends have the coordinates of the clip, and its middle those of the lattice, whose step is near 10^-7."""
-    cells = voronoi([[2.1, y]], clip=[shapely.box(-0.7, y, 1000 / 7, 9.1)], max_distance=0.35)
-    assert cells.areas.tolist() == pytest.approx([ROUND * 0.35**2 / 2], rel=1e-5)
-    assert cells.perimeters.tolist() == pytest.approx([(ROUND + 2) * 0.35], rel=1e-5)
-
-
-def test_around_a_line():
-    cells = within([shapely.LineString([(0, 0), (8, 0)])], 2, FRAME)
-    assert cells.areas.tolist() == pytest.approx([32 + 4 * ROUND])
-    assert cells.perimeters.tolist() == pytest.approx([16 + 4 * ROUND])
-    assert np.count_nonzero(cells.is_circle) == 2
-
-
-def test_around_a_polygon_with_a_hole():
-    ring = shapely.box(0, 0, 10, 10).difference(shapely.box(2, 2, 8, 8))
-    for limit, hole in ((1, 16), (3, 0), (2.5, 1)):
-        cells = within([ring], limit, FRAME)
-        assert cells.areas.tolist() == pytest.approx([100 - hole + 40 * limit + ROUND * limit * limit])
-        assert np.count_nonzero(cells.is_hole) == (hole > 0)
-
-
-def test_points_on_a_straight_line_leave_nothing_between():
-    """A wall of three segments in one line has one parallel on each side, without an arc."""
-    line = shapely.LineString([(0, 0), (2, 0), (5, 0), (8, 0)])
-    cells = within([line], 1, FRAME)
-    assert cells.areas.tolist() == pytest.approx([16 + ROUND])
-    split = [shapely.LineString([(0, 0), (3, 0)]), shapely.LineString([(3, 0), (8, 0)])]
-    cells = within(split, 1, FRAME)
-    assert cells.areas.tolist() == pytest.approx([6 + ROUND / 2, 10 + ROUND / 2])
-    assert cells.neighbors["border_length"].tolist() == [2]
-
-
-def test_discs_that_overlap_touch_and_are_apart():
-    for limit in (1, 2, 3, 4, 6, 20):
-        cells = within([[0, 0], [4, 0]], limit, (-50, -50, 100, 100))
-        half = min(2 / limit, 1)
-        cap = limit**2 * np.arccos(half) - 2 * np.sqrt(max(limit**2 - 4, 0))
-        assert cells.areas.tolist() == pytest.approx([ROUND * limit**2 - cap] * 2)
-        length = cells.neighbors["border_length"]
-        assert length.tolist() == pytest.approx([2 * np.sqrt(limit**2 - 4)] if limit > 2 else [])
-
-
 # ---- ties, all at once -------------------------------------------------------------------------------
 MEETING = [1, 2, 2 * 2**0.5, 3, 2 * 5**0.5, 4, 5]
 EITHER = [(limit, k % 2 == turn) for turn in (0, 1) for k, limit in enumerate(MEETING)]
@@ -95,25 +36,6 @@ def test_lattices_whose_discs_meet_in_places(limit, are_joined):
     sites = [shapely.MultiPoint(places[::2]), *places[1::2]] if are_joined else places
     cells = within(sites, limit)
     assert (cells.components >= 1).all()
-
-
-def test_discs_of_one_site_that_touch_are_apart():
-    row = shapely.MultiPoint([(0, 0), (4, 0), (8, 0)])
-    cells = within([row], 2, FRAME)
-    assert cells.components.tolist() == [3]
-    ring = shapely.MultiPoint([(0, 0), (4, 0), (8, 0), (0, 4), (8, 4), (0, 8), (4, 8), (8, 8)])
-    cells = within([ring, shapely.Point(4, 4)], 2, FRAME)
-    assert cells.components.tolist() == [8, 1]
-    cells = within([ring], 2.5, FRAME)
-    assert cells.components.tolist() == [1]
-    assert np.count_nonzero(cells.is_hole) == 1
-
-
-@pytest.mark.parametrize("gap", [1.0, 0.1])
-@pytest.mark.parametrize("factor", [0.25, 0.5, 2**-0.5, 1])
-def test_lattices_of_squares(gap, factor):
-    cells = within(squares(3, gap), gap * factor)
-    assert cells.components.tolist() == [1] * 9
 
 
 @pytest.mark.parametrize("seed", few(range(20), 3))
@@ -156,11 +78,6 @@ def test_random_sites(seed):
     within(sites, limit, frame)
 
 
-@pytest.mark.parametrize("limit", few([3, 5, 0.5, 2, 6, 7.5], 2))
-def test_houses_in_rows(limit):
-    within(row_houses(3, 4), limit)
-
-
 # ---- frames ------------------------------------------------------------------------------------------
 def test_frames_in_a_cell_in_a_hole_and_where_nobody_is():
     for frame, areas in (((-0.5, -0.5, 1, 1), [1, 0]), ((20, 20, 4, 4), [0, 0]), ((49, 1, 1, 1), [0, 1])):
@@ -172,22 +89,6 @@ def test_frames_in_a_cell_in_a_hole_and_where_nobody_is():
     assert within([ring], 1, (5, 5, 4, 4)).areas.tolist() == [0]
     assert within([ring, shapely.Point(10, 10)], 1, (5, 5, 10, 10)).areas.tolist() == pytest.approx([0, ROUND])
     assert within([ring], 4, (1, 1, 18, 18)).areas.tolist() == pytest.approx([18 * 18 - 64])
-
-
-def test_a_frame_that_touches_and_halves_a_disc():
-    for x in (-2, -1, 0, 1, 2):
-        cells = within([[0, 0]], 1, (x, -3, 6, 6))
-        assert cells.areas.tolist() == pytest.approx([{-2: 1, -1: 1, 0: 0.5}.get(x, 0) * ROUND], abs=1e-12)
-    quarter = within([[0, 0]], 5, (0, 0, 6, 6))
-    assert quarter.areas.tolist() == pytest.approx([25 * ROUND / 4])
-    assert within([[0, 0]], 5, (0, 3, 6, 6)).vertices.shape == (3, 2)
-
-
-def test_three_four_five():
-    """The limit meets a border just on the frame."""
-    both = shapely.MultiPoint([(-3, 0), (3, 0)])
-    for sites in ([both], [shapely.Point(-3, 0), shapely.Point(3, 0)]):
-        within(sites, 5, (-8, -4, 16, 8))
 
 
 @pytest.mark.parametrize("limit", [300, 1e4, 1e50])
@@ -236,33 +137,6 @@ def test_a_limit_beyond_everything_does_not_widen_the_lattice_of_enclosures():
     assert cells.own_areas.tolist() == pytest.approx([100, 49, 54], rel=1e-4)
 
 
-# ---- invariance --------------------------------------------------------------------------------------
-SYMMETRIES = [np.array(rows) for rows in ([[1, 0], [0, 1]], [[0, -1], [1, 0]], [[-1, 0], [0, 1]], [[0, 1], [1, 0]])]
-
-
-@pytest.mark.parametrize("turn", few([sign * each for each in SYMMETRIES for sign in (1, -1)], 2))
-def test_turned_and_mirrored(turn):
-    sites = mixed_sites(np.random.default_rng(4), 8, grid=4)
-    moved = [shapely.transform(each, lambda xy: xy @ turn.T) for each in sites]
-    for limit in (3, 4, 9.5):
-        once, again = within(sites, limit), within(moved, limit)
-        np.testing.assert_allclose(again.areas, once.areas, rtol=1e-9, atol=1e-9)
-        np.testing.assert_allclose(again.perimeters, once.perimeters, rtol=1e-9, atol=1e-9)
-        assert again.components.tolist() == once.components.tolist()
-
-
-def test_twice_as_large():
-    sites = mixed_sites(np.random.default_rng(5), 12)
-    once = quietly(sites, max_distance=5)
-    twice = quietly([shapely.transform(each, lambda xy: 2 * xy) for each in sites], max_distance=10)
-    for name in ("vertices", "radius", "control", "center"):
-        np.testing.assert_array_equal(getattr(twice, name), 2 * getattr(once, name))
-    for each in fields(once):
-        if each.name in ("arcs", "sites", "is_cut", "ring_arcs", "cell_starts"):
-            np.testing.assert_array_equal(getattr(twice, each.name), getattr(once, each.name))
-    assert twice.areas.tolist() == (4 * once.areas).tolist()
-
-
 def test_order_and_threads():
     random = np.random.default_rng(6)
     sites = [shapely.box(x, y, x + 3, y + 2) for x in range(0, 40, 8) for y in range(0, 40, 8)] + [shapely.Point(5, 5)]
@@ -271,12 +145,6 @@ def test_order_and_threads():
     assert again.areas.tolist() == cells.areas[order].tolist()
     assert [each.wkb for each in again.to_shapely()] == [cells.to_shapely()[k].wkb for k in order]
     assert voronoi(sites, max_distance=2.5, threads=1) == voronoi(sites, max_distance=2.5, threads=4)
-
-
-def test_cells_grow_with_the_limit():
-    sites = mixed_sites(np.random.default_rng(7), 10)
-    areas = [quietly(sites, max_distance=limit).areas for limit in (0.5, 1, 2, 4, 8, 16, 32, 64)]
-    assert (np.diff(areas, axis=0) >= -1e-9).all()
 
 
 # ---- polylines ---------------------------------------------------------------------------------------
@@ -292,11 +160,6 @@ def test_polylines_of_circles_are_near(flatten):
             off = limit - np.sqrt(np.square(inner - cells.center[arc]).sum(axis=1))
             assert off.max() <= min(flatten, PART_OF_RADIUS * limit) + 1e-9
             assert off.min() >= -1e-9
-
-
-def test_thin_slices_of_discs_hold_something():
-    cells = voronoi([[0, 0]], max_distance=1, frame=(0.999, -2, 4, 4))
-    assert shapely.area(cells.to_shapely(flatten=10))[0] > 0
 
 
 # ---- what is refused and found -----------------------------------------------------------------------
@@ -322,12 +185,6 @@ def test_limits_that_rounding_would_lose():
     verify_voronoi(small)
 
 
-def test_a_limit_without_sites():
-    cells = voronoi([None, shapely.Polygon()], max_distance=1)
-    assert cells.areas.tolist() == [0, 0]
-    verify_voronoi(cells)
-
-
 def test_wrong_limits_are_found():
     cells = voronoi([[0, 0], [4, 0]], frame=FRAME, max_distance=3)
     verify_voronoi(cells)
@@ -340,3 +197,12 @@ def test_wrong_limits_are_found():
     ):
         with pytest.raises(VerificationError):
             verify_voronoi(wrong)
+
+
+def test_a_frame_that_touches_and_halves_a_disc():
+    for x in (-2, -1, 0, 1, 2):
+        cells = within([[0, 0]], 1, (x, -3, 6, 6))
+        assert cells.areas.tolist() == pytest.approx([{-2: 1, -1: 1, 0: 0.5}.get(x, 0) * ROUND], abs=1e-12)
+    quarter = within([[0, 0]], 5, (0, 0, 6, 6))
+    assert quarter.areas.tolist() == pytest.approx([25 * ROUND / 4])
+    assert within([[0, 0]], 5, (0, 3, 6, 6)).vertices.shape == (3, 2)

@@ -5,7 +5,7 @@ import warnings
 import numpy as np
 import pytest
 import shapely
-from tests.support.families.site_families import mixed_sites, row_houses
+from tests.support.families.site_families import mixed_sites
 
 import vorotool
 from support.few import few
@@ -78,20 +78,6 @@ def test_cut_sites(seed):
     assert_measured(sites, quietly(sites, clip=clip, enclosures=enclosures, max_distance=limit))
 
 
-def test_houses_have_their_own_area():
-    houses = row_houses(4, 7)
-    cells = voronoi(houses)
-    assert cells.own_areas.tolist() == shapely.area(houses).tolist()
-    assert_measured(houses, cells)
-
-
-def test_joined_sites():
-    houses = row_houses(2, 4)
-    cells = quietly(houses, by=[0, 1, 0, 2, 1, 1, 2, 0])
-    joined = [shapely.union_all([houses[k] for k in own]) for own in ([0, 2, 7], [1, 4, 5], [3, 6])]
-    assert_measured(joined, cells)
-
-
 @pytest.mark.parametrize(
     ("sites", "own"),
     [
@@ -143,19 +129,6 @@ def test_largest_distances_that_are_known(sites, frame, reach):
     np.testing.assert_allclose(voronoi(sites, frame=frame).reaches, reach, rtol=1e-9)
 
 
-def test_a_u_reaches_farthest_in_its_pocket():
-    u = shapely.box(0, 0, 4, 5).difference(shapely.box(1, 1, 3, 6))
-    assert voronoi([u], frame=(0, 0, 4, 5)).reaches.tolist() == pytest.approx([1])
-    assert voronoi([u], frame=(0, 0, 4, 6)).reaches.tolist() == pytest.approx([2**0.5])
-
-
-def test_scaled_by_a_power_of_two():
-    sites = mixed_sites(np.random.default_rng(5), 7)
-    cells, larger = quietly(sites), quietly([shapely.transform(each, lambda xy: 8 * xy) for each in sites])
-    assert (8 * cells.reaches).tolist() == larger.reaches.tolist()
-    assert (64 * cells.own_areas).tolist() == larger.own_areas.tolist()
-
-
 def test_nothing_is_computed_for_shapes():
     cells = quietly(vorotool.read("data/great-lakes.geojson"))
     cells.to_shapely()
@@ -168,18 +141,6 @@ def test_a_court_is_cut_where_its_middle_is_too_far():
         assert voronoi([COURT], frame=(0, 0, 4, 4), max_distance=limit).reaches.tolist() == [reach]
 
 
-def test_what_an_enclosure_keeps_apart():
-    """Behind the walls nobody else takes part: a court open below reaches the middle of the lower one."""
-    walls = shapely.LineString([(-6, 0), (6, 0), (6, 6), (-6, 6), (-6, 0)])
-    sites = [shapely.LineString([(-4, 1), (-4, 5), (4, 5), (4, 1)]), shapely.Point(0, -1)]
-    apart = voronoi(sites, enclosures=[walls])
-    assert apart.reaches[0] == pytest.approx(17**0.5)  # at (0, 0), from the ends of both arms
-    together = voronoi(sites, frame=apart.frame)
-    assert together.areas[0] != pytest.approx(apart.areas[0])
-    assert_measured(sites, apart)
-    assert_measured(sites, together)
-
-
 @pytest.mark.parametrize("clip", [[(-1, -1), (11, -1), (11, 11), (-1, 11)], [(0, 0), (10, 0), (10, 10), (0, 10)]])
 def test_a_clip_is_as_a_frame(clip):
     sites = mixed_sites(np.random.default_rng(11), 5)
@@ -187,24 +148,6 @@ def test_a_clip_is_as_a_frame(clip):
     cut, framed = quietly(sites, clip=[5 * np.array(clip)]), quietly(sites, frame=(*low, *(high - low)))
     np.testing.assert_allclose(cut.own_areas, framed.own_areas, atol=1e-6)
     np.testing.assert_allclose(cut.reaches, framed.reaches, atol=1e-6)
-
-
-def test_points_and_segments():
-    random = np.random.default_rng(4)
-    segments = shapely.linestrings(random.random((4, 2, 2)) * 30)
-    sites = [*shapely.points(random.random((6, 2)) * 30), *segments]
-    for options in ({}, {"clip": [shapely.Point(15, 15).buffer(14)]}, {"max_distance": 4}):
-        assert_measured(sites, quietly(sites, **options))
-    joined = [shapely.MultiPoint([each.coords[0] for each in sites[:6]]), *segments]
-    assert_measured(joined, quietly(sites, by=[0] * 6 + [1, 2, 3, 4]))
-
-
-def test_repairs_are_told_once():
-    ring = [[0, 0], [0, 0], [4, 0], [4, 4]]
-    with pytest.warns(RepairWarning):
-        cells = voronoi([ring])
-    assert cells.own_areas.tolist() == [8]
-    assert cells.reaches[0] > 0
 
 
 def test_what_several_sites_have_is_counted():

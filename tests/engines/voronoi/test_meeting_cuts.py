@@ -59,30 +59,6 @@ def test_a_line_along_an_edge_of_what_is_shared_out(line, cut):
     verify_voronoi(cells)
 
 
-def test_a_limit_that_only_touches_an_edge_shares_out_nothing():
-    clip = shapely.Polygon([(-1, 1), (1, -1), (3, 1), (1, 3)])
-    cells = voronoi([[2, 2], [1, 0]], frame=(0, 1, 1, 2), clip=clip, max_distance=1)
-    assert cells.areas.tolist() == [0, 0]
-
-
-def test_a_site_where_parts_of_a_clip_touch_is_in_both():
-    clip = [shapely.box(0, 0, 2, 2), shapely.box(2, 2, 4, 4)]
-    lines = [shapely.LineString([(0, 1), (2, 1)])]
-    cells = voronoi([shapely.Point(2, 2), shapely.Point(1, 0)], clip=clip, enclosures=lines)
-    assert cells.areas.tolist() == [6, 2]
-    verify_voronoi(cells)
-
-
-def test_a_line_through_a_corner_of_the_frame_does_not_run_along_it():
-    """Beside the corner by half a step of the lattice, it crosses the side a step from there, and is led through it."""
-    line = "LINESTRING (143.52380952380952 1.3, 147.1904761904762 4.966666666666666)"
-    frame = (142.52380952380952, 0.3, 1.3333333333333428, 1.3333333333333333)
-    for ends in ([line], [line, "LINESTRING (142.857 2.3, 143.19 2.3)"]):
-        cells = voronoi(["POINT (143.85714285714286 2.633333333333333)"], frame=frame, enclosures=ends)
-        assert cells.areas.tolist() == pytest.approx([16 / 9], rel=1e-6)
-        verify_voronoi(cells)
-
-
 # ---- limits that touch each other on a cut --------------------------------------------------------------
 def blocks(mask):
     """Unit squares, those of one number as one site."""
@@ -156,26 +132,6 @@ def test_a_site_that_only_touches_the_frame_may_have_a_face():
 def test_limits_a_rounding_apart_along_the_frame(frame, limit):
     sites = np.array([shapely.union_all([shapely.box(-0.5, 2.5, 0.5, 3.5), shapely.box(1.5, 2.5, 2.5, 3.5)])])
     assert_within_faces(sites, [], frame, limit)
-
-
-def test_an_arc_that_the_frame_s_own_corner_turns_over_is_a_line():
-    """The lattice has the frame 10^-10 below where the input has it, beyond the end of an arc on it."""
-    x, y = 143.20714285714286, 0.15
-    sites = np.array([shapely.box(143.10714285714286, 0.05, x, y), shapely.box(x, 0.25, 143.30714285714285, 0.35)])
-    frame = (143.15714285714287, 0.15000000000000002, 0.19999999999998863, 0.09999999999999998)
-    cells = voronoi(sites, enclosures=[], frame=frame, max_distance=0.1)
-    verify_voronoi(cells)
-    np.testing.assert_allclose(cells.areas, shapely.area(cells.to_shapely(flatten=1e-6)), atol=1e-7)
-    assert cells.areas.sum() < 0.02
-
-
-def test_cells_may_go_beyond_a_frame_by_what_the_lattice_moves():
-    boxes = [(-0.2, 1.5, 1.8, 2.5), (4.8, 2.5, 5.8, 3.5), (2.8, 3.5, 3.8, 4.5), (-0.2, 5.5, 2.8, 6.5)]
-    scene = [shapely.union_all([shapely.box(*each) for each in boxes]), shapely.box(5.8, 5.5, 6.8, 6.5)]
-    line = "LINESTRING (0.3 7, 10.3 12)"
-    cells = voronoi(scene, enclosures=[line], frame=(0.3, 3.0, 5.5, 3.0), max_distance=1.4999999999999998)
-    assert cells.areas.sum() == pytest.approx(16.5, rel=1e-8)
-    verify_voronoi(cells)
 
 
 LIMIT = 2 / 3

@@ -1,12 +1,11 @@
 """Cells of points, lines and polygons against distances of shapely, and the rule of ties."""
 
-import warnings
 from itertools import permutations
 
 import numpy as np
 import pytest
 import shapely
-from tests.support.families.site_families import mixed_sites, row_houses, squares
+from tests.support.families.site_families import mixed_sites
 from tests.support.oracles.voronoi_oracle import assert_is_coverage, assert_nearest, quietly
 
 import vorotool
@@ -16,10 +15,6 @@ from vorotool.errors import InputError, RepairWarning, UsageError
 
 BOX = shapely.box(0, 0, 10, 10)
 FRAME = (-10.0, -10.0, 30.0, 30.0)
-
-
-def area_shares(cells):
-    return (cells.areas / cells.areas.sum()).round(9).tolist()
 
 
 @pytest.mark.parametrize("seed", few(range(60), 8))
@@ -44,47 +39,6 @@ def test_lakes_and_land(name):
     verify_voronoi(cells, places=300)
 
 
-def test_row_houses():
-    houses = row_houses(4, 7)
-    cells = quietly(houses)
-    assert assert_nearest(houses, cells, count=1000) > 500
-    assert (shapely.area(cells.to_shapely()) > shapely.area(houses)).all()
-
-
-@pytest.mark.parametrize("side", [2, 5])
-def test_squares_have_four_neighbors(side):
-    cells = voronoi(squares(side), frame=(-0.5, -0.5, 2 * side, 2 * side))
-    neighbors = np.array(cells.table()["neighbors"]).reshape(side, side)
-    assert (neighbors[1:-1, 1:-1] == 4).all()
-    assert neighbors.sum() == 4 * side * (side - 1)
-    assert cells.areas.tolist() == [4.0] * side * side
-    assert_is_coverage(cells)
-
-
-def test_lattice_points():
-    places = np.stack(np.meshgrid(range(6), range(6)), axis=-1).reshape(-1, 2)
-    cells = voronoi(places, frame=(-0.5, -0.5, 6, 6))
-    assert cells.areas.tolist() == [1.0] * 36
-    assert cells.neighbors.rows == 60
-
-
-# ---- ties ------------------------------------------------------------------------------------------
-def test_equal_polygons():
-    assert area_shares(voronoi([BOX, BOX, BOX], frame=FRAME)) == [1, 0, 0]
-    empty = voronoi([BOX, BOX]).to_shapely()[1]
-    assert empty.is_empty
-    assert empty.geom_type == "Polygon"
-
-
-def test_nested_polygons():
-    inner = shapely.box(4, 4, 6, 6)
-    assert voronoi([BOX, inner], frame=FRAME).areas.tolist() == [900, 0]
-    cells = voronoi([inner, BOX], frame=FRAME)
-    assert cells.areas.tolist() == [4, 896]
-    assert len(shapely.get_parts(cells.to_shapely())) == 2
-    assert len(cells.to_shapely()[1].interiors) == 1
-
-
 @pytest.mark.parametrize("order", list(permutations(range(3))))
 def test_overlapping_polygons(order):
     shapes = [shapely.box(0, 0, 6, 6), shapely.box(4, 2, 10, 8), shapely.box(2, 4, 8, 10)]
@@ -96,32 +50,6 @@ def test_overlapping_polygons(order):
         own = shape.difference(left)
         left = left.union(shape)
         assert cells.to_shapely()[site].buffer(1e-6).covers(own)
-
-
-@pytest.mark.parametrize("first", [0, 1])
-def test_polygons_that_touch_at_a_corner(first):
-    shapes = [shapely.box(0, 0, 4, 4), shapely.box(4, 4, 8, 8)]
-    given = [shapes[first], shapes[1 - first]]
-    cells = voronoi(given, frame=(-2, -2, 12, 12))
-    assert assert_nearest(given, cells) > 100
-    # both corners over 180 degrees leave quarters of the frame, which are nearest to the common corner alone
-    assert cells.areas.tolist() == [72, 72]
-
-
-def test_a_wedge_at_a_common_corner_is_of_the_first():
-    ways = [shapely.LineString([(0, 0), (-8, -1)]), shapely.LineString([(0, 0), (-8, 1)])]
-    both = [voronoi(given, frame=(-8, -8, 16, 16)).areas for given in (ways, ways[::-1])]
-    assert both[0].tolist() == both[1].tolist()
-    assert both[0][0] > 128
-    assert_nearest(ways, voronoi(ways, frame=(-8, -8, 16, 16)))
-
-
-def test_points_on_walls_and_at_corners():
-    assert voronoi([BOX, shapely.Point(5, 10)], frame=FRAME).areas.tolist() == [900, 0]
-    assert voronoi([shapely.Point(5, 10), BOX], frame=FRAME).areas.tolist() == [0, 900]
-    assert voronoi([BOX, shapely.Point(10, 10)], frame=FRAME).areas.tolist() == [900, 0]
-    assert voronoi([shapely.Point(10, 10), BOX], frame=FRAME).areas.tolist() == [100, 800]
-    assert voronoi([BOX, shapely.Point(5, 5)], frame=FRAME).areas.tolist() == [900, 0]
 
 
 @pytest.mark.parametrize("wall", [[(2, 10), (6, 10)], [(0, 10), (10, 10)], [(-5, 10), (15, 10)], [(6, 10), (15, 10)]])
@@ -143,13 +71,6 @@ def test_lines_through_polygons(is_first):
     number = 0 if is_first else 1
     assert cells.components[number] == 2
     assert not shapely.area(shapely.intersection(cells.to_shapely()[number], BOX)) > 1e-9
-
-
-def test_points_in_one_line():
-    places = [[0, 0], [1, 0], [3, 0], [7, 0]]
-    cells = voronoi(places, frame=(-1, -1, 9, 2))
-    assert cells.areas.tolist() == [3, 3, 6, 6]
-    assert list(cells.edges["kind"]) == ["line"] * 3
 
 
 @pytest.mark.parametrize("sites", [[[3, 4]], [shapely.LineString([(0, 0), (4, 1)])], [BOX], [BOX, None]])
@@ -176,22 +97,6 @@ def test_no_sites():
 def test_a_frame_without_borders(frame, site):
     given = [BOX, shapely.Point(50, 5)]
     assert voronoi(given, frame=frame).areas.tolist() == [frame[2] * frame[3] * (site == k) for k in (0, 1)]
-
-
-def test_a_frame_along_walls_and_borders():
-    cells = voronoi(squares(3), frame=(0, 0, 5, 5))
-    assert cells.areas.reshape(3, 3).tolist() == [[2.25, 3, 2.25], [3, 4, 3], [2.25, 3, 2.25]]
-    cells = voronoi(squares(3), frame=(1.5, 1.5, 2, 2))
-    assert cells.areas.tolist() == [0, 0, 0, 0, 4, 0, 0, 0, 0]
-    cells = voronoi(squares(3), frame=(1.5, 1.5, 4, 2))
-    assert cells.areas.tolist() == [0, 0, 0, 0, 4, 4, 0, 0, 0]
-
-
-def test_a_parabola_that_touches_the_frame():
-    given = [shapely.LineString([(-100, 0), (100, 0)]), shapely.Point(0, 4)]
-    cells = voronoi(given, frame=(-20, 2, 40, 20))
-    assert_is_coverage(cells)
-    assert cells.components.tolist() == [2, 1]
 
 
 def test_a_ring_around_what_is_cut():
@@ -235,22 +140,6 @@ def test_threads_change_nothing():
     assert voronoi(sites, threads=1) == voronoi(sites, threads=4)
 
 
-def test_twice_as_large():
-    sites = _spread(np.random.default_rng(3), 40)
-    once, twice = voronoi(sites), voronoi([shapely.transform(each, lambda xy: 2 * xy) for each in sites])
-    assert twice.areas.tolist() == (4 * once.areas).tolist()
-    assert (twice.vertices == 2 * once.vertices).all()
-
-
-def test_turned_by_a_right_angle():
-    sites = _spread(np.random.default_rng(4), 40)
-    turned = [shapely.transform(each, lambda xy: np.stack([-xy[:, 1], xy[:, 0]], axis=1)) for each in sites]
-    once, again = voronoi(sites), voronoi(turned)
-    np.testing.assert_allclose(again.areas, once.areas, rtol=1e-12)
-    assert again.neighbors["label_b"].tolist() == once.neighbors["label_b"].tolist()
-    np.testing.assert_allclose(again.neighbors["border_length"], once.neighbors["border_length"], rtol=1e-9)
-
-
 # ---- input -------------------------------------------------------------------------------------------
 def test_features_with_a_common_value_are_one_site():
     sites = [shapely.Point(0, 0), shapely.Point(8, 0), shapely.Point(0, 8), shapely.Point(8, 8)]
@@ -264,17 +153,6 @@ def test_features_with_a_common_value_are_one_site():
         voronoi(sites, by=["a", None, "b", "c"])
     with pytest.raises(UsageError, match="invalid by 'name'"):
         voronoi(sites, by="name")
-
-
-def test_polygons_without_inside_are_lines():
-    thin = shapely.Polygon([(0, 0), (8, 0), (4, 0)])
-    line = shapely.LineString([(0, 0), (8, 0)])
-    other = shapely.Point(4, 6)
-    flat, straight = quietly([thin, other]), voronoi([line, other])
-    np.testing.assert_allclose(flat.areas, straight.areas)
-    speck = shapely.box(4, -6, 4 + 1e-12, -6 + 1e-12)
-    small, point = (quietly([line, site], frame=(0, -8, 8, 16)) for site in (speck, shapely.Point(4, -6)))
-    np.testing.assert_allclose(small.areas, point.areas)
 
 
 def test_spikes_bound_nothing():
@@ -298,23 +176,6 @@ def test_spikes_along_other_sites_are_said():
 def test_frames_that_are_none(frame):
     with pytest.raises(UsageError, match=r"invalid frame .*expected"):
         voronoi([[0, 0], [1, 1]], frame=frame)
-
-
-def test_what_is_repaired_is_said():
-    with pytest.warns(RepairWarning, match="1 repeated vertex"):
-        voronoi([shapely.LineString([(0, 0), (0, 0), (4, 4)])])
-    with pytest.warns(RepairWarning, match="without area"), pytest.warns(RepairWarning, match="smaller than"):
-        voronoi([shapely.box(0, 0, 1e-12, 1e-12), shapely.Point(4, 4)])
-    with warnings.catch_warnings(action="error"):
-        voronoi([BOX, shapely.box(5, 5, 20, 20)])
-
-
-def test_read_only_and_foreign_bytes():
-    places = np.random.default_rng(1).random((30, 2))
-    places.flags.writeable = False
-    expected = voronoi(places.tolist())
-    for form in (places, places.astype(">f8"), np.asfortranarray(places), np.repeat(places, 2, axis=0)[::2]):
-        assert voronoi(form) == expected
 
 
 @pytest.mark.parametrize("seed", few(range(8), 4))

@@ -13,7 +13,6 @@ import shapely
 
 import vorotool
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.formats.drawing import dxf_reader
 from vorotool.formats.drawing.curves import Curve, Line
 from vorotool.formats.drawing.polygons import joined
 from vorotool.types.polygons.conversion import to_shapely
@@ -189,34 +188,6 @@ def test_ends_are_joined_by_the_extent_where_no_unit_is_known(drawing):
     assert read(drawing, join_tolerance=0.02)[1] == []
 
 
-def test_no_gap_is_told_of_where_three_ends_meet(drawing):
-    drawing.header["$INSUNITS"] = 4
-    space = drawing.modelspace()
-    for end in ((10, 0), (0, 10), (-10, 0)):
-        space.add_line((0.001, 0) if end[0] else (0, 0), end)
-    shapes, notes = read(drawing)
-    assert (shapes.is_line.tolist(), notes) == ([True] * 3, [])
-
-
-def test_places_are_no_lines(drawing):
-    space = drawing.modelspace()
-    for a, b in (((0, 0), (4, 0)), ((4, 0), (4, 0)), ((4, 0), (4, 3)), ((4, 3), (0, 0))):
-        space.add_line(a, b)
-    shapes, _ = read(drawing)
-    assert shapes.xy.tolist() == [[0, 0], [4, 0], [4, 3]]
-
-
-def test_layers_are_not_joined(drawing):
-    space = drawing.modelspace()
-    for k, (a, b) in enumerate([((0, 0), (4, 0)), ((4, 0), (4, 3)), ((4, 3), (0, 0))]):
-        space.add_line(a, b, dxfattribs={"layer": "ab"[k // 2]})
-    shapes, _ = read(drawing)
-    assert shapes.is_line.all()
-    assert shapes.properties["layer"] == ["a", "b"]
-    assert shapes.ring(0).tolist() == [[0, 0], [4, 0], [4, 3]]
-    assert not read(drawing, properties=False)[0].properties
-
-
 @pytest.mark.parametrize("seed", range(20))
 def test_chains_whatever_the_order_and_direction(seed):
     rng = np.random.default_rng(seed)
@@ -238,11 +209,6 @@ def test_chains_whatever_the_order_and_direction(seed):
     assert len(flat) == 8
 
 
-def test_three_ends_that_meet_are_not_joined():
-    curves = [Curve((0.0, 0.0), [Line(end)]) for end in ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0))]
-    assert [len(curve.pieces) for curve in joined(curves, 0.1)] == [1, 1, 1]
-
-
 def test_rings_in_rings_are_holes(drawing):
     space = drawing.modelspace()
     for radius in (1, 5, 3, 2):
@@ -255,13 +221,6 @@ def test_rings_in_rings_are_holes(drawing):
     assert shapes.feature.tolist() == [0, 1, 2]
 
 
-def test_rings_that_cross_are_shells(drawing):
-    space = drawing.modelspace()
-    space.add_circle((0, 0), 2)
-    space.add_circle((1, 0), 2)
-    assert read(drawing)[0].ring_kind.tolist() == [0, 0]
-
-
 # ---- blocks, layers, what is left out --------------------------------------------------------------
 def test_blocks(drawing):
     inner, outer = drawing.blocks.new("inner"), drawing.blocks.new("outer", base_point=(1, 1))
@@ -272,15 +231,6 @@ def test_blocks(drawing):
     shapes, _ = read(drawing, flatten=1e-5)
     assert shapes.properties["layer"] == ["l", "own"]
     assert shapely.bounds(to_shapely(shapes)[0]).tolist() == pytest.approx([8, 2, 12, 8])
-
-
-def test_arrays_of_blocks(drawing):
-    drawing.blocks.new("b").add_circle((0, 0), 1)
-    array = {"column_count": 3, "row_count": 2, "column_spacing": 10, "row_spacing": 20}
-    drawing.modelspace().add_blockref("b", (0, 0), array)
-    shapes, _ = read(drawing)
-    assert len(shapes) == 6
-    assert shapes.xy.max(axis=0).tolist() == pytest.approx([21, 21])
 
 
 def test_insertions_are_counted_before_they_are_made(drawing):
@@ -307,12 +257,6 @@ def test_blocks_in_themselves(drawing):
     drawing.blocks.new("b").add_blockref("A", (0, 0))
     drawing.modelspace().add_blockref("a", (0, 0))
     with pytest.raises(InputError, match="'A'"):
-        read(drawing)
-
-
-def test_blocks_that_are_not_there(drawing):
-    drawing.modelspace().add_blockref("none", (0, 0))
-    with pytest.raises(InputError, match="'none'"):
         read(drawing)
 
 
@@ -365,11 +309,6 @@ def test_versions(version, fmt, tmp_path):
     assert shapes.properties["layer"] == ["Überhöhung"]
 
 
-def test_a_few_lines_are_a_drawing():
-    text = b"0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n1.0\n20\n2.0\n40\n3.0\n0\nENDSEC\n0\nEOF\n"
-    assert len(read(text)[0]) == 1
-
-
 # ---- damage ------------------------------------------------------------------------------------------
 @pytest.mark.parametrize(
     "data",
@@ -392,23 +331,6 @@ def test_places_beyond_numbers(drawing):
     drawing.modelspace().add_circle((1e308, 0), 1e308)
     with pytest.raises(InputError, match="layer 0: a coordinate is too large"):
         read(drawing)
-
-
-def test_vertices_are_counted(drawing):
-    drawing.modelspace().add_circle((0, 0), 1)
-    with pytest.raises(LimitError, match="vertices, more than the limit of 10"):
-        read(drawing, max_sites=10)
-
-
-def test_options_of_the_library(tmp_path, drawing):
-    drawing.modelspace().add_circle((0, 0), 1)
-    path = tmp_path / "a.dxf"
-    path.write_bytes(data_of(drawing))
-    assert len(vorotool.read(path, flatten=0.5, join_tolerance=0).xy) == 4
-    with pytest.raises(UsageError, match="the tolerance is -1: it must be 0 or more"):
-        vorotool.read(path, join_tolerance=-1)
-    with pytest.raises(InputError, match="is a drawing"):
-        vorotool.read(path, geometry="points")
 
 
 # ---- the library -----------------------------------------------------------------------------------
@@ -461,10 +383,3 @@ def test_long_lines_are_not_repeated_without_end(drawing):
         read(drawing)
     array.dxf.column_count = 3
     assert len(read(drawing)[0]) == 3
-
-
-def test_entities_of_the_file_are_not_limited(monkeypatch, drawing):
-    monkeypatch.setattr(dxf_reader, "MOST_ENTITIES", 3)
-    for k in range(9):
-        drawing.modelspace().add_circle((3 * k, 0), 1)
-    assert len(read(drawing)[0]) == 9

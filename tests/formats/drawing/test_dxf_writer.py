@@ -5,7 +5,6 @@ import itertools
 import subprocess
 import sys
 import time
-from collections import Counter
 
 import ezdxf
 import numpy as np
@@ -46,10 +45,6 @@ def opened(data):
     return drawing
 
 
-def kinds(drawing):
-    return Counter((entity.dxftype(), entity.dxf.layer) for entity in drawing.modelspace())
-
-
 # ---- skeletons -------------------------------------------------------------------------------------
 def test_arcs_of_skeletons():
     skeleton = vorotool.skeleton_exact(up(SHAPE))
@@ -79,16 +74,6 @@ def test_arcs_of_skeletons():
 
     assert skeleton.is_parabola.any()
     assert np.allclose(ordered(found), ordered(wanted), atol=1e-8)
-
-
-def test_centerlines_are_led_on():
-    lines = vorotool.centerline(vorotool.skeleton_exact(up([[[0, 0], [40, 0], [40, 6], [0, 6]]])))
-    space = opened(written(lines, "centerline")).modelspace()
-    whole = shapely.line_merge(
-        shapely.union_all([shapely.LineString([e.dxf.start, e.dxf.end]) if e.dxftype() == "LINE"
-                           else shapely.LineString([p[:2] for p in e]) for e in space])
-    )  # fmt: skip
-    assert shapely.force_2d(whole).normalize().equals(shapely.LineString([(0, 3), (40, 3)]).normalize())
 
 
 @pytest.mark.parametrize("distance", [-2, 1, 5, 30])
@@ -156,12 +141,6 @@ def test_shapes_return(tmp_path):
     assert shapely.equals(to_shapely(again)[0], to_shapely(shapes)[0])
 
 
-def test_y_is_turned_over_where_it_goes_downwards(tmp_path):
-    vorotool.write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), tmp_path / "a.dxf", y_up=False)
-    lines = to_shapely(vorotool.read(tmp_path / "a.dxf"))
-    assert shapely.total_bounds(lines).tolist() == [0, -3, 4, 0]
-
-
 def test_layers_and_units_return(tmp_path):
     drawing = ezdxf.new()
     drawing.units = 1
@@ -175,21 +154,6 @@ def test_layers_and_units_return(tmp_path):
     assert again.unit == "in"
 
 
-def test_alpha_shapes_have_layers_of_classes():
-    shape = vorotool.alpha_shape(np.random.default_rng(1).uniform(0, 100, (50, 2)), r=12)
-    found = kinds(opened(written(shape, "complex")))
-    assert {kind for kind, _ in found} == {"LINE"}
-    assert {layer for _, layer in found} <= {"boundary", "singular", "interior"}
-
-
-@pytest.mark.parametrize("what", ["edges", "triangles"])
-def test_triangulations(what):
-    mesh = vorotool.delaunay(np.random.default_rng(1).uniform(0, 100, (20, 2)))
-    found = kinds(opened(written(mesh, what)))
-    count = len(mesh.edges) if what == "edges" else len(mesh.triangles)
-    assert sum(found.values()) == count
-
-
 def test_only_what_has_places_is_written():
     def of(command):
         return " ".join(what for what, each in PRODUCTS[command].items() if "dxf" in each.written)
@@ -201,23 +165,6 @@ def test_only_what_has_places_is_written():
     assert of("delaunay") == "edges triangles cells"
     assert of("alphashape") == "edges polygons complex general hull"
     assert of("tessellate") == of("draw") == ""
-
-
-def test_discs_are_circles():
-    found = vorotool.largest_discs([[0, 0], [9, 0], [9, 2], [0, 2.5]], count=3)
-    drawn = opened(written(found, "discs")).modelspace()
-    assert [list(each.get_points("xyb")) for each in drawn] == [
-        [(x + r, y, 1), (x - r, y, 1)] for (x, y), r in zip(found.xy.tolist(), found.radius.tolist(), strict=True)
-    ]
-    assert all(each.closed for each in drawn)
-
-
-def test_distances_are_lines():
-    found = vorotool.hausdorff([[0, 0], [4, 0]], [[1, 5]])
-    lines = opened(written(found, "distances")).modelspace()
-    assert [[tuple(end)[:2] for end in (line.dxf.start, line.dxf.end)] for line in lines] == [
-        [tuple(end) for end in pair] for pair in found.places.tolist()
-    ]
 
 
 @pytest.mark.parametrize("name", ["a<b>c", "", "\x07", "Ü", "x" * 400, "0", "Defpoints"])
@@ -254,12 +201,6 @@ def test_the_same_bytes_each_time(tmp_path):
     assert len(set(made)) == 1
     assert ezdxf.__version__.encode() not in made[0]
     assert ezdxf.options.write_fixed_meta_data_for_testing is False
-
-
-def test_nothing_to_write():
-    empty = PolygonSet(np.empty((0, 2)), [0], [], [])
-    assert not opened(written(empty, "shape")).modelspace()
-    assert not opened(written(vorotool.offset([[0, 0], [4, 0], [0, 3]], -50), "offset")).modelspace()
 
 
 def test_without_the_library(monkeypatch, tmp_path):

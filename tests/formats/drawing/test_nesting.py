@@ -63,12 +63,6 @@ def test_hundreds_of_rings_in_one_another(turn):
     assert lists(nested_polygons(rings)) == [lists([rings])[0][k : k + 2] for k in range(0, 400, 2)]
 
 
-def test_one_ring_that_crosses_hundreds():
-    rings = [square(k, 9000 - k) for k in range(800)]
-    rings.append(np.array([[-5, 4000], [100.5, 4000], [100.5, 4001], [-5, 4001]], dtype=float))
-    assert [len(polygon) for polygon in nested_polygons(rings)] == [1] * 801
-
-
 def test_the_sign_of_a_side_is_exact():
     a, b = (0.1, 0.1), (0.7, 0.7)
     assert fill_rules._side(a, b, (0.3, 0.3)) == 0

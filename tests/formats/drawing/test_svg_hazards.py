@@ -57,12 +57,6 @@ def test_the_rule_that_counts(style, is_shown):
     assert len(drawing) == is_shown
 
 
-@pytest.mark.parametrize("step", ["rotate(0)", "rotate(90 1 2)", "translate(0)", "skewX(0)", "matrix(1 0 0 1 0 0)"])
-def test_long_transforms(step):
-    drawing, _ = svg(f'<rect width="4" height="3" transform="{step * 40_000}"/>')
-    assert drawing.xy.tolist() == [[0, 0], [4, 0], [4, 3], [0, 3]]
-
-
 def test_declared_attributes_are_not_given_to_elements():
     declared = f'<!DOCTYPE svg [<!ATTLIST g a CDATA "{"y" * 100_000}"><!ATTLIST rect height CDATA "3">]>'
     text = f'{declared}<svg>{"<g/>" * 1000}<rect width="4"/></svg>'

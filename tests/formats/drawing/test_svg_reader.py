@@ -48,31 +48,6 @@ def test_areas(body, area):
     assert found.area == pytest.approx(area, rel=1e-5)
 
 
-def test_a_cubic_curve_is_within_the_tolerance():
-    control = np.array([[3.0, 1], [90, -40], [-20, 70], [50, 55]])
-    d = "M{} {}C{} {} {} {} {} {}".format(*control.ravel())
-    t = np.linspace(0, 1, 20001)[:, None]
-    curve = sum(math.comb(3, k) * t**k * (1 - t) ** (3 - k) * control[k] for k in range(4))
-    counts = []
-    for tolerance in (1.0, 0.1, 0.01):
-        line = svg(f'<path d="{d}" fill="none" stroke="red"/>', flatten=tolerance)[0].xy
-        assert shapely.hausdorff_distance(shapely.LineString(line), shapely.LineString(curve)) <= tolerance
-        counts.append(len(line))
-    assert counts == sorted(counts)
-    assert counts[-1] < 150
-
-
-def test_the_usual_tolerance_is_a_part_of_the_extent():
-    small, _ = svg('<circle r="1"/>')
-    large, _ = svg('<circle r="1e9"/>')
-    assert len(small) == len(large) == 1
-    assert len(small.xy) == len(large.xy)
-    radii = np.hypot(*small.xy.T)
-    assert np.allclose(radii, 1, atol=1e-15)
-    gaps = 1 - np.hypot(*((small.xy + np.roll(small.xy, 1, axis=0)) / 2).T)
-    assert gaps.max() <= 2 / 4096
-
-
 def random_body(rng, depth=0):
     """Elements in groups, all with fills of their own."""
 
@@ -254,11 +229,6 @@ def test_styles(style, expected):
     assert expected or any("skipped" in note and "style" not in note for note in notes)
 
 
-def test_styles_are_inherited_and_groups_overruled():
-    shapes, _ = svg('<g fill="none" stroke="red"><path d="M0 0L1 0"/><path fill="red" d="M0 0L1 0 1 1"/></g>')
-    assert shapes.is_line.tolist() == [True, False]
-
-
 def test_the_outermost_element_has_a_style_too():
     icon = '<path d="M0 0l4 4"/><circle r="3"/><path fill="red" d="M0 0h4v3z"/>'
     for own in ('fill="none" stroke="currentColor"', 'style="fill:none;stroke:red"', 'class="icon"'):
@@ -268,19 +238,6 @@ def test_the_outermost_element_has_a_style_too():
     assert svg('<path d="M0 0h4v3z"/>', 'transform="scale(2)"')[0].xy.max() == 8
     with pytest.raises(InputError, match="line 1"):
         svg(icon, 'clip-path="url(#a)"')
-
-
-def test_what_fills_nothing_is_a_line_where_it_has_a_stroke():
-    shapes, _ = svg('<path d="M0 0L4 4M9 9h3v3" stroke="red"/><path d="M0 0L4 4"/><path d="M1 1z" stroke="red"/>')
-    assert shapes.is_line.tolist() == [False, True]
-    assert shapes.feature.tolist() == [0, 0]
-
-
-def test_closed_lines_are_polygons():
-    shapes, notes = svg('<g fill="none" stroke="red"><path d="M0 0h4v3z"/><path d="M0 0h4v3L0 0"/><circle r="3"/></g>')
-    assert not shapes.is_line.any()
-    assert shapes.ring(0).tolist() == shapes.ring(1).tolist()
-    assert any("3 closed lines without a fill read as polygons" in note for note in notes)
 
 
 def test_ids_and_uses():
@@ -306,9 +263,3 @@ def test_layers_of_inkscape():
     assert shapes.properties == {"layer": ["Cut out", "Cut out", "b", None]}
     assert svg(layers, name, properties=False)[0].properties == {}
     assert svg(box)[0].properties == {}
-
-
-def test_definitions_are_not_drawn():
-    first = '<defs><rect width="1" height="1"/></defs><clipPath><path d="M0 0h1v1z"/></clipPath>'
-    others = '<marker><text>a</text></marker><title>a</title><metadata><rdf xmlns="x"/></metadata>'
-    assert len(svg(first + others)[0]) == 0

@@ -91,13 +91,6 @@ def test_encodings(encoding):
     assert read(text.encode(encoding))[0].ids == ["é"]
 
 
-def test_uses_are_counted_before_they_are_made():
-    doublings = "".join(f'<g id="g{k + 1}"><use href="#g{k}"/><use href="#g{k}"/></g>' for k in range(60))
-    with pytest.raises(LimitError, match="more than 131072 elements are drawn for it"):
-        svg(f'<g id="g0"><rect width="1" height="1"/></g>{doublings}')
-    assert len(svg(f'<defs><g id="g0"><rect width="1" height="1"/></g>{doublings}</defs><use href="#g4"/>')[0]) == 16
-
-
 def test_long_chains_of_uses_are_refused():
     chain = "".join(f'<g id="g{k + 1}"><use href="#g{k}"/></g>' for k in range(5000))
     with pytest.raises(InputError, match="nested more than 250 deep by what they use"):
@@ -162,15 +155,6 @@ def test_files_and_contents(tmp_path, name, geometry):
         vorotool.read(path, geometry="points")
     with pytest.raises(UsageError, match="the tolerance is 0"):
         vorotool.read(path, flatten=0)
-
-
-def test_the_unit_stays_with_what_is_made(tmp_path):
-    (tmp_path / "a.svg").write_text(LOGO)
-    shapes = vorotool.read(tmp_path / "a.svg")
-    skeleton = vorotool.skeleton_exact(shapes)
-    assert skeleton.polygons.unit == "mm"
-    assert vorotool.rebuild(skeleton).unit == "mm"
-    assert vorotool.offset(shapes, 1).flattened(0.1).unit == "mm"
 
 
 def test_without_the_library(tmp_path, monkeypatch):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vorotool.formats.drawing import fill_rules as module
-from vorotool.formats.drawing.fill_rules import filled_polygons, windings
+from vorotool.formats.drawing.fill_rules import windings
 
 
 def counted(rings, places):
@@ -48,11 +48,3 @@ def test_memory_of_windings_is_linear():
     finally:
         tracemalloc.stop()
     assert peak < 2**26
-
-
-@pytest.mark.parametrize("rule", ["nonzero", "evenodd"])
-def test_a_long_zigzag_is_filled(rule):
-    ring = zigzag(3000)
-    filled = filled_polygons([ring, ring + np.array([0.5, 7.0])], rule)
-    assert len(filled) == 6000
-    assert all(len(polygon) == 1 and len(polygon[0]) == 3 for polygon in filled)

@@ -48,15 +48,6 @@ def test_lines_are_named(tmp_path):
         vorotool.read(path)
 
 
-def test_a_column_that_is_chosen_by_name(tmp_path):
-    path = saved(tmp_path, "x,y,wkt\n1,2,POINT (5 6)\n")
-    assert vorotool.read(path).xy.tolist() == [[1, 2]]
-    assert vorotool.read(path, input_format="csv-wkt").xy.tolist() == [[5, 6]]
-    path = saved(tmp_path, "u,v,wkt\n1,2,POINT (5 6)\n")
-    assert vorotool.read(path).xy.tolist() == [[5, 6]]
-    assert vorotool.read(path, columns="u,v").xy.tolist() == [[1, 2]]
-
-
 def test_systems(tmp_path):
     path = saved(tmp_path, "wkt\nSRID=2056;POINT (1 2)\nSRID=2056;POINT (3 4)\n")
     assert crs_name(vorotool.read(path).crs) == "EPSG:2056"
@@ -66,17 +57,6 @@ def test_systems(tmp_path):
     code = shapely.to_wkb(shapely.set_srid(shapely.Point(1, 2), 2056), hex=True, include_srid=True)
     points = vorotool.read(saved(tmp_path, f"id,wkb\n7,{code}\n"))
     assert (points.xy.tolist(), crs_name(points.crs), points.properties) == ([[1, 2]], "EPSG:2056", {"id": ["7"]})
-
-
-def test_well_known_binary(tmp_path):
-    for data in (shapely.to_wkb(LAKE), shapely.to_wkb(LAKE, hex=True).encode()):
-        shapes = vorotool.read(saved(tmp_path, data, "a.wkb"))
-        assert shapes.xy.tolist() == [[4, 0], [4, 3], [0, 3], [0, 0]]
-    lines = "\n".join(shapely.to_wkb(shapely.Point(k, 0), hex=True) for k in range(5))
-    assert vorotool.read(saved(tmp_path, lines, "a.wkb")).xy[:, 0].tolist() == [0, 1, 2, 3, 4]
-    for data in (b"", b"\x01\x02", b"0101\n"):
-        with pytest.raises(InputError, match=r"a.wkb"):
-            vorotool.read(saved(tmp_path, data, "a.wkb"))
 
 
 def test_numbers_stay_numbers(tmp_path):

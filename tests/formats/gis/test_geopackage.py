@@ -116,19 +116,6 @@ def test_views_without_an_end(tmp_path, monkeypatch, query):
         vorotool.read(with_view(save(frame(), tmp_path / "a.gpkg"), query, "i", "geom"))
 
 
-def test_values_that_are_larger_than_their_file(tmp_path):
-    path = with_view(save(frame(), tmp_path / "a.gpkg"), "SELECT hex(zeroblob(2000000000)), geom FROM a", "t", "geom")
-    with pytest.raises(InputError, match=r"a\.gpkg"):
-        vorotool.read(path)
-
-
-def test_views_of_tables(tmp_path):
-    query = "SELECT a.fid, b.name || '!', a.geom FROM a JOIN a b ON a.fid = b.fid WHERE a.fid > 1"
-    shapes = vorotool.read(with_view(save(frame(), tmp_path / "a.gpkg"), query, "fid", "t", "geom"))
-    assert shapes.ids == [2, 2, 3]
-    assert set(shapes.properties) == {"t"}
-
-
 def test_rows_are_counted_before_they_are_read(tmp_path):
     path = save(frame([shapely.Point(k, 0) for k in range(50)], n=list(range(50))), tmp_path / "a.gpkg")
     assert len(vorotool.read(path, max_sites=50)) == 50

@@ -3,7 +3,6 @@
 import io
 import sqlite3
 import zipfile
-from datetime import date
 
 import numpy as np
 import pandas
@@ -43,48 +42,6 @@ def test_polygons_with_all_that_they_carry(tmp_path, fmt):
         assert [type(value) for value in shapes.properties[name]] == [type(value) for value in expected], name
 
 
-@pytest.mark.parametrize("fmt", FORMATS)
-@pytest.mark.parametrize("geometry", [None, "points"])
-def test_points(tmp_path, fmt, geometry):
-    places = [shapely.Point(1, 2), shapely.Point(0.1, 1 / 3), shapely.Point(-5e6, 7)]
-    points = vorotool.read(save(frame(places), tmp_path / f"a.{fmt}"), geometry=geometry)
-    assert points.xy.tolist() == [[1, 2], [0.1, 1 / 3], [-5e6, 7]]
-    assert points.properties["name"] == ATTRIBUTES["name"]
-    assert points.properties["depth"] == ATTRIBUTES["depth"]
-    assert (points.y_axis, crs_name(points.crs)) == ("up", "EPSG:2056")
-
-
-@pytest.mark.parametrize("fmt", FORMATS)
-def test_several_points_of_one_feature(tmp_path, fmt):
-    places = [shapely.MultiPoint([(1, 2), (3, 4)]), shapely.MultiPoint([(5, 6)])]
-    points = vorotool.read(save(frame(places, name=["a", "b"]), tmp_path / f"a.{fmt}"))
-    assert points.xy.tolist() == [[1, 2], [3, 4], [5, 6]]
-    assert points.properties == {"name": ["a", "a", "b"], "part": [1, 2, 1]}
-
-
-@pytest.mark.parametrize("fmt", FORMATS)
-def test_lines_and_heights_and_no_geometry(tmp_path, fmt):
-    lines = [shapely.LineString([(0, 0, 5), (1, 1, 6)]), None, shapely.from_wkt("LINESTRING Z EMPTY")]
-    path = save(frame(lines, n=list(range(len(lines)))), tmp_path / f"a.{fmt}")
-    shapes = vorotool.read(path)
-    assert shapes.is_line.all()
-    assert shapes.ring(0).tolist() == [[0, 0], [1, 1]]
-    assert notes_of(path) == [
-        f"{path}: 2 features without geometry skipped",
-        f"{path}: only x and y are used; z is ignored",
-    ]
-
-
-def test_flatgeobuf_without_geometry(tmp_path):
-    """Of which the batches of Arrow that GDAL gives are damaged."""
-    wkb = shapely.to_wkb(np.array([shapely.box(0, 0, 1, 1), None, shapely.box(2, 0, 3, 1)], dtype=object))
-    pyogrio.raw.write(
-        tmp_path / "a.fgb", wkb, [np.arange(3)], ["n"], driver="FlatGeobuf", geometry_type="Polygon", crs="EPSG:3857",
-        layer_options={"SPATIAL_INDEX": "NO"},
-    )  # fmt: skip
-    assert vorotool.read(tmp_path / "a.fgb").properties == {"n": [0, 2]}
-
-
 @pytest.mark.parametrize("driver", ["GPKG", "FlatGeobuf"])
 def test_types_of_attributes(tmp_path, driver):
     columns = {
@@ -109,23 +66,6 @@ def test_types_of_attributes(tmp_path, driver):
     assert times[::2] == ["2020-01-31T01:02:03", "1999-12-01T00:00:00.250000"]
 
 
-def test_types_in_parquet(tmp_path):
-    table = frame(SHAPES, flag=[True, None, False], whole=[2**53 + 1, None, -(2**53) - 1])
-    table["whole"] = pandas.array([2**53 + 1, None, -(2**53) - 1], dtype="Int64")
-    read = vorotool.read(save(table, tmp_path / "a.parquet")).properties
-    assert read["whole"] == [2**53 + 1, None, None, -(2**53) - 1]
-    assert read["flag"] == [True, None, None, False]
-
-
-@pytest.mark.parametrize("driver", ["GPKG", "ESRI Shapefile"])
-def test_dates(tmp_path, driver):
-    """FlatGeobuf has times alone."""
-    wkb, days = shapely.to_wkb(shapely.points([[0, 0], [1, 2]])), np.array(["2020-01-31", "NaT"], dtype="datetime64[D]")
-    path = tmp_path / {"GPKG": "a.gpkg", "ESRI Shapefile": "a.shp"}[driver]
-    pyogrio.raw.write(path, wkb, [days], ["day"], driver=driver, geometry_type="Point", crs="EPSG:3857")
-    assert vorotool.read(path).properties == {"day": [date(2020, 1, 31), None]}
-
-
 def test_layers(tmp_path):
     path = tmp_path / "a.gpkg"
     frame().to_file(path, layer="lakes", driver="GPKG")
@@ -139,15 +79,6 @@ def test_layers(tmp_path):
     pyogrio.write_dataframe(pandas.DataFrame({"n": [1]}), tmp_path / "b.gpkg", driver="GPKG")
     with pytest.raises(InputError, match=r"b.gpkg"):
         vorotool.read(tmp_path / "b.gpkg")
-
-
-def test_layers_where_there_are_none(tmp_path):
-    (tmp_path / "a.csv").write_text("x,y\n1,2\n")
-    with pytest.raises(UsageError, match=r"layer or FILE:LAYER applies to .*a.csv has none"):
-        vorotool.read(tmp_path / "a.csv", layer="a")
-    vorotool.write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), tmp_path / "a.png")
-    with pytest.raises(UsageError, match="layer or FILE:LAYER applies to points, polygons and lines, but the input is"):
-        vorotool.read(tmp_path / "a.png", layer="a")
 
 
 def test_numbers_of_features_are_ids_unless_they_count(tmp_path):
@@ -185,15 +116,6 @@ def test_systems_that_have_no_number(tmp_path, fmt):
     assert load(tmp_path / "again.gpkg").crs == load(tmp_path / f"a.{fmt}").crs
     with pytest.raises(InputError, match=r"EPSG:2056"):
         vorotool.read(tmp_path / f"a.{fmt}", crs="EPSG:2056")
-
-
-@pytest.mark.parametrize("fmt", FORMATS)
-def test_degrees_are_told_by_the_system(tmp_path, fmt):
-    path = save(frame(crs="EPSG:4258"), tmp_path / f"a.{fmt}")
-    assert str(path) in notes_of(path)[-1]
-    path = save(frame(crs=None), tmp_path / f"b.{fmt}")
-    assert notes_of(path) == []
-    assert vorotool.read(path).crs is None
 
 
 @pytest.mark.parametrize("fmt", FORMATS)
@@ -271,27 +193,10 @@ def test_names_that_other_programs_take_for_archives_or_addresses(tmp_path):
         assert len(vorotool.read(folder / name)) == 4
 
 
-# ---- Parquet ---------------------------------------------------------------------------------------
-def test_geoparquet_of_a_system_that_is_not_named(tmp_path):
-    save(frame(crs="OGC:CRS84"), tmp_path / "a.parquet")
-    assert crs_name(vorotool.read(tmp_path / "a.parquet").crs) == "OGC:CRS84"
-
-
 def test_geoparquet_in_another_encoding(tmp_path):
     save(frame(SHAPES[2:], n=[1]), tmp_path / "a.parquet", geometry_encoding="geoarrow", schema_version="1.1.0")
     with pytest.raises(InputError, match=r"a.parquet"):
         vorotool.read(tmp_path / "a.parquet")
-
-
-def test_parquet_without_geometry(tmp_path):
-    pandas.DataFrame({"name": ["a", "b"], "x": [1.5, 2], "y": [3, 4]}).to_parquet(tmp_path / "a.parquet")
-    points = vorotool.read(tmp_path / "a.parquet")
-    assert points.xy.tolist() == [[1.5, 3], [2, 4]]
-    assert points.properties == {"name": ["a", "b"]}
-    pandas.DataFrame({"u": [1.5, 2], "v": [3, 4]}).to_parquet(tmp_path / "b.parquet")
-    with pytest.raises(InputError, match=r"b.parquet"):
-        vorotool.read(tmp_path / "b.parquet")
-    assert vorotool.read(tmp_path / "b.parquet", columns="u,v").xy.tolist() == [[1.5, 3], [2, 4]]
 
 
 # ---- what is none ----------------------------------------------------------------------------------
@@ -316,14 +221,6 @@ def test_damaged_files(tmp_path, fmt, geometry):
         said = reason_against(tmp_path / f"a.{fmt}", geometry)
         assert said.startswith((str(tmp_path / f"a.{fmt}"), "item", "fine"))
         assert "vsimem" not in said
-
-
-def test_points_among_polygons(tmp_path):
-    path = save(frame([*SHAPES[:2], shapely.Point(1, 2)]), tmp_path / "a.gpkg")
-    with pytest.raises(InputError, match=r"a.gpkg, feature 3"):
-        vorotool.read(path)
-    with pytest.raises(InputError, match=r"a.gpkg, feature 1"):
-        vorotool.read(path, geometry="points")
 
 
 def test_files_that_name_others_are_not_opened(tmp_path):

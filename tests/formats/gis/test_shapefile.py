@@ -1,9 +1,7 @@
 """The files of a Shapefile are replaced together."""
 
 import errno
-import io
 import os
-import zipfile
 
 import geopandas
 import pytest
@@ -12,7 +10,7 @@ import shapely
 import vorotool
 from support.processes.leftovers import contents
 from vorotool.convert.polygons import as_polygons
-from vorotool.errors import InputError, OutputError
+from vorotool.errors import OutputError
 from vorotool.formats.io.temporaries import Temporary
 
 PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
@@ -112,26 +110,3 @@ def test_links_of_all_parts_stay_links(older):
     vorotool.write(boxes(900, "EPSG:2056"), older / "links/b.shp")
     assert all((older / f"links/b{part}").is_symlink() for part in PARTS)
     assert len(vorotool.read(older / "a.shp")) == 900
-
-
-def damaged_archive(folder, damage):
-    """A ZIP archive of a Shapefile whose names, or the bytes at an offset in all of its entries, are others."""
-    vorotool.write(boxes(2), folder / "in.shp")
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w") as archive:
-        for part in folder.glob("in.*"):
-            archive.write(part, f"é{part.suffix}")
-    data = bytearray(out.getvalue())
-    for offset, value in damage.items():
-        for at in [at for at in range(len(data)) if data[at : at + 4] == b"PK\1\2"]:
-            data[at + offset] = value
-    return bytes(data) if damage else bytes(data).replace("é".encode(), b"\xff\xfe")
-
-
-@pytest.mark.parametrize("damage", [{}, {6: 99}, {10: 77}, {8: 9}], ids=["names", "version", "method", "encrypted"])
-@pytest.mark.parametrize("name", ["a.zip", "a.shz", "a.shp"])
-def test_archives_that_zipfile_does_not_read(tmp_path, name, damage):
-    """Names flagged as UTF-8 that are not, versions and methods to come, and encrypted entries."""
-    (tmp_path / name).write_bytes(damaged_archive(tmp_path, damage))
-    with pytest.raises(InputError, match=rf"{name}( cannot be read as Shapefile|: .zip files)"):
-        vorotool.read(tmp_path / name)

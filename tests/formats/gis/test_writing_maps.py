@@ -3,15 +3,13 @@
 import time
 from datetime import UTC, date, datetime
 
-import geopandas
 import numpy as np
 import pandas
 import pytest
 import shapely
-from geopandas.testing import assert_geodataframe_equal
 
 import vorotool
-from support.families.vector_files import DRIVERS, frame, load, save
+from support.families.vector_files import DRIVERS, load
 from vorotool.convert.polygons import as_polygons
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.gis.feature_writer import FeatureRows
@@ -42,17 +40,6 @@ def test_other_programs_read_what_was_written(tmp_path, fmt):
     assert (read["n"].dtype, read["r"].dtype) == (np.int64, np.float64)
 
 
-@pytest.mark.parametrize("fmt", FORMATS)
-def test_what_is_read_and_written_is_what_was_there(tmp_path, fmt):
-    table = frame()
-    vorotool.write(vorotool.read(save(table, tmp_path / f"a.{fmt}")), tmp_path / f"b.{fmt}")
-    vorotool.write(vorotool.read(tmp_path / f"b.{fmt}"), tmp_path / f"c.{fmt}")
-    made = load(tmp_path / f"b.{fmt}")
-    assert_geodataframe_equal(made, load(tmp_path / f"a.{fmt}"), check_dtype=True, normalize=True)
-    for part in tmp_path.glob("b.*"):
-        assert part.read_bytes() == (tmp_path / f"c{part.suffix}").read_bytes()
-
-
 def test_the_same_bytes_at_any_time(tmp_path):
     for name in ("a", "b"):
         for fmt in FORMATS:
@@ -77,40 +64,6 @@ def test_several_kinds_and_several_parts(tmp_path):
     with pytest.raises(OutputError, match=r"b.shp"):
         vorotool.write(mixed, tmp_path / "b.shp")
     assert not list(tmp_path.glob("b.shp")) + list(tmp_path.glob("b.dbf"))
-
-
-@pytest.mark.parametrize("fmt", FORMATS)
-def test_nothing(tmp_path, fmt):
-    path = tmp_path / f"a.{fmt}"
-    vorotool.write(as_polygons([]), path)
-    assert len(load(path)) == 0
-    assert len(vorotool.read(path)) == 0
-
-
-@pytest.mark.parametrize("fmt", ["gpkg", "parquet"])
-def test_tables(tmp_path, fmt):
-    mesh = vorotool.delaunay([[0, 0], [4, 0], [0, 3]])
-    vorotool.write(mesh, tmp_path / f"a.{fmt}", what="table")
-    path = tmp_path / f"a.{fmt}"
-    read = pandas.read_parquet(path) if fmt == "parquet" else geopandas.read_file(path)
-    assert "geometry" not in read
-    assert read["x"].tolist() == [0, 4, 0]
-    assert (read["x"].dtype, read["label"].dtype, read["on_hull"].dtype) == (np.float64, np.int64, np.bool_)
-    vorotool.write(vorotool.Table({"a": np.empty(0), "b": []}), tmp_path / f"b.{fmt}")
-    path = tmp_path / f"b.{fmt}"
-    read = pandas.read_parquet(path) if fmt == "parquet" else geopandas.read_file(path)
-    assert (list(read), len(read)) == (["a", "b"], 0)
-
-
-def test_ids(tmp_path):
-    for ids, expected in (([7, 9, 8], [7, 9, 8]), (["a", "b", "c"], ["a", "b", "c"]), ([1, 2, 3], None)):
-        vorotool.write(shapes(ids=ids), tmp_path / "a.parquet")
-        read = load(tmp_path / "a.parquet")
-        assert (list(read["id"]) if "id" in read else None) == expected
-    vorotool.write(shapes(ids=[7, 9, 8], properties={"id": [1, 1, 1]}), tmp_path / "a.parquet")
-    assert load(tmp_path / "a.parquet")["feature_id"].tolist() == [7, 9, 8]
-    vorotool.write(shapes(ids=[7, 9, 8], properties={"osm": [7, 9, 8]}), tmp_path / "a.parquet")
-    assert list(load(tmp_path / "a.parquet")) == ["osm", "geometry"]
 
 
 def test_attributes_that_are_called_as_parts_of_a_geopackage(tmp_path):

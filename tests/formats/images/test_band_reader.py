@@ -104,21 +104,6 @@ def test_bad_stores(tmp_path):
             vorotool.read(tmp_path / name)
 
 
-def test_a_damaged_chunk_and_a_torn_file(tmp_path):
-    path = make(tmp_path / "a.zarr")
-    chunk = path / "c/1/1"
-    chunk.write_bytes(chunk.read_bytes()[:20])
-    rows = bands_of(path)
-    np.testing.assert_array_equal(rows.rows(0, 32), IMAGE[:32])
-    with pytest.raises(InputError, match=r"a\.zarr"):
-        rows.rows(30, 10)
-    tifffile.imwrite(tmp_path / "a.tif", IMAGE.astype(np.uint16), rowsperstrip=7)
-    data = (tmp_path / "a.tif").read_bytes()
-    (tmp_path / "a.tif").write_bytes(data[:-10])
-    with pytest.raises(InputError, match="cut off after"):
-        bands_of(tmp_path / "a.tif")
-
-
 def test_limits_and_options(tmp_path, monkeypatch):
     path = make(tmp_path / "a.zarr")
     with pytest.raises(LimitError, match="50 x 70 = 3500 pixels"):

@@ -70,11 +70,3 @@ def test_values_that_are_no_labels(values: np.ndarray, message: str) -> None:
     np.save(out, values)
     with pytest.raises(InputError, match=message):
         labels_of(out.getvalue())
-
-
-def test_other_integers_become_uint32() -> None:
-    out = io.BytesIO()
-    np.save(out, np.array([[0, 2**32 - 1, 7]]))
-    labels = labels_of(out.getvalue())
-    assert labels.dtype == np.uint32
-    assert labels.tolist() == [[0, 2**32 - 1, 7]]

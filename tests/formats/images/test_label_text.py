@@ -16,12 +16,6 @@ def test_columns_are_aligned_and_read_back() -> None:
     np.testing.assert_array_equal(np.loadtxt(io.StringIO(text), dtype=int), labels)
 
 
-def test_bool_rows_are_0_and_1() -> None:
-    out = io.BytesIO()
-    write_label_text(out, [np.array([[True, False]])], (1, 2), largest_label=1)
-    assert out.getvalue() == b"1 0\n"
-
-
 @pytest.mark.parametrize("shape", [(1, 4097), (1001, 1000)])
 def test_large_images_are_refused(shape: tuple[int, int]) -> None:
     with pytest.raises(LimitError, match=r"use the path labels.png, labels.tif or labels.npy"):

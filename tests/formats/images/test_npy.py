@@ -70,10 +70,3 @@ def test_unusable_headers(source: SimpleNamespace, message: str) -> None:
     with pytest.raises(InputError, match=message) as caught:
         npy_header(source)
     assert "a.npy" in str(caught.value)
-
-
-def test_truncated() -> None:
-    source = saved(np.zeros((3, 4)))
-    source.data = source.data[:-1]
-    with pytest.raises(InputError, match=r"a.npy is cut off: .* needs 96 bytes, it has 95"):
-        read_npy(source, max_items=100, option="--max-pixels")

@@ -28,19 +28,3 @@ def test_pages_beside_an_overview_are_pages(tmp_path):
             file.write(np.eye(9, dtype=np.uint8), photometric="minisblack", subfiletype=kind)
     with pytest.raises(vorotool.InputError, match="3 pages"):
         vorotool.read(path)
-
-
-def test_a_cloud_optimized_map_with_a_mask(tmp_path):
-    rasterio = pytest.importorskip("rasterio")
-    values = np.random.default_rng(3).integers(0, 9, (600, 700)).astype(np.uint16)
-    path, form = tmp_path / "map.tif", {"height": 600, "width": 700, "count": 1, "dtype": "uint16"}
-    form |= {"transform": rasterio.Affine(2, 0, 2_600_000, 0, -2, 1_200_000), "crs": "EPSG:2056"}
-    with rasterio.Env(GDAL_TIFF_INTERNAL_MASK=True), rasterio.open(path, "w", driver="GTiff", **form) as file:
-        file.write(values, 1)
-        file.write_mask(np.full(values.shape, 255, np.uint8))
-    with rasterio.open(path, "r+") as file:
-        file.build_overviews([2, 4])
-    with tifffile.TiffFile(path) as file:
-        assert len(file.pages) > 3
-    assert np.array_equal(vorotool.read(path).values, values)
-    assert page_count(str(path)) == 1

@@ -1,9 +1,6 @@
 import io
 import itertools
-import struct
 import tracemalloc
-import zlib
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -11,7 +8,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from vorotool.errors import LimitError
-from vorotool.formats.images.png_writer import joined_adler32, write_png
+from vorotool.formats.images.png_writer import write_png
 
 SHAPES = [(1, 1), (1, 17), (13, 1), (3, 7), (5, 8), (4, 9), (31, 33)]
 
@@ -51,13 +48,6 @@ def test_palette_is_read_back_by_pillow(shape: tuple[int, int], bit_depth: int, 
         np.testing.assert_array_equal(np.asarray(image.convert("RGB")), palette[values])
 
 
-@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.uint32, np.int32, np.int64, np.bool_])
-def test_every_integer_type_is_taken(dtype: type) -> None:
-    values = np.array([[0, 1], [1, 1], [1, 0]]).astype(dtype)
-    for bit_depth in (1, 2, 4, 8, 16):
-        assert (read_back(png([values], (3, 2), bit_depth=bit_depth)) != 0).tolist() == values.astype(bool).tolist()
-
-
 def test_bytes_depend_on_pixels_alone() -> None:
     shape = (300, 2000)  # two blocks, of 262 rows and of the others
     values = np.random.default_rng(5).integers(0, 4, shape).astype(np.uint16)
@@ -67,40 +57,6 @@ def test_bytes_depend_on_pixels_alone() -> None:
     for cut, threads in itertools.product(cuts, (0, 1, 2, 5)):
         bands = [values[a:b].astype(np.int32) for a, b in itertools.pairwise(cut)]
         assert png(bands, shape, threads=threads) == expected
-
-
-def test_a_band_may_be_reused() -> None:
-    band = np.empty((100, 3000), np.uint16)
-
-    def bands() -> Iterator[NDArray[np.uint16]]:
-        for number in range(20):
-            band[...] = number
-            yield band
-
-    found = read_back(png(bands(), (2000, 3000), threads=3))
-    np.testing.assert_array_equal(found, np.repeat(np.arange(20), 100)[:, None].repeat(3000, axis=1))
-
-
-def test_the_container_is_sound() -> None:
-    values = np.random.default_rng(6).integers(0, 65536, (300, 5000)).astype(np.uint16)
-    data, at, stream, kinds = png([values], values.shape), 8, b"", []
-    while at < len(data):
-        length, kind = struct.unpack_from(">I4s", data, at)
-        body = data[at + 8 : at + 8 + length]
-        assert zlib.crc32(kind + body) == struct.unpack_from(">I", data, at + 8 + length)[0]
-        stream += body * (kind == b"IDAT")
-        kinds.append(kind)
-        at += 12 + length
-    assert kinds[0] == b"IHDR"
-    assert kinds[-1] == b"IEND"
-    assert len(zlib.decompress(stream)) == 300 * 10_001  # checks the joined checksum
-
-
-@pytest.mark.parametrize("sizes", [(0, 5), (5, 0), (1, 1), (70_000, 123), (200_000, 70_000)])
-def test_joined_adler32(sizes: tuple[int, int]) -> None:
-    for fill in (b"\xff", b"\x00", b"a"):
-        first, second = (fill * size for size in sizes)
-        assert joined_adler32(zlib.adler32(first), zlib.adler32(second), len(second)) == zlib.adler32(first + second)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import tifffile
 from PIL import Image
 
 from support.readers.sources import picture_of
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 
 RANDOM = np.random.default_rng(0)
@@ -28,11 +28,6 @@ def tiff(*pages):
         for page in pages:
             writer.write(page, contiguous=False, photometric="minisblack")
     return Source("a.tif", out.getvalue())
-
-
-def test_8_bits_stay_as_they_are():
-    assert np.array_equal(picture_of(png(COLORS)), COLORS)
-    assert np.array_equal(picture_of(png(GREY)), GREY[:, :, None].repeat(3, axis=2))
 
 
 def test_palettes_have_their_colors():
@@ -65,8 +60,3 @@ def test_pages():
     with pytest.raises(InputError, match="2 pages"):
         picture_of(stack)
     assert np.array_equal(picture_of(tiff(GREY), page=3)[:, :, 0], GREY)  # a page of the other input
-
-
-def test_too_large():
-    with pytest.raises(LimitError, match="max_pixels="):
-        picture_of(png(GREY), max_pixels=10)

@@ -49,27 +49,6 @@ def test_strips_in_any_order(tmp_path):
     accepted(tmp_path, tiff_file(backwards, strips), expected[[4, 5, 2, 3, 0, 1]])
 
 
-@pytest.mark.parametrize("compression", [1, 8])
-def test_fewer_strips_than_the_image_needs(tmp_path, compression):
-    strips = [ROWS[:20], ROWS[20:40]]
-    if compression == 8:
-        strips = [zlib.compress(strip) for strip in strips]
-    words = "image of 10 x 6 pixels needs 3 strips, but there are offsets of 2"
-    refused(tmp_path, tiff_file(grey(10, 6, 2, compression=compression), strips), words)
-
-
-def test_fewer_byte_counts_than_offsets(tmp_path):
-    data = tiff_file(grey(10, 6, 2), [ROWS[:20], ROWS[20:40], ROWS[40:]], counts=[20, 20])
-    refused(tmp_path, data, "needs 3 strips, but there are byte counts of 2")
-
-
-def test_fewer_tiles_than_the_image_needs(tmp_path):
-    tags = {code: value for code, value in grey(40, 20).items() if code != 278} | {322: 16, 323: 16}
-    tiles = [bytes(256)] * 6
-    accepted(tmp_path, tiff_file(tags, tiles, is_tiled=True), np.zeros((20, 40)))
-    refused(tmp_path, tiff_file(tags, tiles[:5], is_tiled=True), "needs 6 tiles, but there are offsets of 5")
-
-
 def test_an_endless_image_without_strips(tmp_path):
     refused(tmp_path, tiff_file(grey(32, 577_990_168), []), "needs 1 strip, but there are offsets of 0")
     refused(tmp_path, tiff_file(grey(32, 577_990_168, 16), [ROWS]), "needs 36124386 strips, but there are offsets of 1")
@@ -138,14 +117,6 @@ def test_a_file_without_an_image(tmp_path):
     for page in (None, 0, 1):
         with pytest.raises(InputError, match=r"a\.tif"):
             vorotool.read(tmp_path / "a.tif", page=page)
-
-
-@pytest.mark.parametrize("bits", [1, 2, 4, 6, 12])
-def test_values_of_few_bits(tmp_path, bits):
-    values = np.random.default_rng(bits).integers(0, 2**bits, (5, 11))
-    binary = "".join("".join(f"{value:0{bits}b}" for value in row).ljust(-(-11 * bits // 8) * 8, "0") for row in values)
-    packed = int(binary, 2).to_bytes(len(binary) // 8, "big")
-    accepted(tmp_path, tiff_file(grey(11, 5, bits=bits), [packed]), values)
 
 
 def test_bits_in_reverse(tmp_path):

@@ -35,13 +35,6 @@ def test_read_back_by_tifffile(dtype: str, shape: tuple[int, int]) -> None:
     np.testing.assert_array_equal(tifffile.imread(io.BytesIO(written([values], shape, dtype=dtype))), values)
 
 
-@pytest.mark.parametrize("dtype", ["u1", "u2", "f4"])
-def test_read_back_by_pillow(dtype: str) -> None:
-    values = values_of(dtype, (700, 1501))  # several strips
-    with Image.open(io.BytesIO(written([values], values.shape, dtype=dtype))) as image:
-        np.testing.assert_array_equal(np.asarray(image), values)
-
-
 def test_palette_is_read_back_by_pillow() -> None:
     rng = np.random.default_rng(3)
     palette, values = rng.integers(0, 256, (7, 3), dtype=np.uint8), rng.integers(0, 7, (5, 9), dtype=np.uint8)

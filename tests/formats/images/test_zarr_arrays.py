@@ -39,10 +39,6 @@ def test_zarr_reads_what_is_written(tmp_path, chunks, dtype):
     assert written(tmp_path / "b", image, chunks, threads=3) == files
 
 
-def test_chunks_of_zeros_take_no_files(tmp_path):
-    assert list(written(tmp_path / "a", np.zeros((20, 20), np.uint8), (10, 10))) == ["zarr.json"]
-
-
 def test_rows_of_chunks_are_written_in_any_order(tmp_path):
     create_array(tmp_path / "a", IMAGE.shape, dtype=IMAGE.dtype, chunks=(32, 32))
     for first in (64, 0, 32, 64):

@@ -104,14 +104,6 @@ def test_a_link_stays_a_link(old):
     assert old.read_bytes() == b"new"
 
 
-def test_a_missing_directory(tmp_path):
-    path = tmp_path / "gone" / "out.csv"
-    assert str(path) in error_of(OutputError, path)
-    path = tmp_path / "file"
-    path.write_bytes(b"")
-    assert str(path) in error_of(OutputError, path / "out.csv")
-
-
 @pytest.mark.parametrize("name", [".", "sub/"])
 def test_a_directory(tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)

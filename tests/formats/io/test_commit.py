@@ -103,25 +103,6 @@ def refuse(*_):
     raise OSError(errno.EPERM, "no such links here")
 
 
-def test_all_are_replaced_at_the_end(folder):
-    before = contents(folder)
-
-    def look():
-        held = {name: data for name, data in contents(folder).items() if "/.vorotool" not in f"/{name}"}
-        assert held == before
-
-    write_all(folder, last=look)
-    assert contents(folder) == WRITTEN
-
-
-@pytest.mark.parametrize("links", [True, False])
-def test_they_are_replaced_without_links(folder, monkeypatch, links):
-    steps = Failing(monkeypatch, -1, None, after=False, links=links)
-    write_all(folder)
-    assert contents(folder) == WRITTEN
-    assert steps.count > 5
-
-
 @pytest.mark.parametrize("kind", [KeyboardInterrupt, OSError])
 @pytest.mark.parametrize("links", [True, False])
 @pytest.mark.parametrize("after", [True, False])

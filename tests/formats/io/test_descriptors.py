@@ -14,7 +14,6 @@ from vorotool.formats.io.descriptors import (
     is_same_output,
     open_input,
     open_output_descriptor,
-    stream_kind,
 )
 
 
@@ -52,15 +51,6 @@ def test_links_to_descriptors(tmp_path, monkeypatch):
     assert descriptor_of(f"/proc/{os.getpid()}/fd/1") == 1
     assert descriptor_of(f"/proc/{os.getppid()}/fd/1") is None
     assert is_of_another_process(f"/proc/{os.getppid()}/fd/1")
-
-
-def test_kinds(tmp_path):
-    os.mkfifo(tmp_path / "pipe")
-    (tmp_path / "link").symlink_to("pipe")
-    (tmp_path / "file").touch()
-    kinds = {name: stream_kind(str(tmp_path / name)) for name in ("pipe", "link", "file", ".", "missing")}
-    assert kinds == {"pipe": "a pipe", "link": "a pipe", "file": None, ".": None, "missing": None}
-    assert (stream_kind("-"), stream_kind("/dev/null")) == ("an open descriptor", "a device")
 
 
 def test_two_names_of_one_stream(tmp_path):

@@ -3,8 +3,7 @@ import itertools
 import numpy as np
 import pytest
 
-from vorotool.errors import LimitError
-from vorotool.formats.io.row_bands import blocks, check_fits, checked
+from vorotool.formats.io.row_bands import blocks, checked
 
 
 @pytest.mark.parametrize(
@@ -13,21 +12,6 @@ from vorotool.formats.io.row_bands import blocks, check_fits, checked
 def test_checked_counts_rows(heights: tuple[int, ...], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         list(checked([np.zeros((h, 3)) for h in heights], (5, 3)))
-
-
-def test_checked_refuses_another_width() -> None:
-    with pytest.raises(ValueError, match=r"must be \(rows, 3\)"):
-        list(checked([np.zeros((5, 4))], (5, 3)))
-
-
-def test_check_fits_names_the_value() -> None:
-    check_fits(np.array([0, 255], np.uint8), 255, "a byte")
-    check_fits(np.array([True]), 1, "a bit")
-    check_fits(np.empty(0, np.int64), 0, "nothing")
-    with pytest.raises(LimitError, match="value 256"):
-        check_fits(np.array([3, 256]), 255, "a byte")
-    with pytest.raises(LimitError, match="the value -1 does not fit"):
-        check_fits(np.array([-1, 3], np.int32), 255, "a byte")
 
 
 def test_blocks_carry_the_row_before() -> None:

@@ -1,6 +1,5 @@
 """Reading inputs whole, and counting brackets before a parser sees them."""
 
-import io
 import json
 import os
 import sys
@@ -24,12 +23,6 @@ def test_a_file(tmp_path):
     path.write_bytes(b"1,2\n")
     assert read_source(path) == Source(str(path), b"1,2\n")
     assert read_source(str(path)).suffix == ".csv"
-
-
-def test_standard_input(monkeypatch):
-    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"1,2\n")))
-    source = read_source("-")
-    assert (source, source.suffix) == (Source("standard input", b"1,2\n"), "")
 
 
 def test_closed_standard_input(monkeypatch):
@@ -60,13 +53,6 @@ def test_a_pipe_is_not_opened_to_look_at_it(tmp_path, input_format):
     os.mkfifo(tmp_path / "image.tif")
     assert bands_of(tmp_path / "image.tif", input_format=input_format) is None  # else it waits for a writer
     assert digest_of(str(tmp_path / "image.tif")) == ""
-
-
-def test_a_missing_file(tmp_path):
-    name = str(tmp_path / "seeds.csv")
-    assert error_of(read_source, name).startswith(name)
-    name = str(tmp_path / "gone" / "seeds.csv")
-    assert f"folder {tmp_path / 'gone'} does not" in error_of(read_source, name)
 
 
 def test_a_directory(tmp_path):

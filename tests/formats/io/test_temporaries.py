@@ -13,7 +13,6 @@ import pytest
 from vorotool.formats.io import temporaries
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.io.temporaries import (
-    ASIDE,
     new_file,
     new_folder,
     remove_dead,
@@ -178,17 +177,6 @@ def test_a_file_system_without_locks(tmp_path, monkeypatch):
     assert names(tmp_path) == [path.name]
 
 
-def test_a_folder_is_listed_once_a_process_and_batch(tmp_path, monkeypatch):
-    listed = []
-    monkeypatch.setattr(temporaries, "remove_dead", listed.append)
-    for number in range(3):
-        write(tmp_path / f"{number}")
-        for run in ("run1", "run2"):
-            with tagged_temporaries(f"{run}-{number}-"):
-                write(tmp_path / f"{number}")
-    assert listed == 3 * [tmp_path]
-
-
 def test_those_of_one_batch_are_removed_wherever_they_were_written(tmp_path):
     for number, host in enumerate((BOOT + MACHINE, OTHER + OTHER, "")):
         left(tmp_path, host, "0a1b2c3d-1-", number=number)
@@ -199,17 +187,6 @@ def test_those_of_one_batch_are_removed_wherever_they_were_written(tmp_path):
     remove_tagged([tmp_path], "0a1b2c3d-")
     assert len(names(tmp_path)) == 3
     assert all("-1a1b2c3d-" in name for name in names(tmp_path))
-
-
-def test_what_was_moved_aside_goes_back_where_nothing_has_its_place(tmp_path):
-    for number, name in enumerate(("a.zarr", "b.zarr")):
-        path = left(tmp_path, ending=ASIDE, number=number, is_folder=True)
-        (path / "c").rename(path / name)
-    (tmp_path / "b.zarr").write_text("new")
-    write(tmp_path / "x")
-    assert names(tmp_path) == ["a.zarr", "b.zarr", "x"]
-    assert (tmp_path / "a.zarr/0").read_text() == "chunk"
-    assert (tmp_path / "b.zarr").read_text() == "new"
 
 
 def test_a_file_that_was_removed_meanwhile_is_an_error(tmp_path):

@@ -42,16 +42,6 @@ def test_a_store_is_told_from_other_folders(tmp_path):
     assert not is_array(tmp_path)
 
 
-def test_an_older_store_is_replaced(tmp_path):
-    old = make(tmp_path / "a.zarr", "old")
-    (old / "c").mkdir()
-    (old / "c/0").write_text("chunk")
-    write(old, "new")
-    assert "new" in text_of(old)
-    assert not (old / "c/0").exists()
-    assert names(tmp_path) == ["a.zarr"]
-
-
 @pytest.mark.parametrize("failure", [KeyboardInterrupt(), ValueError(), OSError(28, "No space left on device")])
 def test_a_failure_leaves_nothing_behind(tmp_path, failure):
     old = make(tmp_path / "a.zarr", "old")
@@ -153,17 +143,6 @@ def test_the_older_store_comes_back_after_a_kill_between_the_moves(tmp_path):
     write(tmp_path / "b.zarr", "other")
     assert "old" in text_of(old)
     assert sorted(names(tmp_path)) == ["a.zarr", "b.zarr"]
-
-
-def test_a_folder_that_vanishes_and_is_made_again_is_no_store(tmp_path):
-    def vanish():
-        with open_store(tmp_path / "a.zarr") as folder:
-            folder.rmdir()
-            folder.mkdir()
-
-    with pytest.raises(OutputError, match=r"a\.zarr"):
-        vanish()
-    assert names(tmp_path) == []
 
 
 @pytest.mark.parametrize("kind", ["folder", "file"])

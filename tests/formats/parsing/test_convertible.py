@@ -6,17 +6,7 @@ import pytest
 import vorotool
 from vorotool.errors import InputError
 
-FEATURE = '{"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [%d, 2]}}\n'
 FONTS = {".ttf": b"\0\1\0\0\0\x0f", ".otf": b"OTTO\0\x0f", ".woff2": b"wOF2\0\1", ".ttc": b"ttcf\0\1"}
-
-
-@pytest.mark.parametrize("geometry", [None, "points", "polygons"])
-@pytest.mark.parametrize("name", ["plan.pdf", "plan"])
-def test_documents(tmp_path, name, geometry):
-    (tmp_path / name).write_bytes(b"%PDF-1.7\n")
-    advice = r'.*threshold="otsu", .* pdftoppm .*; or, for its outlines, an SVG: inkscape '
-    with pytest.raises(InputError, match=r"\.pdf files are not supported; " + advice):
-        vorotool.read(tmp_path / name, geometry=geometry)
 
 
 @pytest.mark.parametrize("geometry", [None, "points", "polygons"])
@@ -42,11 +32,6 @@ def test_columns_of_geometry_that_is_none(tmp_path, text, message, geometry):
     path.write_text(text)
     with pytest.raises(InputError, match=f"towns.csv, {message}"):
         vorotool.read(path, geometry=geometry)
-
-
-def test_a_column_of_geometry_beside_x_and_y_is_a_column(tmp_path):
-    (tmp_path / "towns.csv").write_text("x,y,WKT\n1,2,POINT (1 2)\n")
-    assert vorotool.read(tmp_path / "towns.csv").xy.tolist() == [[1, 2]]
 
 
 @pytest.mark.parametrize("text", ['{"type": \n"Point"\n', '{"a": 1}\n[1]\n', "[[1, 2],\n[3, 4]\n"])

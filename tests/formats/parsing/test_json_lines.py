@@ -68,22 +68,6 @@ def test_features_are_those_of_a_collection(written, form, name, items):
     assert read.y_axis == "up"
 
 
-@pytest.mark.parametrize("form", FORMS)
-def test_rows_are_those_of_a_list(written, form):
-    whole, read = vorotool.read(written(json.dumps(ROWS), "a.json")), vorotool.read(written(FORMS[form](ROWS)))
-    assert np.array_equal(read.xy, whole.xy)
-    assert read.properties == whole.properties == {"note": ["ä\u2028\x1e", None]}
-    assert read.labels.tolist() == whole.labels.tolist() == [3, 4]
-    assert vorotool.read(written(FORMS[form](ROWS)), columns="x,y,label").labels.tolist() == [3, 4]
-
-
-def test_geometries_and_single_lines(written):
-    assert vorotool.read(written(lines_of([each["geometry"] for each in POINTS]))).xy[:, 0].tolist() == [0, 1, 2, 3]
-    for name in ("a.jsonl", "a.json", "a"):
-        assert len(vorotool.read(written(lines_of(ROWS[:1]), name))) == 1
-        assert len(vorotool.read(written(lines_of(SHAPES[:1]), name))) == 1
-
-
 def test_a_system_that_features_name_is_that_of_all(written):
     crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::3857"}}
     items = [{**POINTS[0], "crs": crs}, POINTS[1], {**POINTS[2], "crs": crs}]

@@ -4,17 +4,8 @@ import json
 
 import pytest
 
-from support.readers.point_reading import error_of, notes_of, read, rows
+from support.readers.point_reading import error_of, notes_of, read
 from vorotool.errors import LimitError
-from vorotool.formats.io.sources import STANDARD_INPUT
-
-
-def test_json():
-    points = read("[[1, 2], [3.5, -4]]", "a.json")
-    assert points.xy.tolist() == [[1, 2], [3.5, -4]]
-    assert points.y_axis != "up"
-    assert len(read("[]", "a.json")) == 0
-    assert rows(b"\xef\xbb\xbf[[1, 2]]", STANDARD_INPUT) == [[1, 2]]
 
 
 @pytest.mark.parametrize(
@@ -37,11 +28,6 @@ def test_bad_json(text, message):
     error = error_of(text, "a.json", input_format="json")
     assert error.startswith("a.json")
     assert message in error
-
-
-def test_the_limit_of_json():
-    assert "holds 3 points" in error_of("[[1, 2], [3, 4], [5, 6]]", "a.json", LimitError, max_sites=2)
-    assert len(read("[[1, 2], [3, 4]]", "a.json", max_sites=2)) == 2
 
 
 def feature(coordinates, kind="Point", **members):
@@ -76,28 +62,6 @@ def test_geojson():
     }
     assert read(text, "a.geojson", properties=False).properties == {}
     assert notes_of(text, "a.geojson") == []
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        '{"type": "MultiPoint", "coordinates": [[1, 2], [3, 4]]}',
-        json.dumps(feature([[1, 2], [3, 4]], "MultiPoint")),
-        json.dumps(
-            {
-                "type": "GeometryCollection",
-                "geometries": [
-                    {"type": "Point", "coordinates": [1, 2]},
-                    {"type": "Point", "coordinates": [3, 4]},
-                ],
-            }
-        ),
-    ],
-)
-def test_geojson_of_one_object(text):
-    points = read(text, STANDARD_INPUT)
-    assert points.xy.tolist() == [[1, 2], [3, 4]]
-    assert points.properties == {"part": [1, 2]}
 
 
 def test_geojson_parts_share_properties():

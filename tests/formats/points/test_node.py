@@ -2,8 +2,7 @@
 
 import pytest
 
-from support.readers.point_reading import error_of, read, rows
-from vorotool.errors import LimitError
+from support.readers.point_reading import error_of, read
 
 
 @pytest.mark.parametrize("base", [0, 1])
@@ -14,11 +13,6 @@ def test_node(base):
     assert points.labels is None
     assert points.properties == {"attribute_1": ["1.50", "2", "x"], "boundary_marker": ["1", "0", "7"]}
     assert read(text, "box.node", properties=False).properties == {}
-
-
-def test_node_with_a_short_header():
-    assert rows("1\n1 2 3\n", "a.node") == [[2, 3]]
-    assert rows("0 2 0 0\n", "a.node") == []
 
 
 @pytest.mark.parametrize(
@@ -48,8 +42,3 @@ def test_bad_node(text, message):
     error = error_of(text, "a.node")
     assert error.startswith("a.node")
     assert message in error
-
-
-def test_the_limit_of_node():
-    message = error_of("99999999999999 2 0 0\n", "a.node", LimitError)
-    assert message == "a.node holds 99999999999999 points, more than the limit of 4294967295: split the file"

@@ -39,13 +39,6 @@ def test_a_table_of_points_comes_back(write, fmt):
     assert vorotool.read(path, properties=False).properties == {}
 
 
-@FORMATS
-def test_label_x_y_alone_are_labels(write, fmt):
-    path = write(fmt, vorotool.Table({"label": [4, 2], "x": [0.5, 1.5], "y": [1, 2]}))
-    found = vorotool.read(path, geometry="points")
-    assert (found.label_array.tolist(), found.xy.tolist()) == ([4, 2], [[0.5, 1.0], [1.5, 2.0]])
-
-
 def test_values_keep_their_types_and_what_is_missing_is_none(write):
     table = vorotool.Table({"x": [1, 2], "y": [3, 4], "n": np.ma.array([5, 6], mask=[0, 1]), "t": ["a", "b"]})
     for fmt in ("json", "npz"):
@@ -115,12 +108,3 @@ def test_columns_are_for_tables(tmp_path):
     (tmp_path / "a.json").write_text("[[1, 2], [3, 4]]")
     with pytest.raises(UsageError, match="columns applies to delimited text and tables"):
         vorotool.read(tmp_path / "a.json", columns="x,y")
-
-
-@pytest.mark.parametrize("form", ["csv", "json"])
-def test_columns_of_longitude_and_latitude_are_a_map_in_every_form(tmp_path, form):
-    text = "lon,lat\n1.5,2\n3,4\n" if form == "csv" else '[{"lon": 1.5, "lat": 2}, {"lon": 3, "lat": 4}]'
-    (tmp_path / f"a.{form}").write_text(text)
-    points = vorotool.read(tmp_path / f"a.{form}")
-    assert points.y_axis == "up"
-    assert points.crs == {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}

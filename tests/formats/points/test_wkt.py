@@ -3,7 +3,6 @@
 import pytest
 
 from support.readers.point_reading import error_of, notes_of, read, rows
-from vorotool.errors import LimitError
 from vorotool.formats.io.sources import STANDARD_INPUT
 
 
@@ -31,12 +30,6 @@ def test_wkt():
     assert notes_of("POINT Z (1 2 3)", "a.wkt") == ["a.wkt: only x and y are used; z is ignored"]
 
 
-@pytest.mark.parametrize("text", ["", "\n", "POINT EMPTY", "MULTIPOINT EMPTY", "GEOMETRYCOLLECTION EMPTY"])
-def test_wkt_without_points(text):
-    assert len(read(text, "a.wkt")) == 0
-    assert read(text, "a.wkt").y_axis == "up"
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -58,11 +51,3 @@ def test_bad_wkt(text, message):
     error = error_of(text, "a.wkt")
     assert error.startswith("a.wkt")
     assert message in error
-
-
-def test_the_limit_of_wkt():
-    assert "holds 2 points" in error_of("MULTIPOINT (1 2, 3 4)", "a.wkt", LimitError, max_sites=1)
-
-
-def test_brackets_in_a_comment_do_not_count():
-    assert read("# (a remark\nPOINT (3 4)\n", "a.wkt").xy.tolist() == [[3, 4]]

@@ -62,31 +62,6 @@ def test_the_caller_knows(tmp_path):
         vorotool.read(path, columns="1,2")
 
 
-def test_json_is_parsed_once(tmp_path, monkeypatch):
-    import orjson
-
-    calls = []
-    parse = orjson.loads
-    monkeypatch.setattr(orjson, "loads", lambda data: calls.append(1) or parse(data))
-    for text in (POLYGON, POINT, collected(POINT, POINT)):
-        (tmp_path / "a.geojson").write_text(text)
-        vorotool.read(tmp_path / "a.geojson")
-    assert len(calls) == 3
-
-
-@pytest.mark.parametrize(
-    ("geometries", "message"),
-    [
-        ((POLYGON, POINT), "'Point' is not a polygon or line; put points"),
-        ((POINT, POLYGON), "'Polygon' is not a point"),
-    ],
-)
-def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
-    (tmp_path / "a.geojson").write_text(collected(*geometries))
-    with pytest.raises(InputError, match=message):
-        vorotool.read(tmp_path / "a.geojson")
-
-
 @pytest.mark.parametrize(
     ("data", "name", "message"),
     [

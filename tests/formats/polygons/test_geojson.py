@@ -67,27 +67,6 @@ def test_bare_geometry_and_feature():
     assert written(read(collection(), "a.geojson"), "geojson") == '{"type":"FeatureCollection","features":[]}\n'
 
 
-UNNAMED = (
-    "a.geojson states no coordinate reference system and is treated as planar: for longitude and latitude use "
-    'crs="OGC:CRS84"'
-)
-
-
-def test_degrees_are_told_by_the_reference_system_alone_and_heights_are_left_out():
-    utm, other = '="EPSG:32631" works in meters (UTM)', " reprojects them to a projected system"
-    degrees = "a.geojson: longitude and latitude are treated as planar, lengths are in degrees; to_crs"
-    heights = "a.geojson: only x and y are used; z is ignored"
-    lake = [[7.5, 46.9, 400], [8, 46], [8, 47]]
-    assert notes_of(collection(feature("Polygon", [lake])), "a.geojson") == [heights, UNNAMED]
-    assert notes_of(collection(feature("Polygon", [[[750.5, 46], [8, 46], [8, 47]]])), "a.geojson") == []
-    assert notes_of(collection(feature("Polygon", [SHELL])), "a.geojson") == []
-    wgs84 = {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}
-    assert notes_of(collection(feature("Polygon", [SHELL]), crs=wgs84), "a.geojson") == [degrees + utm]
-    beyond = [[[180.00000000000014, 46], [8, 46], [8, 47]]]
-    assert notes_of(collection(feature("Polygon", beyond), crs=wgs84), "a.geojson") == [degrees + other]
-    assert notes_of(collection(feature("LineString", lake[1:]), crs=CRS), "a.geojson") == []
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [

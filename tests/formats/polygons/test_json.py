@@ -5,19 +5,9 @@ import json
 import pytest
 
 from support.readers.polygon_reading import assert_same, error_of, notes_of, read, rings, written
-from vorotool.errors import LimitError
 
 SHELL = [[0, 0], [9, 0], [0, 9]]
 HOLE = [[1, 1], [2, 1], [1, 2]]
-
-
-def test_one_shell():
-    for text in (SHELL, [*SHELL, [0, 0]], [SHELL], {"polygons": [SHELL]}, {"polygons": [{"shell": SHELL}]}):
-        shapes = read(json.dumps(text))
-        assert rings(shapes) == [(0, 0, SHELL)]
-        assert shapes.y_axis != "up"
-        assert shapes.ids is None
-    assert read(b"\xef\xbb\xbf[[0, 0], [9, 0], [0, 9]]").xy.tolist() == SHELL
 
 
 def test_many():
@@ -78,7 +68,3 @@ def test_bad_json(text, message):
     error = error_of(text)
     assert error.startswith("shapes.json")
     assert message in error
-
-
-def test_the_limit():
-    assert "holds 3 vertices, more than the limit of 2" in error_of(json.dumps(SHELL), kind=LimitError, max_sites=2)

@@ -4,7 +4,6 @@ import pytest
 
 from support.readers.polygon_reading import error_of, notes_of, read, rings, written
 from vorotool.convert.polygons import as_polygons
-from vorotool.errors import LimitError
 
 SHELL = [[0, 0], [9, 0], [9, 9], [0, 9]]
 HOLE = [[1, 1], [7, 1], [1, 7]]
@@ -36,14 +35,6 @@ def test_round_trip():
     assert len(read("1 2\n1 0 0\n0\n0\n", "a.poly")) == 0
 
 
-def test_loops_that_touch():
-    """Two triangles that share a vertex, and a path that ends on it."""
-    points = "6 2\n1 0 0\n2 1 0\n3 0 1\n4 -1 0\n5 0 -1\n6 5 5\n"
-    shapes = read(points + "7\n1 1 2\n2 2 3\n3 3 1\n4 1 4\n5 4 5\n6 5 1\n7 6 1\n", "a.poly")
-    assert [(kind, len(ring)) for kind, _, ring in rings(shapes)] == [(0, 3), (0, 3), (2, 2)]
-    assert notes_of("3 2\n1 0 0\n2 1 0\n3 1 1\n1\n1 1 2\n", "a.poly") == ["a.poly: 1 vertex without a segment skipped"]
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -67,7 +58,3 @@ def test_bad_poly(text, message):
     error = error_of(text, "a.poly")
     assert error.startswith("a.poly")
     assert message in error
-
-
-def test_the_limit():
-    assert "holds 99999999 vertices" in error_of("99999999 2\n", "a.poly", LimitError, max_sites=10)

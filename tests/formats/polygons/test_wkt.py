@@ -6,7 +6,6 @@ import pytest
 
 from support.readers.polygon_reading import assert_same, error_of, notes_of, read, rings, written
 from vorotool.convert.polygons import as_polygons
-from vorotool.errors import LimitError
 
 TEXT = """# shapes
 POLYGON ((0 0, 9 0, 0 9, 0 0), (1 1, 2 1, 1 2, 1 1))
@@ -77,7 +76,3 @@ def test_bad_wkt(text, message):
     error = error_of(text, "a.wkt")
     assert error.startswith("a.wkt")
     assert message in error
-
-
-def test_the_limit():
-    assert "holds 2 vertices" in error_of("LINESTRING (0 0, 1 1)", "a.wkt", LimitError, max_sites=1)

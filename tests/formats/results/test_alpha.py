@@ -10,7 +10,7 @@ import shapely
 
 from support.families.point_families import draw
 from support.readers.written import written
-from vorotool import PointSet, UsageError, alpha_complex, alpha_hull, alpha_shape, write
+from vorotool import PointSet, alpha_complex, alpha_hull, alpha_shape
 
 FAMILY = alpha_complex(PointSet(draw("uniform", 120, 5), crs={"type": "name"}))
 SHAPE = alpha_shape(FAMILY, r=float(FAMILY.spectrum[len(FAMILY.spectrum) // 2]))
@@ -27,22 +27,6 @@ def test_edges_as_line_strings():
         properties = [feature["properties"] for feature in document["features"]]
         assert [p["r_max"] is None for p in properties] == np.isinf(FAMILY.r_max[chosen]).tolist()
         assert set(properties[0]) == {"label_a", "label_b", "length", "r_min", "r_max", "class"}
-
-
-def test_all_parts_of_a_shape():
-    document = json.loads(written(SHAPE, "geojson", what="general"))
-    parts = [shapely.geometry.shape(feature["geometry"]) for feature in document["features"]]
-    kinds = [part.geom_type for part in parts]
-    assert kinds.count("Polygon") == SHAPE.region_count
-    assert kinds.count("LineString") == int((SHAPE.kind == 1).sum())
-    assert kinds.count("Point") == len(SHAPE.isolated)
-    assert sum(part.area for part in parts) == pytest.approx(SHAPE.area)
-    lines = written(SHAPE, "wkt", what="general").decode().splitlines()
-    assert [shapely.from_wkt(line) for line in lines] == parts
-    short = written(SHAPE, "wkt", what="general", decimals=4)
-    assert len(short) < 0.7 * sum(map(len, lines))
-    with pytest.raises(UsageError, match="'csv'"):
-        write(SHAPE, "a.csv", what="general")
 
 
 def test_a_hull_with_a_hole():

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import re
 
 import numpy as np
 import pytest
@@ -12,8 +11,8 @@ import shapely
 
 from support.families.point_families import draw
 from support.readers.sources import read_as
-from support.readers.written import rows_of, streamed, written
-from vorotool import PointSet, UsageError, voronoi_cells, write
+from support.readers.written import streamed, written
+from vorotool import PointSet, voronoi_cells
 from vorotool.formats.io.sources import Source
 from vorotool.products.registry import PRODUCTS
 
@@ -49,14 +48,6 @@ def same(found, cells):
 def test_wkt(cells):
     lines = written(cells, "wkt").decode().splitlines()
     same(shapely.from_wkt(lines), cells)
-
-
-def test_csv(cells):
-    rows = rows_of(written(cells, "csv"))
-    same([shapely.from_wkt(row["wkt"] or None) for row in rows], cells)
-    assert [int(row["label"]) for row in rows] == cells.label_array.tolist()
-    assert [[float(row["x"]), float(row["y"])] for row in rows] == cells.sites.tolist()
-    assert [row["name"] for row in rows if "name" in row] == list(cells.properties.get("name", ()))
 
 
 def test_geojson(cells):
@@ -116,37 +107,8 @@ def test_parts_share_their_properties():
     ]
 
 
-@pytest.mark.parametrize("fmt", ["csv", "wkt", "geojson", "json"])
-def test_decimals(fmt):
-    cells = voronoi_cells([[0.123456, 0], [1, 1 / 3]], frame=(0, 0, 1, 1))
-    text = written(cells, fmt, decimals=3).decode()
-    for measure in (*cells.areas, *cells.perimeters):  # which are of the cells before
-        text = text.replace(str(measure), "")
-    assert "0.123" in text or fmt == "wkt"
-    assert "0.1234" not in text
-    assert {len(part.split(".")[1]) for part in re.findall(r"\d+\.\d+", text)} == {3}
-
-
 @pytest.mark.parametrize("fmt", streamed(PRODUCTS["delaunay"]["cells"]))
 def test_threads_and_slices_change_nothing(fmt):
     by_library = fmt in ("gpkg", "fgb", "parquet", "dxf")  # on one thread
     cells = voronoi_cells(draw("uniform", 300 if by_library else 40_000, 1))
     assert written(cells, fmt, threads=1) == written(cells, fmt, threads=3)
-
-
-@pytest.mark.parametrize("fmt", streamed(PRODUCTS["delaunay"]["cells"]))
-def test_no_cells(fmt):
-    cells = voronoi_cells(np.empty((0, 2)))
-    data = written(cells, fmt)
-    if fmt == "geojson":
-        assert json.loads(data)["features"] == []
-    if fmt == "json":
-        assert json.loads(data)["polygons"] == []
-
-
-def test_the_library_writes_cells(tmp_path):
-    cells = voronoi_cells([[1, 1], [3, 1]])
-    write(cells, tmp_path / "a.wkt", decimals=4)
-    assert (tmp_path / "a.wkt").read_bytes() == written(cells, "wkt", decimals=4)
-    with pytest.raises(UsageError, match="'obj'"):
-        write(cells, tmp_path / "a.obj")

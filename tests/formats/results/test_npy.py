@@ -32,15 +32,6 @@ def test_triangles_and_edges_are_those_of_scipy():
     assert unordered(edges) == {pair for row in peer.simplices for pair in unordered(row[[[0, 1], [1, 2], [0, 2]]])}
 
 
-@pytest.mark.parametrize("what", ["edges", "triangles"])
-def test_numbers_are_labels_less_one(what):
-    mesh = vorotool.delaunay(XY)
-    rows = rows_of(written(mesh, "csv", what))
-    labels = [[int(row[name]) for name in ("label_a", "label_b", "label_c") if name in row] for row in rows]
-    assert (array(mesh, what) + 1).tolist() == labels
-    assert array(mesh, what).tolist() == getattr(mesh, what).tolist()
-
-
 @pytest.mark.parametrize("what", ["edges", "complex"])
 def test_edges_of_shapes(what):
     shape = vorotool.alpha_shape(XY, r=8)
@@ -62,16 +53,6 @@ def test_points_along_are_points_for_all(tmp_path):
     assert np.array_equal(array(along, "points"), along.xy)
     vorotool.write(along, tmp_path / "a.npy")
     assert np.array_equal(vorotool.read(tmp_path / "a.npy").xy, along.xy)
-
-
-def test_nothing_is_an_array_without_rows():
-    assert array(vorotool.delaunay([[1, 2]]), "edges").shape == (0, 2)
-    assert array(vorotool.delaunay([[1, 2], [3, 4]]), "triangles").shape == (0, 3)
-
-
-def test_the_same_bytes_from_any_memory():
-    mesh = vorotool.delaunay(XY)
-    assert written(mesh, "npy", "edges") == written(vorotool.delaunay(np.asfortranarray(XY)), "npy", "edges")
 
 
 @pytest.mark.parametrize("what", ["table", "cells"])

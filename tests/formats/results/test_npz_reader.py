@@ -57,12 +57,6 @@ def test_skeletons_are_those_of_the_library(shapes, tmp_path, name, side, gap):
     assert len(vorotool.read(tmp_path / "a.npz", geometry="polygons")) == len(skeleton.polygons)
 
 
-def test_approximate_skeletons_keep_their_bounds(shapes, tmp_path):
-    skeleton = vorotool.skeleton_approx(shapes("polygon"), step=2)
-    vorotool.write(skeleton, tmp_path / "a.npz")
-    assert_same(ARCS, vorotool.read(tmp_path / "a.npz"), skeleton)
-
-
 def test_cells_are_those_of_their_json(tmp_path):
     points = vorotool.PointSet(
         np.random.default_rng(3).random((30, 2)) * 50, None, {"id": [f"n{k}" for k in range(30)]}
@@ -167,13 +161,6 @@ def test_cut_files_are_refused(tmp_path):
                 vorotool.read(tmp_path / "a.npz", geometry=geometry)
 
 
-def test_what_holds_no_polygons(tmp_path):
-    points = damaged(tmp_path, {"x": np.arange(3.0), "y": np.arange(3.0)})
-    assert len(vorotool.read(points)) == 3
-    with pytest.raises(InputError, match=r"a\.npz holds no polygons"):
-        vorotool.read(points, geometry="polygons")
-
-
 OFFSETS = ("start", "end", "center", "site", "ring_starts", "shape_starts", "distance", "polygon")
 
 
@@ -199,11 +186,3 @@ def test_what_is_known_of_polygons_is_read(tmp_path, what):
     vorotool.write(made, tmp_path / "a.npz")
     read = vorotool.read(tmp_path / "a.npz").polygons
     assert (read.ids, read.properties, read.unit, read.y_axis) == (*described.values(), "up")
-
-
-def test_ends_of_sites_outside_are_read(shapes, tmp_path):
-    crossed = [[[0, 0], [9, 0], [9, 4], [0, 4]], [[4, -3], [6, -3], [6, 7], [4, 7]]]
-    made = vorotool.skeleton_exact(crossed, side="both")
-    assert made.site_table.ends is not None
-    vorotool.write(made, tmp_path / "a.npz")
-    assert np.array_equal(vorotool.read(tmp_path / "a.npz").site_table.ends, made.site_table.ends, equal_nan=True)

@@ -46,13 +46,6 @@ def test_the_library_reads_them_as_what_they_are(tmp_path):
         vorotool.read(tmp_path / "offsets.json", geometry="points")
 
 
-def test_an_arc_shrunk_to_its_center_is_a_line():
-    made = vorotool.offset([[1000, 1000], [4000, 1000], [4000, 4000]], 0.01)
-    again = read(text_of(made, precision=3))
-    assert not again.is_arc.any()
-    assert np.isfinite(again.flattened(0.001).xy).all()
-
-
 def changed(member, index, **fields):
     document = json.loads(text_of(vorotool.offset(SHAPES, [-20.0, 3.0])))
     document[member][index].update(fields)

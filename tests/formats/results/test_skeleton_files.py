@@ -56,31 +56,6 @@ def test_the_members_are_those_of_the_format():
     assert all(needed <= set(arc) and arc["side"] == "interior" and arc["error_bound"] == 0 for arc in document["arcs"])
 
 
-def test_a_crossing_has_no_source():
-    with pytest.warns(vorotool.VorotoolWarning):
-        made = vorotool.skeleton_exact([[0, 0], [4, 4], [4, 0], [0, 4]])
-    sources = [site["source"] for site in json.loads(text_of(made))["sites"]]
-    assert sources.count(None) == 1
-
-
-def test_precision_rounds():
-    made = vorotool.skeleton_exact(vorotool.read(Path(__file__).parents[3] / "data" / "shape.json"))
-    document = json.loads(text_of(made, precision=3))
-    assert all(len(repr(vertex["x"]).replace(".", "").lstrip("0")) <= 4 for vertex in document["vertices"])
-
-
-def test_vorotool_reads_it(tmp_path):
-    made = vorotool.skeleton_exact(SHAPES)
-    vorotool.write(made, tmp_path / "a.json")
-    assert np.array_equal(vorotool.read(tmp_path / "a.json").vertices, made.vertices)
-    assert len(vorotool.read(tmp_path / "a.json", geometry="polygons")) == 2
-
-
-def test_an_empty_one():
-    made = vorotool.skeleton_exact([[0, 0], [1, 0], [0, 1]], side="exterior")
-    assert len(read(text_of(made))) == 0
-
-
 DOCUMENT = json.loads(text_of(vorotool.skeleton_exact(SHAPES)))
 
 

@@ -6,12 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import shapely
 
 import vorotool
 from support.readers.sources import read_as
-from support.readers.written import rows_of, streamed, written
-from vorotool.errors import UsageError
+from support.readers.written import streamed, written
 from vorotool.products.registry import parts_of
 
 DATA = Path(__file__).parents[3] / "data"
@@ -23,21 +21,6 @@ def text_of(fmt, skeleton=MADE, **options):
     return written(skeleton, fmt, **options)
 
 
-def test_arcs_as_csv():
-    rows = rows_of(text_of("csv"))
-    header = (
-        "label,id,arc,source_index,target_index,x0,y0,r0,x1,y1,r1,kind,cx,cy,site_a_index,site_b_index,side,length,"
-        "error_bound,branch"
-    )
-    assert ",".join(rows[0]) == header
-    assert len(rows) == len(MADE)
-    inside, outside = rows[0], rows[-1]
-    assert (inside["id"], inside["side"], inside["label"]) == ("branch", "interior", "1")
-    assert (outside["id"], outside["side"], outside["label"]) == ("", "exterior", "")
-    assert {(row["kind"], bool(row["cx"])) for row in rows} == {("line", False), ("parabola", True)}
-    assert [float(row["x1"]) for row in rows] == MADE.vertices[MADE.arcs[:, 1], 0].tolist()
-
-
 def test_npz_holds_all():
     with np.load(io.BytesIO(text_of("npz"))) as archive:
         for axis, name in enumerate(("source", "target")):
@@ -47,21 +30,6 @@ def test_npz_holds_all():
             assert np.array_equal(archive[f"arc_control_{name}"], MADE.control[:, axis], equal_nan=True)
         assert np.array_equal(archive["vertex_r"], MADE.radius)
         assert np.array_equal(archive["ring_x"], MADE.polygons.as_given.xy[:, 0])
-
-
-def length_of(lines):
-    return sum(line.length for line in lines)
-
-
-@pytest.mark.parametrize("tolerance", [1.0, 0.01])
-def test_geojson_is_flattened(tolerance):
-    document = json.loads(text_of("geojson", flatten=tolerance))
-    lines = [shapely.geometry.shape(feature["geometry"]) for feature in document["features"]]
-    assert len(lines) == MADE.branch[-1] + 1
-    fine = [shapely.geometry.shape(f["geometry"]) for f in json.loads(text_of("geojson", flatten=1e-6))["features"]]
-    apart = max(shapely.hausdorff_distance(a, b, densify=0.1) for a, b in zip(lines, fine, strict=True))
-    assert apart <= tolerance
-    assert length_of(fine) == pytest.approx(MADE.length.sum(), rel=1e-8)
 
 
 def test_geojson_keeps_ids_and_properties():
@@ -88,12 +56,6 @@ def test_geojson_keeps_ids_and_properties():
         assert (feature["properties"]["kind"], feature["properties"]["voro_kind"]) == ("lake", "end")
 
 
-def test_wkt_is_the_same_as_geojson():
-    lines = shapely.from_wkt(text_of("wkt", flatten=0.1).decode().splitlines())
-    document = json.loads(text_of("geojson", flatten=0.1))
-    assert [shapely.geometry.shape(f["geometry"]) for f in document["features"]] == list(lines)
-
-
 @pytest.mark.parametrize("what", parts_of(MADE))
 def test_nothing_is_written_too(what):
     nothing = vorotool.skeleton_exact([[0, 0], [1, 0], [0, 1]], side="exterior")
@@ -101,23 +63,6 @@ def test_nothing_is_written_too(what):
         text = text_of(fmt, nothing, what=what)
         if fmt in ("json", "geojson"):
             json.loads(text)
-
-
-@pytest.mark.parametrize(
-    ("fmt", "what", "words"),
-    [
-        ("obj", "skeleton", "json, csv, tsv, geojson"),
-        ("wkt", "table", "csv, tsv, json, npz"),
-        ("csv", "arcs", "skeleton"),
-    ],
-)
-def test_what_cannot_be_written(fmt, what, words):
-    with pytest.raises(UsageError, match=words):
-        text_of(fmt, what=what)
-
-
-def test_precision():
-    assert all(len(row["length"].replace(".", "")) <= 4 for row in rows_of(text_of("csv", precision=3)))
 
 
 def test_threads_change_nothing():

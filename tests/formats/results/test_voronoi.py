@@ -14,7 +14,7 @@ import shapely
 
 import vorotool
 from support.readers.written import rows_of, written
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES = geopandas.GeoDataFrame(
@@ -81,31 +81,6 @@ def test_cuts_and_units_are_read_back(saved, fmt):
     assert vorotool.read(saved(written(cells, fmt), fmt)) == cells
 
 
-def test_json_has_the_form_of_the_documents():
-    document = json.loads(written(MAPS["mixed"], "json"))
-    assert {"type", "version", "frame", "sites", "vertices", "arcs", "cells", "polygons"} <= document.keys()
-    assert document["sites"][1] == {"properties": {"name": None, "count": 2}}
-    assert document["cells"][1] == {"rings": [], "shells": []}
-    kinds = {arc["kind"] for arc in document["arcs"]}
-    assert kinds == {"line", "parabola"}
-    for arc in document["arcs"]:
-        assert (arc["control"] is not None) == (arc["kind"] == "parabola")
-        assert arc["cut"] == (None in arc["sites"])
-    assert {arc["kind"] for arc in json.loads(written(MAPS["limited"], "json"))["arcs"]} >= {"line", "circle"}
-
-
-def test_few_digits_are_read_again(saved):
-    cells = MAPS["lakes"]
-    again = vorotool.read(saved(written(cells, "json", precision=6)))
-    assert np.array_equal(again.ring_arcs, cells.ring_arcs)
-    np.testing.assert_allclose(again.areas, cells.areas, rtol=1e-3)
-
-
-def test_properties_are_left_out_when_not_wanted(saved):
-    again = vorotool.read(saved(written(MAPS["mixed"], "json")), properties=False)
-    assert (again.properties, again.ids, again.polygons.properties) == ({}, None, {})
-
-
 # ---- features ----------------------------------------------------------------------------------------
 @pytest.mark.parametrize("name", [name for name in MAPS if name != "nothing"])
 @pytest.mark.parametrize("flatten", [None, 0.4])
@@ -132,13 +107,6 @@ def test_features_have_ids_columns_and_the_reference_system():
     assert [row["id"] for row in rows_of(written(MAPS["joined"], "csv").decode())] == ["a", "b", "c"]
 
 
-def test_own_columns_take_a_prefix_beside_those_of_the_input():
-    cells = vorotool.voronoi(geopandas.GeoDataFrame({"area": ["x"], "label": ["y"]}, geometry=[shapely.Point(1, 2)]))
-    own = json.loads(written(cells, "geojson"))["features"][0]["properties"]
-    assert (own["area"], own["label"], own["voro_label"]) == ("x", "y", 1)
-    assert own["voro_area"] == pytest.approx(cells.areas[0])
-
-
 # ---- borders and tables ------------------------------------------------------------------------------
 @pytest.mark.parametrize("name", MAPS)
 def test_borders_are_one_line_a_piece(name):
@@ -155,37 +123,6 @@ def test_borders_are_one_line_a_piece(name):
         assert places[-1] == [float(row["x1"]), float(row["y1"])]
         assert (row["cx"] == "") == (row["kind"] == "line")
         assert shapely.LineString(places).length <= float(row["length"]) * (1 + 1e-12)
-
-
-def test_columns_of_borders():
-    first = written(MAPS["mixed"], "csv", what="edges").decode().splitlines()[0]
-    assert first == "label_a,label_b,kind,x0,y0,x1,y1,cx,cy,length,arc,r0,r1"
-    assert list(MAPS["mixed"].edges) == first.split(",")
-
-
-def test_tables_have_a_row_a_cell_and_empty_fields():
-    text = written(MAPS["mixed"], "csv", what="table").decode()
-    rows = rows_of(text)
-    assert "nan" not in text
-    assert list(rows[0])[:8] == [
-        "label", "area", "perimeter", "neighbors", "own_area", "max_distance", "components", "name",
-    ]  # fmt: skip
-    assert (rows[1]["area"], rows[1]["components"], rows[1]["max_distance"]) == ("0", "0", "")
-    assert json.loads(written(MAPS["mixed"], "json", what="table"))[1]["max_distance"] is None
-    assert written(MAPS["nothing"], "csv", what="table") == (
-        b"label,area,perimeter,neighbors,own_area,max_distance,components\n"
-    )
-    assert written(MAPS["nothing"], "csv", what="neighbors") == b"label_a,label_b,border_length,distance\n"
-
-
-def test_writing_from_the_library(tmp_path):
-    cells = MAPS["mixed"]
-    vorotool.write(cells, tmp_path / "a.geojson")
-    assert (tmp_path / "a.geojson").read_bytes() == written(cells, "geojson")
-    vorotool.write(cells, tmp_path / "b.csv", what="neighbors")
-    assert (tmp_path / "b.csv").read_bytes() == written(cells, "csv", what="neighbors")
-    with pytest.raises(UsageError, match="'geojson'"):
-        vorotool.write(cells, tmp_path / "c.geojson", what="neighbors")
 
 
 # ---- files that are none -----------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 
 import json
 
-import geopandas
 import numpy as np
 import pytest
 import shapely
@@ -34,24 +33,6 @@ def test_geojson_wkt_and_frames_have_the_same_geometry_and_columns(name, what):
     assert {column for feature in features for column in feature["properties"]} <= set(frame.columns)
 
 
-def test_digits_are_those_of_properties_alone():
-    skeleton = vorotool.skeleton_exact([[0, 0], [7, 0], [7, 3], [0, 3.1]])
-    full, short = (json.loads(written(skeleton, "geojson", precision=digits))["features"] for digits in (None, 3))
-    assert [each["geometry"] for each in full] == [each["geometry"] for each in short]
-    assert [each["properties"]["length"] for each in short] == [
-        float(f"{each['properties']['length']:.3g}") for each in full
-    ]
-
-
-def test_lines_that_rounding_leaves_no_length_are_no_geometry():
-    lines = vorotool.skeleton_exact([[0, 0], [4, 0], [4, 0.1], [0, 0.1]])
-    features = json.loads(written(lines, "geojson", decimals=0))["features"]
-    texts = written(lines, "wkt", decimals=0).decode().splitlines()
-    geometry = [None if each["geometry"] is None else shapely.geometry.shape(each["geometry"]) for each in features]
-    assert geometry.count(None) == texts.count("LINESTRING EMPTY") == 4  # to the corners
-    assert [each for each in geometry if each] == [shapely.from_wkt(text) for text in texts if "(" in text]
-
-
 @pytest.mark.parametrize("style", ["wkt_lines", "geojson_lines"])
 def test_lines_as_text(style):
     rng = np.random.default_rng(5)
@@ -71,21 +52,6 @@ def test_lines_as_text(style):
         made = shapely.from_wkt(text) if style == "wkt_lines" else shapely.from_geojson(text)
         expected = shapely.LineString(parts[0]) if len(parts) == 1 else shapely.MultiLineString(parts)
         assert shapely.equals_identical(made, expected)
-
-
-def test_kinds_follow_each_other(tmp_path):
-    shape = vorotool.alpha_shape([[0, 0], [4, 0], [0, 3], [9, 9], [10, 9], [30, 30]], r=3)
-    features = json.loads(written(shape, "geojson", "general"))["features"]
-    assert [each["geometry"]["type"] for each in features] == ["Polygon", "LineString", "Point"]
-    assert [each["properties"]["class"] for each in features] == ["region", "singular", "isolated"]
-    frame = to_geopandas(shape, "general")
-    assert frame["class"].tolist() == ["region", "singular", "isolated"]
-    assert frame["label"].tolist()[2] == 6
-    assert frame["label_a"].isna().tolist() == [True, False, True]
-    nothing = vorotool.alpha_shape([[0, 0], [30, 0]], r=1)
-    assert len(json.loads(written(nothing, "geojson", "general"))["features"]) == 2
-    vorotool.write(shape, tmp_path / "shape.gpkg", what="general")
-    assert geopandas.read_file(tmp_path / "shape.gpkg")["class"].tolist() == ["region", "singular", "isolated"]
 
 
 def test_cells_have_their_measures_in_every_format():

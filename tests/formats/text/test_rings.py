@@ -132,25 +132,3 @@ def test_a_cell_that_turns_over():
         [[[(0, 0), (0, -9), (9, -9), (9, 0), (3.6, -2.6), (3.4, -2.4)]]],
     )
     check(points, nesting, 0)
-
-
-def test_overlaps_of_a_coverage_go_to_the_first():
-    points, nesting = nest([[BOX]], [[[(8.4, 0), (16, 0), (16, 8), (7.6, 8), (8.4, 4)]]])
-    _, shapes = check(points, nesting, 0)
-    assert shapely.area(shapely.union_all(shapes)) == pytest.approx(shapely.area(shapes).sum())
-
-
-def test_a_far_feature_keeps_its_bits():
-    """Only what shares vertices with an invalid feature changes."""
-    rng = np.random.default_rng(3)
-    points = np.concatenate([[(7.7, 2.4), (7.0, 3.1), (6.5, 3.2), (7.7, 1.4)], rng.uniform(100, 130, (40, 2))])
-    cells = vorotool.voronoi_cells(points)
-    made = written_rings(cells.coordinates, cells.nesting, is_coverage=True)
-    before, after = geometry(cells.coordinates, cells.nesting), geometry(made.points, made.nesting)
-    assert 0 < made.repaired < 12
-    assert np.count_nonzero(~shapely.equals_identical(before, after)) <= made.repaired
-
-
-def test_no_features():
-    made = written_rings(np.empty((0, 2)), Nesting(*(np.zeros(1, dtype=np.int64),) * 3), decimals=2, is_coverage=True)
-    assert made.nesting.cells.tolist() == [0]

@@ -7,8 +7,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from vorotool.errors import UsageError
-from vorotool.formats.text.row_writer import SLICE_ROWS, Column, RowShape, check_precision, write_rows
+from vorotool.formats.text.row_writer import SLICE_ROWS, Column, RowShape, write_rows
 from vorotool.types.table import Computed, Lookup
 
 
@@ -54,12 +53,3 @@ def test_a_failing_output_ends_the_work():
 
     with pytest.raises(OSError, match="No space"):
         write_rows(Full(), [Column.of("", np.arange(10 * SLICE_ROWS))], threads=2)
-
-
-def test_no_columns_and_no_digits():
-    out = io.BytesIO()
-    write_rows(out, [])
-    assert out.getvalue() == b""
-    assert (check_precision(None), check_precision(17)) == (0, 17)
-    with pytest.raises(UsageError, match="precision is 18"):
-        write_rows(out, [Column.of("", [1.5])], precision=18)

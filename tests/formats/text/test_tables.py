@@ -4,21 +4,18 @@ import csv
 import io
 import json
 import math
-import zipfile
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import vorotool
 from support.readers.sources import read_as
 from support.readers.written import rows_of
-from vorotool.errors import UsageError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.text.tables import write_table
 from vorotool.products.formats import TABLES
-from vorotool.types.table import Computed, Lookup, Table
+from vorotool.types.table import Table
 
 
 def written(table, fmt, **options):
@@ -47,17 +44,6 @@ def test_csv():
         '3,0.3333333333333333,1,1,"é ""q""",\n'
     )
     assert b"\n3,0.333,1,1" in written(MIXED, "csv", precision=3)
-
-
-def test_tsv():
-    assert written(MIXED, "tsv").decode() == (
-        "label\tr\tnearest_label\ttouches_frame\tname\tother\n"
-        "1\t0.5\t2\t1\ta,b\t1\n"
-        '2\t100000\t\t0\t\t"{""k"":[1,true]}"\n'
-        '3\t0.3333333333333333\t1\t1\t"é ""q"""\t\n'
-    )
-    assert b"\n3\t0.333\t1\t1" in written(MIXED, "tsv", precision=3)
-    assert written(Table({"r": [None, 4.0]}), "tsv") == b'r\n""\n4\n'
 
 
 def test_json():
@@ -105,13 +91,6 @@ def test_empty_tables():
     assert written(Table({}), "csv") == b""
 
 
-def test_columns_of_lists_and_nested_properties():
-    table = Table({"label": [1, 2]}).with_properties({"label": ["7", "8"], "box": [[1, 2], [3, 4]]})
-    assert written(table, "csv") == b'voro_label,label,box\n1,7,"[1,2]"\n2,8,"[3,4]"\n'
-    assert json.loads(written(table, "json"))[1] == {"voro_label": 2, "label": "8", "box": [3, 4]}
-    assert written(Table({"n": [2**63, 2.5, None]}), "csv") == b'n\n9223372036854775808\n2.5\n""\n'
-
-
 @pytest.mark.parametrize("fmt", TABLES)
 def test_the_same_bytes_every_time(fmt):
     generator = np.random.default_rng(1)
@@ -134,20 +113,6 @@ def test_the_same_bytes_every_time(fmt):
     assert outputs == {b"".join(pipe.parts)}
 
 
-def test_npz_holds_no_time_of_day():
-    infos = zipfile.ZipFile(io.BytesIO(written(MIXED, "npz"))).infolist()
-    assert {info.date_time for info in infos} == {(1980, 1, 1, 0, 0, 0)}
-    assert {info.compress_type for info in infos} == {zipfile.ZIP_STORED}
-
-
-def test_options_are_checked():
-    with pytest.raises(UsageError, match="'xls'"):
-        vorotool.write(MIXED, "a.xls")
-    for precision in (0, 18, -1):
-        with pytest.raises(UsageError, match=f"{precision}"):
-            written(MIXED, "csv", precision=precision)
-
-
 finite = st.floats(allow_nan=False, allow_infinity=False)
 texts = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=12)
 
@@ -164,38 +129,6 @@ def test_what_is_written_as_text_is_read_back(fmt, dialect, rows):
     by_csv = rows_of(data, csv.get_dialect(dialect).delimiter)
     assert [row["name"] for row in by_csv] == names
     assert [float(row["x"]) for row in by_csv] == x
-
-
-LAZY = Table(
-    {
-        "label": Lookup(np.array([7, 8, 9]), np.array([2, 0, 0, 1], dtype=np.int32)),
-        "x": Lookup(np.array([0.5, 1 / 3, -2]), np.array([[1, 1], [0, 0], [2, 2], [0, 1]], dtype=np.int32)[:, 0]),
-        "length": Computed(lambda rows: np.array([1.5, math.inf, 0.1, 1e300])[rows], 4),
-    }
-)
-
-
-def test_lazy_columns_are_written_like_others():
-    assert LAZY["label"].tolist() == [9, 7, 7, 8]
-    plain = Table(dict(LAZY))
-    for fmt in ("csv", "json"):
-        assert written(LAZY, fmt) == written(plain, fmt)
-        assert written(LAZY, fmt, precision=2) == written(plain, fmt, precision=2)
-    arrays = np.load(io.BytesIO(written(LAZY, "npz")))
-    for name in LAZY:
-        np.testing.assert_array_equal(arrays[name], LAZY[name])
-
-
-def test_lazy_columns_of_many_slices():
-    rng = np.random.default_rng(2)
-    values, index = rng.normal(size=1000), rng.integers(0, 1000, 70_000).astype(np.int32)
-    table = Table({"x": Lookup(values, index), "square": Computed(lambda rows: values[index[rows]] ** 2, len(index))})
-    for fmt in TABLES:
-        assert len({written(table, fmt, threads=threads) for threads in (1, 2, 3)}) == 1
-    read = np.loadtxt(io.BytesIO(written(table, "csv")), delimiter=",", skiprows=1)
-    np.testing.assert_array_equal(read, np.stack([values[index], values[index] ** 2], axis=1))
-    assert [row["x"] for row in json.loads(written(table, "json"))] == values[index].tolist()
-    np.testing.assert_array_equal(np.load(io.BytesIO(written(table, "npz")))["square"], values[index] ** 2)
 
 
 @settings(deadline=None)

@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 import vorotool
-from vorotool.errors import InputError, LimitError, OutputError, UsageError
+from vorotool.errors import InputError, OutputError, UsageError
 from vorotool.formats.volumes.opening import open_volume, read_volume
-from vorotool.formats.volumes.writer import write_volume
 from vorotool.formats.zarr.store import check_store
 from vorotool.formats.zarr.writer import (
     chunks_of,
@@ -47,15 +46,6 @@ def test_npy(tmp_path, dtype, order):
     expected = values.astype(np.uint8) if dtype is bool else values.astype(values.dtype.newbyteorder("="))
     source = check(tmp_path / "a.npy", expected)
     assert ("Fortran" in source.note) == (order == "F")
-
-
-@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.uint32, np.float32])
-def test_npy_is_written_as_numpy_writes_it(dtype):
-    values = VALUES.astype(dtype)
-    out, expected = io.BytesIO(), io.BytesIO()
-    write_volume(out, np.array_split(values, 4), shape=values.shape, dtype=dtype, fmt="npy")
-    np.save(expected, values)
-    assert out.getvalue() == expected.getvalue()
 
 
 def test_npy_that_is_no_volume(tmp_path):
@@ -185,15 +175,6 @@ def test_stores_that_are_damaged(tmp_path):
         open_volume(tmp_path / "b.zarr")
     with pytest.raises(InputError, match="is a directory"):
         open_volume(tmp_path)
-
-
-def test_huge_shapes_are_refused_before_memory(tmp_path):
-    create_array(tmp_path / "a.zarr", (2**20,) * 3, dtype=np.uint8, chunks=(64, 256, 256))
-    with pytest.raises(LimitError, match=r"max_pixels="):
-        vorotool.read(tmp_path / "a.zarr", geometry="volume")
-    np.save(tmp_path / "a.npy", VALUES)
-    with pytest.raises(LimitError, match=f"more than max_pixels={VALUES.size - 1}"):
-        read_volume(tmp_path / "a.npy", max_voxels=VALUES.size - 1)
 
 
 def test_chunks():

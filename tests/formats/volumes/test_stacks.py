@@ -107,12 +107,6 @@ def described(path, description, pages=5):
     return path
 
 
-def test_the_order_of_slices_in_ome(tmp_path):
-    planes = "".join(f'<TiffData IFD="{4 - k}" FirstZ="{k}"/>' for k in range(5))
-    path = described(tmp_path / "a.tif", ome('SizeZ="5"', planes))
-    check(path, VALUES[::-1].astype(np.uint8))
-
-
 def test_planes_that_are_stated_again_and_again():
     """The time is that of their number and of the slices: 2^14 of each would take minutes."""
     once = '<TiffData FirstZ="0" IFD="0" PlaneCount="16384"/>'
@@ -165,33 +159,12 @@ def test_axes_that_tifffile_names(tmp_path):
         open_volume(tmp_path / "a.tif")
 
 
-def test_pages_that_differ(tmp_path):
-    for other, words in (
-        (VALUES[0, :39].astype(np.uint8), "30 x 40 uint8 on page 0 and 30 x 39 uint8 on page 1"),
-        (VALUES[0].astype(np.uint16), "uint8 on page 0 and 30 x 40 uint16 on page 1"),
-    ):
-        with tifffile.TiffWriter(tmp_path / "a.tif") as out:
-            out.write(VALUES[0].astype(np.uint8), metadata=None)
-            out.write(other, metadata=None)
-        with pytest.raises(InputError, match=words):
-            open_volume(tmp_path / "a.tif")
-    tifffile.imwrite(tmp_path / "a.tif", np.zeros((4, 5, 3), np.uint8), photometric="rgb")
-    with pytest.raises(InputError, match="has 3 values per pixel: a volume has one"):
-        open_volume(tmp_path / "a.tif")
-
-
 def test_smaller_copies_are_left_out(tmp_path):
     with tifffile.TiffWriter(tmp_path / "a.tif") as out:
         for image in VALUES.astype(np.uint8):
             out.write(image, metadata=None)
         out.write(VALUES[0, ::2, ::2].astype(np.uint8), metadata=None, subfiletype=1)
     check(tmp_path / "a.tif", VALUES.astype(np.uint8))
-
-
-def test_one_page_is_one_slice(tmp_path):
-    check(stack(tmp_path / "a.tif", VALUES[:1].astype(np.uint8)), VALUES[:1].astype(np.uint8))
-    (tmp_path / "b.tif").write_bytes(tiff_file(grey(3, 2, 1), [b"abc", b"def"]))
-    check(tmp_path / "b.tif", np.frombuffer(b"abcdef", np.uint8).reshape(1, 2, 3))
 
 
 def test_damage(tmp_path):

@@ -100,14 +100,6 @@ def test_damaged_metadata(tmp_path, change, words):
         vorotool.read(tmp_path / "a.zarr")
 
 
-def test_the_library_writes_them(tmp_path):
-    grid = PixelGrid(Fraction(1, 4), Fraction(1, 4), "nm", "ome")
-    vorotool.write(vorotool.LabelImage(LABELS, grid=grid), tmp_path / "a.ome.zarr")
-    raster = vorotool.read(tmp_path / "a.ome.zarr")
-    np.testing.assert_array_equal(raster.values, LABELS)
-    assert raster.grid == grid
-
-
 def test_a_folder_of_results_is_not_replaced_by_mistake(tmp_path):
     from vorotool.errors import OutputError
     from vorotool.formats.zarr.store import check_store

@@ -221,14 +221,6 @@ def test_chunks_that_are_damaged(tmp_path, further, chunk, words):
         vorotool.read(path)
 
 
-def test_a_chunk_that_is_no_file(tmp_path):
-    path = store(tmp_path / "a.zarr", version_3())
-    (path / "c/0").mkdir(parents=True)
-    os.mkfifo(path / "c/0/0")
-    with pytest.raises(InputError, match="c/0/0"):
-        vorotool.read(path)
-
-
 def test_indices_of_shards_that_lie(tmp_path):
     array = zarr.create_array(tmp_path / "a", shape=(4, 4), dtype="u2", chunks=(2, 2), shards=(4, 4), compressors=None)
     array[...] = IMAGE[:4, :4] + 1
@@ -305,13 +297,3 @@ def test_chunks_of_a_shard_share_no_bytes(tmp_path):
 
 def crc32c(values):
     return google_crc32c.value(values.tobytes()).to_bytes(4, "little")
-
-
-def test_a_shard_that_lacks_nearly_all_chunks(tmp_path):
-    array = zarr.create_array(tmp_path / "a", shape=(40, 30), dtype="u2", chunks=(2, 3), shards=(20, 30), fill_value=4)
-    array[7, 29] = 9
-    expected = np.full((40, 30), 4, np.uint16)
-    expected[7, 29] = 9
-    stored = StoredArray("a.zarr", tmp_path / "a")
-    for rows, columns in ((slice(0, 40), slice(0, 30)), (slice(7, 8), slice(28, 30)), (slice(8, 21), slice(3, 4))):
-        np.testing.assert_array_equal(stored.read((rows, columns)), expected[rows, columns])

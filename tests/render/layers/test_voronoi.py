@@ -15,7 +15,7 @@ import svgelements
 from tests.support.families.site_families import mixed_sites
 
 import vorotool
-from vorotool import voronoi
+from vorotool import UsageError, voronoi
 from vorotool.errors import RepairWarning
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Texts
 from vorotool.render.canvas.styles import cell_color
@@ -157,3 +157,16 @@ def test_few_and_empty_cells(tmp_path, sites, fmt):
         ElementTree.fromstring((tmp_path / "a.svg").read_text())
     else:
         assert iio.imread(tmp_path / "a.png").shape[1] == 200
+
+
+def test_names_say_what_a_column_says(tmp_path):
+    lakes = vorotool.read("data/great-lakes.geojson")
+    cells = quietly(lakes)
+    vorotool.write(cells, tmp_path / "a.svg", label_by="name", legend=True, scale_bar=True)
+    text = (tmp_path / "a.svg").read_text()
+    for name in ("Lake Superior", "Lake Huron", "Lake Michigan", "object-areas"):
+        assert f">{name}</text>" in text
+    with pytest.raises(UsageError, match="expected a column of the input, name"):
+        vorotool.write(cells, tmp_path / "a.svg", label_by="depth")
+    with pytest.raises(UsageError, match="'walls'"):
+        vorotool.write(cells, tmp_path / "a.svg", layers=["walls"])

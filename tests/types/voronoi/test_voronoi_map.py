@@ -7,7 +7,7 @@ import pytest
 import shapely
 from tests.support.families.site_families import mixed_sites
 
-from vorotool import voronoi
+from vorotool import UsageError, voronoi
 from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
 
 WALL_AND_TREE = [shapely.LineString([(0, 0), (8, 0)]), shapely.Point(4, 2)]
@@ -80,3 +80,11 @@ def test_pairs_as_libpysal_takes_them():
     assert graph.unique_ids.tolist() == everything.to_geopandas().index.tolist()
     assert graph.adjacency.loc["b"].to_dict() == pytest.approx({"a": 4.2, "c": 4.2})
     assert graph.n_edges == 2 * everything.neighbors.rows
+
+
+def test_as_a_value(cells):
+    assert cells == voronoi(WALL_AND_TREE, frame=(0, -2, 8, 10)) != voronoi(WALL_AND_TREE)
+    assert repr(cells) == f"VoronoiMap: 2 cells, {len(cells.arcs)} arcs, {len(cells.vertices)} vertices"
+    assert [len(polygons) for polygons in (cells.rings_of(0), cells.rings_of(1))] == [1, 1]
+    with pytest.raises(UsageError, match="tolerance"):
+        cells.to_shapely(flatten=0)
