@@ -90,7 +90,7 @@ def test_a_ring_that_might_turn_over_stays():
     ends = np.array([[0, 1], [1, 2], [0, 2], [3, 4], [4, 5], [3, 5]])
     none, sides = np.full((6, 2), np.nan), np.zeros((6, 2), dtype=np.int64)
     moves = Moves(np.array([1, 4]), np.array([[4, -1e-3], [12, 1e-3]]))
-    arcs = Arcs(np.array([*thin, *wide], dtype=float), np.zeros(6), ends, none, none, sides, sides, sides, moves)
+    arcs = Arcs(np.array([*thin, *wide], dtype=float), np.zeros(6), ends, none, none, sides, sides, sides, np.zeros(6, dtype=bool), moves)
     half_edges = np.array([1, 4, 3, 6, 8, 11])
     rings = Rings(np.array([0, 3, 6]), half_edges, np.array([0, 1]), np.array([0, 1]), np.array([2e-3, 6.0]))
     assert moved_vertices(arcs, rings)[[1, 4]].tolist() == [[4, 1e-3], [12, 1e-3]]

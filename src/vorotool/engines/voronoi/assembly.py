@@ -6,8 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.voronoi.frame_cut import CutBorders
-from vorotool.engines.voronoi.frame_ring import FrameRing
 from vorotool.engines.voronoi.moves import Moves
 from vorotool.errors import VerificationError
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
@@ -35,49 +33,13 @@ class Arcs:
     sites: Indices  # (a, 2) int64 array: left and right; `OUTSIDE` of what belongs to nobody
     parts: Indices  # (a, 2) int64 array: left and right; `OUTSIDE` of what belongs to nobody
     order: Indices  # (a, 2) int64 array: rising counter-clockwise around source and target
+    is_cut: NDArray[np.bool_]  # (a,) whether each is along a cut
     moves: Moves  # of vertices that are vertices of the input: all is decided where the lattice has them
 
     def mixed(self) -> MixedArcs:
         """The arcs with their ends."""
         source, target = (self.vertices.take(end, axis=0) for end in self.ends.T)
         return MixedArcs(source, target, self.control, self.center, self.sites[:, 0] != OUTSIDE)
-
-
-def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, order: Indices) -> Arcs:
-    """Put borders and the frame together, and number vertices and arcs by where they are."""
-    along = np.flatnonzero(ring.sides[:, 0] != OUTSIDE)
-    nodes = len(along)
-    beyond = np.full(nodes, OUTSIDE)
-    ends = np.concatenate([cut.ends, np.stack([ring.nodes, np.roll(ring.nodes, -1)], axis=1)[along]])
-    control, center = (np.concatenate([of, np.full((nodes, 2), np.nan)]) for of in (cut.control, cut.center))
-    both_sites, both_parts = (
-        np.concatenate([of, np.stack([inner, beyond], axis=1)])
-        for of, inner in zip((sites, parts), ring.sides[along].T, strict=True)
-    )
-    inner = np.where(ring.rank > 0, ring.rank, order)
-    last = len(cut.ends) + 2  # after all that ends at a node from inside
-    orders = np.concatenate([inner, np.stack([np.zeros(nodes, dtype=np.int64), np.full(nodes, last)], axis=1)])
-    places = np.concatenate([ring.places, ring.corners])
-    radius = np.concatenate([cut.radius, np.full(len(ring.corners), np.nan)])
-    number = np.full(len(places), -1, dtype=np.int64)
-    used = np.zeros(len(places), dtype=bool)
-    used[ends] = True
-    on_frame = ring.nodes[used[ring.nodes]]
-    used[on_frame] = False
-    kept = np.concatenate([np.flatnonzero(used), on_frame])
-    number[kept] = np.arange(len(kept))
-    moves = cut.moves.renumbered(number)
-    ends = number.take(ends)
-    turned = ends[:, 0] > ends[:, 1]
-    sorting = by_ends(np.where(turned[:, None], ends[:, ::-1], ends), control, center)
-    pairs = 2 * sorting[:, None] + (np.arange(2) ^ turned[sorting][:, None])
-    del number, used, turned
-    places, ends, both_sites = places.take(kept, axis=0), ends.take(pairs), both_sites.take(pairs)
-    both_parts, orders = both_parts.take(pairs), orders.take(pairs)
-    del pairs
-    control, center = control.take(sorting, axis=0), center.take(sorting, axis=0)
-    center = without_lost(center, places, ends, both_sites[:, 0] != OUTSIDE)
-    return Arcs(places, radius[kept], ends, control, center, both_sites, both_parts, orders, moves)
 
 
 def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray[np.bool_]) -> Floats:
@@ -121,24 +83,18 @@ class Rings:
         return Rings(starts_of(sizes), half_edge, self.site[chosen], self.part[chosen], self.area[chosen])
 
 
-def cycles_of(ends: Indices, order: Indices, vertices: int) -> tuple[Indices, Indices]:
-    """Go around every face of a map, with the face on the left."""
-    pairs = ends.astype(np.int32)
-    after = _core.graphs.next_half_edges(pairs, order, vertices)
-    start, half_edge = _core.graphs.boundary_cycles(after, pairs.ravel(), vertices)
-    return start.astype(np.int64), half_edge.astype(np.int64)
-
-
 def rings_of(arcs: Arcs) -> Rings:
     """Go around every face of a map, with the face on the left; the rings of the outside are left out."""
-    start, half_edge = cycles_of(arcs.ends, arcs.order, len(arcs.vertices))
+    ends, count = arcs.ends.astype(np.int32), len(arcs.vertices)
+    after = _core.graphs.next_half_edges(ends, arcs.order, count)
+    start, half_edge = (each.astype(np.int64) for each in _core.graphs.boundary_cycles(after, ends.ravel(), count))
     site, part = arcs.sites.ravel()[half_edge], arcs.parts.ravel()[half_edge]
     begin = start[:-1]
     if (site != np.repeat(site[begin], np.diff(start))).any():
         raise VerificationError(
             "internal error in vorotool: borders do not close around a cell; please report it with the input"
         )
-    area = _core.voronoi.ring_areas(start, half_edge, arcs.ends.astype(np.int32), arcs.vertices, _bulges(arcs))
+    area = _core.voronoi.ring_areas(start, half_edge, ends, arcs.vertices, _bulges(arcs))
     rings = Rings(start, half_edge, site[begin], part[begin], area)
     return rings[site[begin] != OUTSIDE]
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.cut_curves import FAR, CutCurves, cut_curves
 from vorotool.engines.voronoi.joint_graph import packed
 from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
@@ -16,25 +17,44 @@ from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
+Pairs = tuple[Indices, Indices]
 
 SLACK = 2.0**-12
 """Of a step of the lattice: a place is on an edge that it misses by less. It is a thousand times what the coordinates
 there, below 2^30, are rounded by, and what is drawn to an edge so moves by 2^-43 of the extent."""
+
+LARGEST = 2.0**30
+"""Coordinates up to which that is so; beyond them, where sides of a frame are, the slack grows with them."""
+
+
+@plain(eq=False)
+class Drawn:
+    """Places of borders, then ends of cut edges, that are known to be at each other or on edges: see `Crossings`."""
+
+    node: Indices  # (v,) int64 array
+    edge: Indices  # (v,) int64 array
+    far: Floats  # (v,) float64 array
+
+    @classmethod
+    def nowhere(cls, count: int) -> Drawn:
+        """So many places, each by itself."""
+        return cls(np.arange(count), np.full(count, -1), np.zeros(count))
 
 
 @plain(eq=False)
 class Crossings:
     """The places of a map that is cut: those of borders, then the ends of cut edges, then where both meet inside."""
 
-    # (k,) int64 array: pieces of borders that may be cut, and circular arcs, ascending; walls are none of them
+    # (k,) int64 array: pieces of borders that may be cut, and circular arcs, ascending
     pieces: Indices
     curves: CutCurves  # that these are on
     node: Indices  # (v,) int64 array: of each place that which stands for it: others are at the same place
     edge: Indices  # (v,) int64 array: the cut edge inside which a place lies; -1 of others
     far: Floats  # (v,) float64 array: how far along it, on the lattice
-    stop_row: Indices  # (s,) int64 array: where pieces pass through places on cuts: rows of `pieces`, and places
-    stop_node: Indices  # (s,) int64 array: where pieces pass through places on cuts: rows of `pieces`, and places
-    stop_t: Floats  # (s,) float64 array: the parameters there
+    place: Floats  # (v, 2) float64 array: where it is on the lattice, as far as its border tells
+    stop_row: Indices  # (s,) int64 array: where pieces pass through places on cuts: rows of `pieces`,
+    stop_node: Indices  # (s,) int64 array: and places,
+    stop_t: Floats  # (s,) float64 array: and the parameters there
     radius: Floats  # (v,) float64 array: distances from sites, on the lattice; NaN where no border is
 
 
@@ -45,8 +65,14 @@ class EdgeLines:
         self.source, self.target = edges.points[edges.ends[:, 0]], edges.points[edges.ends[:, 1]]
         way = self.target - self.source
         self.length = np.sqrt((way * way).sum(axis=1))
-        self.forward = way / self.length[:, None]
+        self.forward = way / np.where(self.length > 0, self.length, 1)[:, None]  # beyond all borders both ends are one
         self.normal = np.stack([-self.forward[:, 1], self.forward[:, 0]], axis=1)
+        # of a side of a frame the coordinate that it is at tells
+        largest = np.where(self.source == self.target, np.abs(self.source), np.inf).min(axis=1)
+        size = np.abs(edges.points).max(axis=1)
+        largest = np.where(np.isinf(largest), size[edges.ends].max(axis=1), largest)
+        self.slack = SLACK * np.maximum(largest / LARGEST, 1)  # (m,) by which places may miss edges
+        self.end_slack = SLACK * np.maximum(size / LARGEST, 1)[edges.ends]  # (m, 2) and their ends
 
     def along(self, edge: Indices, places: Floats) -> Floats:
         """(k,) how far along edges places are."""
@@ -65,48 +91,62 @@ class EdgeLines:
         made: Floats = np.where(part < 1 / 2, a + part * (b - a), b - (1 - part) * (b - a))
         return made
 
+    def at_ends(self, edge: Indices, far: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Whether what is so far along edges is at their sources, or before, and at their targets, or beyond."""
+        slack = self.end_slack[edge].T
+        return far <= slack[0], far >= self.length[edge] - slack[1]
 
-def crossings_of(local: LocalDiagrams, edges: CutEdges) -> Crossings:
-    """Find where borders meet the cut edges of their region."""
-    import shapely
 
-    borders, lines = local.borders, EdgeLines(edges)
-    count, corners = len(borders.places), len(edges.points)
-    node = np.arange(count + corners)
-    edge, far = np.full(count + corners, -1, dtype=np.int64), np.zeros(count + corners)
-    tree = shapely.STRtree(shapely.linestrings(np.stack([lines.source, lines.target], axis=1)))
-    region = local.region
-    _draw_places(local, edges, lines, tree, region, (node, edge, far))
-    is_wall = (borders.elements[:, 0] == borders.elements[:, 1]) & (borders.sites[:, 1] != OUTSIDE)
-    rows, cut, pieces, curves = _pairs(local, edges, tree, np.flatnonzero(~is_wall), region)
-    stops, anchors = _stops_at_corners(borders.ends[pieces], curves, lines, edges, (rows, cut), (node, edge, count))
-    row, at, t = _roots(curves, lines, (rows, cut), anchors)
-    inner = lines.along(at, curves[row].place(t))
-    beyond = [inner <= SLACK, inner >= lines.length[at] - SLACK]
+def crossings_between(
+    borders: Borders, edges: CutEdges, lines: EdgeLines, drawn: Drawn, pieces: Indices, curves: CutCurves, pairs: Pairs
+) -> Crossings:
+    """Find where pieces of borders meet cut edges, given pairs of these: rows of the pieces, and edges."""
+    count = len(borders.places)
+    stops, anchors = _stops_at_corners(borders.ends[pieces], curves, lines, edges, pairs, (drawn, count))
+    row, at, t = _roots(curves, lines, pairs, anchors)
+    place = curves[row].place(t)
+    inner = lines.along(at, place)
+    beyond = lines.at_ends(at, inner)
     new = np.flatnonzero(~(beyond[0] | beyond[1]))
     number = np.empty(len(row), dtype=np.int64)
     for end, hit in enumerate(beyond):
         number[hit] = count + edges.ends[at[hit], end]
-    number[new] = len(node) + np.arange(len(new))
-    node = np.concatenate([node, number[new]])
-    edge, far = np.concatenate([edge, at[new]]), np.concatenate([far, inner[new]])
+    number[new] = len(drawn.node) + np.arange(len(new))
+    node = np.concatenate([drawn.node, number[new]])
+    edge, far = np.concatenate([drawn.edge, at[new]]), np.concatenate([drawn.far, inner[new]])
     stop_row, stop_node = np.concatenate([stops[0], row]), np.concatenate([stops[1], number])
     stop_t = np.concatenate([stops[2], t])
-    _join_along_edges(node, edge, far)
+    _join_along_edges(node, edge, far, lines.slack)
     radius = np.concatenate([borders.radius, np.full(len(node) - count, np.nan)])
-    radius[stop_node] = curves[stop_row].radius(stop_t)
-    drawn = np.flatnonzero(node[:count] != np.arange(count))
-    radius[node[drawn]] = borders.radius[drawn]
-    return Crossings(pieces, curves, node, edge, far, stop_row, node[stop_node], stop_t, radius)
+    is_limit = borders.sites[pieces[stop_row], 1] == OUTSIDE
+    radius[stop_node] = np.where(is_limit, borders.level, curves[stop_row].radius(stop_t))
+    moved = np.flatnonzero(node[:count] != np.arange(count))
+    radius[node[moved]] = borders.radius[moved]
+    places = np.concatenate([borders.places, edges.points, place[new]])
+    return Crossings(pieces, curves, node, edge, far, places, stop_row, node[stop_node], stop_t, radius)
+
+
+def crossings_of(local: LocalDiagrams, edges: CutEdges) -> Crossings:
+    """Find where borders meet the cut edges of their region, on whose lattice walls are cut already."""
+    import shapely
+
+    borders, lines = local.borders, EdgeLines(edges)
+    drawn = Drawn.nowhere(len(borders.places) + len(edges.points))
+    tree = shapely.STRtree(shapely.linestrings(np.stack([lines.source, lines.target], axis=1)))
+    region = local.region
+    _draw_places(local, edges, lines, tree, region, drawn)
+    is_wall = (borders.elements[:, 0] == borders.elements[:, 1]) & (borders.sites[:, 1] != OUTSIDE)
+    *pairs, pieces, curves = _pairs(local, edges, tree, np.flatnonzero(~is_wall), region)
+    return crossings_between(borders, edges, lines, drawn, pieces, curves, (pairs[0], pairs[1]))
 
 
 def _draw_places(
-    local: LocalDiagrams, edges: CutEdges, lines: EdgeLines, tree: Any, region: Indices, drawn: tuple[Any, ...]
+    local: LocalDiagrams, edges: CutEdges, lines: EdgeLines, tree: Any, region: Indices, drawn: Drawn
 ) -> None:
     """Tell which places of borders are at ends of cut edges or on these; places of sites are so exactly or not."""
     import shapely
 
-    node, edge, far = drawn
+    node, edge, far = drawn.node, drawn.edge, drawn.far
     borders = local.borders
     count = len(borders.places)
     of_place = np.full(count, -1, dtype=np.int64)
@@ -129,7 +169,7 @@ def _draw_places(
     miss = lines.beside(near, borders.places[point])
     sorting = np.argsort(-miss, kind="stable")  # the nearest comes last, and stays
     edge[point[sorting]], far[point[sorting]] = near[sorting], along[sorting]
-    for end, is_at in ((0, along <= SLACK), (1, along >= lines.length[near] - SLACK)):
+    for end, is_at in enumerate(lines.at_ends(near, along)):
         node[point[is_at]] = count + edges.ends[near[is_at], end]
     edge[:count][node[:count] >= count] = -1
 
@@ -176,18 +216,18 @@ def _stops_at_corners(
     curves: CutCurves,
     lines: EdgeLines,
     edges: CutEdges,
-    pairs: tuple[Indices, Indices],
-    known: tuple[Indices, Indices, int],
+    pairs: Pairs,
+    known: tuple[Drawn, int],
 ) -> tuple[tuple[Indices, Indices, Floats], tuple[Indices, Floats]]:
     """Where pieces pass through ends of cut edges, and for pairs where they are known to meet: number, parameter."""
-    (row, cut), (node, edge, count) = pairs, known
-    own = np.where(ends >= 0, node[ends], -1)
+    (row, cut), (drawn, count) = pairs, known
+    own = np.where(ends >= 0, drawn.node[ends], -1)
     low, high = np.minimum(curves.first, curves.last), np.maximum(curves.first, curves.last)
     anchors: list[tuple[Indices, Floats]] = []
     stops: list[tuple[Indices, Indices, Floats]] = []
     for end, t in ((0, curves.first), (1, curves.last)):
         at = own[row, end]
-        on_edge = (at >= 0) & (edge[at] == cut)
+        on_edge = (at >= 0) & (drawn.edge[at] == cut)
         is_corner = (at[:, None] == count + edges.ends[cut]).any(axis=1)
         hit = np.flatnonzero(on_edge | is_corner)
         anchors.append((hit, t[row[hit]]))
@@ -195,7 +235,7 @@ def _stops_at_corners(
         t, miss = curves[row].nearest(corner[cut])
         at = count + edges.ends[cut, end]
         is_own = (own[row] == at[:, None]).any(axis=1)
-        hit = np.flatnonzero((miss <= SLACK) & (t > low[row]) & (t < high[row]) & ~is_own)
+        hit = np.flatnonzero((miss <= lines.end_slack[cut, end]) & (t > low[row]) & (t < high[row]) & ~is_own)
         anchors.append((hit, t[hit]))
         stops.append((row[hit], at[hit], t[hit]))
     found = tuple(np.concatenate(each) for each in zip(*stops, strict=True))
@@ -205,14 +245,14 @@ def _stops_at_corners(
 
 
 def _roots(
-    curves: CutCurves, lines: EdgeLines, pairs: tuple[Indices, Indices], anchors: tuple[Indices, Floats]
+    curves: CutCurves, lines: EdgeLines, pairs: Pairs, anchors: tuple[Indices, Floats]
 ) -> tuple[Indices, Indices, Floats]:
     """Where else pieces meet edges: rows, edges and parameters."""
     row, cut = pairs
     if not len(row):
         return row, cut, np.empty(0)
     own = curves[row]
-    roots = own.meets(lines.source[cut], lines.normal[cut], SLACK)
+    roots = own.meets(lines.source[cut], lines.normal[cut], lines.slack[cut])
     order = np.argsort(anchors[0], kind="stable")
     pair, t = anchors[0][order], anchors[1][order]
     while pair.size:  # one anchor of each pair at a time takes the root nearest to it
@@ -226,18 +266,19 @@ def _roots(
     found, which = np.nonzero((roots > low[:, None]) & (roots < high[:, None]))
     t = roots[found, which]
     far = lines.along(cut[found], own[found].place(t))
-    is_on = (far > -SLACK) & (far < lines.length[cut[found]] + SLACK)
+    slack = lines.end_slack[cut[found]].T
+    is_on = (far > -slack[0]) & (far < lines.length[cut[found]] + slack[1])
     return row[found[is_on]], cut[found[is_on]], t[is_on]
 
 
-def _join_along_edges(node: Indices, edge: Indices, far: Floats) -> None:
+def _join_along_edges(node: Indices, edge: Indices, far: Floats, slack: Floats) -> None:
     """Let one place stand for all that follow each other within the slack along an edge."""
     inner = np.flatnonzero(edge >= 0)
     order = inner[np.lexsort((inner, far[inner], edge[inner]))]
     if not order.size:
         return
     follows = np.zeros(len(order), dtype=bool)
-    follows[1:] = (edge[order[1:]] == edge[order[:-1]]) & (np.diff(far[order]) <= SLACK)
+    follows[1:] = (edge[order[1:]] == edge[order[:-1]]) & (np.diff(far[order]) <= slack[edge[order[1:]]])
     group = np.cumsum(~follows) - 1
     least = np.full(int(group[-1]) + 1, len(node), dtype=np.int64)
     np.minimum.at(least, group, order)

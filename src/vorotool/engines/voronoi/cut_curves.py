@@ -1,4 +1,4 @@
-"""The curves of borders, many at once, with parameters along them: straight lines, parabolas, circles."""
+"""The curves of borders (paper, section 3.2), with parameters along them: straight lines, parabolas, circles."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders
-from vorotool.engines.voronoi.curves import parabolas_of
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 
@@ -17,6 +17,43 @@ Indices = NDArray[np.int64]
 
 FAR = 2.0**34
 """Beyond all that is on the lattice: ends that are farther away tell less of a line than its two elements do."""
+
+
+@plain(eq=False)
+class Parabolas:
+    """Parabolas, each about a focus, in units of its own: t along the directrix from below the focus."""
+
+    focus: Floats  # (k, 2) float64 array: on the lattice
+    way: Floats  # (k, 2) float64 array: unit vector along the directrix, the focus on its left
+    height: Floats  # (k,) float64 array: above 0
+
+    def parameter(self, place: Floats, radius: Floats) -> Floats:
+        """(k,) t of places; on the steep sides of a sharp parabola the radius tells more than the place."""
+        offset = place - self.focus
+        t = self.way[:, 0] * offset[:, 0] + self.way[:, 1] * offset[:, 1]
+        steep = self.height * radius < np.abs(t) * np.abs(place).sum(axis=1)
+        exact = np.copysign(np.sqrt(np.maximum(self.height * (2 * radius - self.height), 0)), t)
+        found: Floats = np.where(steep, exact, t)
+        return found
+
+
+def parabolas_of(graph: PlanarGraph, elements: Indices) -> tuple[NDArray[np.bool_], Parabolas]:
+    """Tell which pairs of elements have a parabola between them, and give these."""
+    count = len(graph.points)
+    point, segment = np.sort(elements, axis=1).T
+    mixed = np.flatnonzero((point < count) & (segment >= count))
+    ends = graph.segments[segment[mixed] - count]
+    focus = graph.points[point[mixed]].astype(np.int64)
+    a, b = (graph.points[end].astype(np.int64) for end in ends.T)
+    along, offset = b - a, focus - a
+    height = along[:, 0] * offset[:, 1] - along[:, 1] * offset[:, 0]
+    above = height != 0
+    along = np.where(height[:, None] < 0, -along, along)[above].astype(np.float64)
+    length = np.sqrt((along * along).sum(axis=1))
+    is_parabola = np.zeros(len(elements), dtype=bool)
+    is_parabola[mixed[above]] = True
+    high = np.abs(height[above]).astype(np.float64) / length
+    return is_parabola, Parabolas(focus[above].astype(np.float64), along / length[:, None], high)
 
 
 @plain(eq=False)
@@ -30,10 +67,10 @@ class CutCurves:
     round: Floats  # (k,) float64 array: radius of a circle; 0 of others
     first: Floats  # (k,) float64 array: parameters at source and target, which may be infinite
     last: Floats  # (k,) float64 array: parameters at source and target, which may be infinite
-    # (k, 2) float64 array: a place of an element of each line, which distances are measured from; NaN where that is a
-    # segment
-    origin: Floats
-    line: Floats  # (k, 3) float64 array: normal form of the segment that distances are measured from otherwise
+    origin: Floats  # (k, 2) float64 array: a point that distances are measured from; NaN where that is a segment
+    line: (
+        Floats  # (k, 3) float64 array: normal form of the segment that they are measured from otherwise; 0 along walls
+    )
 
     def __getitem__(self, rows: NDArray[Any]) -> CutCurves:
         """Some of the curves, which may be repeated."""
@@ -100,8 +137,8 @@ class CutCurves:
         made: Floats = np.stack([a, corners[0], corners[1], b, a], axis=1) + self.base[:, None]
         return made
 
-    def meets(self, place: Floats, normal: Floats, slack: float) -> Floats:
-        """(k, 2) parameters where each meets a straight line; NaN where it does not."""
+    def meets(self, place: Floats, normal: Floats, slack: Floats) -> Floats:
+        """(k, 2) parameters where each meets a straight line, missed by some slack at most; NaN elsewhere."""
         across = normal[:, 1] * self.way[:, 0] - normal[:, 0] * self.way[:, 1]
         is_bent = self.height > 0
         h = np.where(is_bent, self.height, 1)
@@ -113,7 +150,7 @@ class CutCurves:
         a, c = np.where(is_round, far - self.round * b, a), np.where(is_round, far + self.round * b, c)
         b = np.where(is_round, 2 * self.round * across, b)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            discriminant = b * b - 4 * a * c
+            discriminant = np.where(is_round, 4 * (self.round - far) * (self.round + far), b * b - 4 * a * c)
             touches = (np.abs(discriminant) <= 4 * np.abs(a) * slack) & (a != 0)
             touches = np.where(is_round, np.abs(np.abs(far) - self.round) <= slack, touches)
             q = -(b + np.copysign(np.sqrt(np.maximum(discriminant, 0)), b)) / 2
@@ -163,8 +200,14 @@ class CutCurves:
         return t, miss
 
 
+def controls_of(borders: Borders, graph: PlanarGraph) -> Floats:
+    """(b, 2) control points of the Bezier curves that the pieces of borders are, on the lattice; NaN of lines."""
+    core = _core.kernel.PlanarGraph(graph.points, graph.segments, graph.segment_faces)
+    return _core.voronoi.control_points(core, borders.ends, borders.elements, borders.places, borders.radius, 1, None)
+
+
 def cut_curves(borders: Borders, graph: PlanarGraph, pieces: Indices) -> CutCurves:
-    """Give the curves that some pieces of borders, none of them walls, are on."""
+    """Give the curves that some pieces of borders are on."""
     elements, ends = borders.elements[pieces], borders.ends[pieces]
     count = len(graph.points)
     places = np.concatenate([borders.places, [[0.0, 0.0]]])  # of -1, at infinity, none
@@ -238,16 +281,18 @@ def _are_apart(elements: Indices, graph: PlanarGraph) -> NDArray[np.bool_]:
 
 
 def _measured_from(graph: PlanarGraph, elements: Indices) -> tuple[Floats, Floats]:
-    """A point to measure distances from where one of two elements is one, else the line along the first segment."""
+    """Points to measure distances from, the left one of two; else the line along the left segment; nothing of walls."""
+    left, right = elements.T
     count = len(graph.points)
-    low = elements.min(axis=1)
-    is_point = low < count
+    at = np.where(left < count, left, right)
+    is_point = at < count
     points = graph.points.astype(np.float64)
     origin = np.full((len(elements), 2), np.nan)
-    origin[is_point] = points[low[is_point]]
+    origin[is_point] = points[at[is_point]]
     line = np.zeros((len(elements), 3))
-    one, other = _ends(graph, low[~is_point])
+    apart = np.flatnonzero(~is_point & (left != right))
+    one, other = _ends(graph, left[apart])
     way = points[other] - points[one]
     normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / np.sqrt((way * way).sum(axis=1))[:, None]
-    line[~is_point] = np.column_stack([normal, (normal * points[one]).sum(axis=1)])
+    line[apart] = np.column_stack([normal, (normal * points[one]).sum(axis=1)])
     return origin, line

@@ -6,14 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.voronoi.borders import sides_of_segments
-from vorotool.engines.voronoi.crossings import SLACK, Crossings, EdgeLines
-from vorotool.engines.voronoi.curves import controls_of
+from vorotool.engines.voronoi.borders import Borders, sides_of_segments
+from vorotool.engines.voronoi.crossings import SLACK, Crossings, EdgeLines, crossings_of
+from vorotool.engines.voronoi.cut_curves import controls_of
 from vorotool.engines.voronoi.joint_graph import packed
 from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
 from vorotool.engines.voronoi.regions import NOBODY, CutEdges, faces_of_sides
 from vorotool.numeric.ragged import owners, starts_of
 from vorotool.plain import plain
+from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
@@ -25,16 +26,22 @@ UNKNOWN = -2
 
 @plain(eq=False)
 class Pieces:
-    """Parts of borders between places."""
+    """Parts of borders between places: first those that are whole, then those of `Crossings.pieces`."""
 
     piece: Indices  # (k,) int64 array: of the borders
     ends: Indices  # (k, 2) int64 array: source and target; -1 at infinity
-    t: Floats  # (k, 2) float64 array: their parameters; NaN of pieces that are whole
-    row: Indices  # (k,) int64 array: of `Crossings.pieces`; -1 of those that are not among them
+    row: Indices  # (c,) int64 array: of `Crossings.pieces`, of the last ones
+    t: Floats  # (c, 2) float64 array: parameters of their ends
 
-    def __getitem__(self, chosen: NDArray[np.bool_]) -> Pieces:
-        """Some of them."""
-        return Pieces(self.piece[chosen], self.ends[chosen], self.t[chosen], self.row[chosen])
+    @property
+    def whole(self) -> int:
+        """How many are whole."""
+        return len(self.piece) - len(self.row)
+
+    def __getitem__(self, chosen: Indices) -> Pieces:
+        """Some of them, ascending."""
+        cut = chosen[np.searchsorted(chosen, self.whole) :] - self.whole
+        return Pieces(self.piece.take(chosen), self.ends.take(chosen, axis=0), self.row[cut], self.t[cut])
 
 
 @plain(eq=False)
@@ -48,17 +55,18 @@ class CutPieces:
     sites: Indices
 
 
-def pieces_between(local: LocalDiagrams, found: Crossings) -> Pieces:
-    """Cut borders at all places where they meet cuts; what has no length is left out."""
-    borders = local.borders
-    ends = np.where(borders.ends >= 0, found.node[borders.ends], -1)
-    whole = np.ones(len(ends), dtype=bool)
-    whole[found.pieces] = False
+def pieces_between(borders: Borders, found: Crossings, whole: NDArray[np.bool_]) -> Pieces:
+    """Cut borders at all places where they meet cuts, but for whole ones; what has no length is left out."""
+    node = np.append(found.node, -1)  # that of -1, at infinity
     kept = np.flatnonzero(whole)
-    row = np.arange(len(found.pieces))
-    curves = found.curves
+    ends = node.take(borders.ends.take(kept, axis=0))
+    is_long = (ends[:, 0] != ends[:, 1]) | (ends[:, 0] < 0)
+    if not is_long.all():
+        kept, ends = kept[is_long], ends[is_long]
+    source, target = node[borders.ends[found.pieces]].T
+    row, curves = np.arange(len(found.pieces)), found.curves
     rows = np.concatenate([row, found.stop_row, row])
-    nodes = np.concatenate([ends[found.pieces, 0], found.stop_node, ends[found.pieces, 1]])
+    nodes = np.concatenate([source, found.stop_node, target])
     t = np.concatenate([curves.first, found.stop_t, curves.last])
     rank = np.concatenate([np.zeros(len(row)), np.ones(len(found.stop_row)), np.full(len(row), 2)])
     forward = np.where(curves.first <= curves.last, 1.0, -1.0)
@@ -68,21 +76,18 @@ def pieces_between(local: LocalDiagrams, found: Crossings) -> Pieces:
     a, b = nodes[is_next], nodes[is_next + 1]
     is_next = is_next[(a != b) | (a < 0)]
     parts = np.stack([nodes[is_next], nodes[is_next + 1]], axis=1)
-    long = ends[kept, 0] != ends[kept, 1]
-    long |= ends[kept, 0] < 0
-    kept = kept[long]
     return Pieces(
         np.concatenate([kept, found.pieces[rows[is_next]]]),
-        np.concatenate([ends[kept], parts]),
-        np.concatenate([np.full((len(kept), 2), np.nan), np.stack([t[is_next], t[is_next + 1]], axis=1)]),
-        np.concatenate([np.full(len(kept), -1), rows[is_next]]),
+        np.concatenate([ends, parts]),
+        rows[is_next],
+        np.stack([t[is_next], t[is_next + 1]], axis=1),
     )
 
 
-def cut_pieces(edges: CutEdges, found: Crossings, count: int) -> CutPieces:
-    """Divide cut edges at all places where borders meet them."""
+def cut_pieces(edges: CutEdges, found: Crossings, count: int, is_cut: NDArray[np.bool_]) -> CutPieces:
+    """Divide cut edges at places inside."""
     number = np.arange(len(edges.ends))
-    inner = np.flatnonzero((found.edge >= 0) & (found.node == np.arange(len(found.node))))
+    inner = np.flatnonzero(is_cut[:-1] & (found.edge >= 0))
     edge = np.concatenate([number, found.edge[inner], number])
     nodes = np.concatenate([count + edges.ends[:, 0], inner, count + edges.ends[:, 1]])
     far = np.concatenate([np.full(len(number), -np.inf), found.far[inner], np.full(len(number), np.inf)])
@@ -95,55 +100,56 @@ def cut_pieces(edges: CutEdges, found: Crossings, count: int) -> CutPieces:
 
 
 class Overlay:
-    """Parts of borders and cuts put together."""
+    """Parts of borders and of cuts put together: those of borders that are within what is cut, and not along it."""
 
-    def __init__(self, local: LocalDiagrams, edges: CutEdges, found: Crossings) -> None:
-        self.local, self.edges, self.found = local, edges, found
-        self.count = len(local.borders.places)
+    has_parts = False
+    """Whether parts of cells are those of the borders; else what a site has is one part."""
+
+    def __init__(
+        self, borders: Borders, graph: PlanarGraph, edges: CutEdges, region: Indices, control: Floats, found: Crossings
+    ) -> None:
+        self.borders, self.graph, self.edges, self.found = borders, graph, edges, found
+        self.region = region  # (b,) of each border
+        self.control = control  # (b, 2) of each border, on the lattice
+        self.count = len(borders.places)
         self.lines = EdgeLines(edges)
-        self.cuts = cut_pieces(edges, found, self.count)
-        self.region = local.region
-        pieces = pieces_between(local, found)
-        self._tell_walls()
+        # (v + 1,) whether places are on cuts, the last one of -1, at infinity
+        self.is_cut = np.append((found.edge >= 0) & (found.node == np.arange(len(found.node))), False)
+        self.is_cut[self.count : self.count + len(edges.points)] = True
+        self.cuts = cut_pieces(edges, found, self.count, self.is_cut)
+
+    def put(self, pieces: Pieces) -> None:
+        """Take parts of borders; with those that cuts run along these are told whose their sides are."""
         along = self._along(pieces)
         self._tell_borders(pieces, along)
-        pieces = pieces[along < 0]
-        self.pieces = pieces[self._is_kept(pieces)]
+        kept = self._is_kept(pieces) & (along < 0)
+        self.pieces = pieces if kept.all() else pieces[np.flatnonzero(kept)]
+
+    def places(self) -> tuple[Floats, Floats]:
+        """(v, 2) where all places are in input units, and where the input has them, by its vertices."""
+        raise NotImplementedError
+
+    def _is_kept(self, pieces: Pieces) -> NDArray[np.bool_]:
+        raise NotImplementedError
 
     # ---- what lies along cuts ---------------------------------------------------------------------------
-    def _tell_walls(self) -> None:
-        """Note the sites beside cuts that are walls."""
-        local, edges = self.local, self.edges
-        graph = local.owned.graph
-        if not len(graph):
-            return
-        key = np.sort(packed(edges.points.astype(np.int64))[edges.ends], axis=1)
-        walls = np.sort(packed(graph.points)[graph.segments].reshape(-1, 2), axis=1)
-        corners, number = np.unique(np.concatenate([key, walls]).ravel(), return_inverse=True)
-        number = number.reshape(-1, 2)
-        pair = number[:, 0] * len(corners) + number[:, 1]
-        of_edge, of_wall = pair[: len(key)], pair[len(key) :]
-        chosen = np.flatnonzero(np.isin(of_wall, of_edge))
-        order = np.argsort(of_edge, kind="stable")
-        edge = order[np.searchsorted(of_edge[order], of_wall[chosen])]
-        _, sites, _ = sides_of_segments(local.owned)
-        same = (graph.points[graph.segments[chosen, 0]] == edges.points[edges.ends[edge, 0]]).all(axis=1)
-        told = np.full((len(edges.ends), 2), UNKNOWN, dtype=np.int64)
-        for hand in (0, 1):
-            own = edges.regions[edge, hand] == local.segment_region[chosen]
-            told[edge[own], hand] = np.where(same, sites[chosen, hand], sites[chosen, 1 - hand])[own]
-        self.cuts.sites[:] = np.where(self.cuts.sites == UNKNOWN, told[self.cuts.edge], self.cuts.sites)
-
     def _along(self, pieces: Pieces) -> Indices:
         """(k,) the cut edge that a part of a border runs along; -1 where it does not."""
+        edge = np.full(len(pieces.piece), -1, dtype=np.int64)
+        both = np.flatnonzero(self.is_cut[pieces.ends].all(axis=1))
+        if both.size:
+            edge[both] = self._edge_of(pieces[both])
+        return edge
+
+    def _edge_of(self, pieces: Pieces) -> Indices:
+        """(k,) the same of parts between places on cuts."""
         found, ends = self.found, self.edges.ends
         a, b = pieces.ends.T
         straight = np.ones(len(a), dtype=bool)
-        bent = np.flatnonzero(pieces.row >= 0)
-        curves = found.curves[pieces.row[bent]]
-        finite = np.isfinite(pieces.t[bent, 0]) & np.isfinite(pieces.t[bent, 1])
-        t = np.where(finite[:, None], pieces.t[bent], 0)
-        straight[bent] = finite & (curves.depth(t[:, 0], t[:, 1]) <= SLACK)
+        curves = found.curves[pieces.row]
+        finite: NDArray[np.bool_] = np.logical_and(*np.isfinite(pieces.t).T)
+        t = np.where(finite[:, None], pieces.t, 0)
+        straight[pieces.whole :] = finite & (curves.depth(t[:, 0], t[:, 1]) <= SLACK)
         edge = np.full(len(a), -1, dtype=np.int64)
         corners = len(self.edges.points)
 
@@ -187,7 +193,7 @@ class Overlay:
         edge = along[chosen]
         first, last = (self._far(node, edge) for node in pieces.ends[chosen].T)
         piece = pieces.piece[chosen]
-        sites, region = self.local.borders.sites[piece], self.region[piece]
+        sites, region = self.borders.sites[piece], self.region[piece]
         cuts = self.cuts
         start = np.searchsorted(cuts.edge, np.arange(len(self.edges.ends) + 1))
         sizes = start[edge + 1] - start[edge]
@@ -212,14 +218,69 @@ class Overlay:
         places: Floats = self.lines.source[edge, None] + (far / self.lines.length[edge, None])[..., None] * way[:, None]
         return places, last - first
 
+
+class RegionOverlay(Overlay):
+    """The same between regions, whose sides are on the lattice of the sites."""
+
+    def __init__(self, local: LocalDiagrams, edges: CutEdges, joint: PlanarGraph) -> None:
+        borders, graph = local.borders, local.owned.graph
+        found = crossings_of(local, edges)
+        super().__init__(borders, graph, edges, local.region, controls_of(borders, graph), found)
+        self.local, self.joint = local, joint
+        self._tell_walls()
+        whole = np.ones(len(borders.ends), dtype=bool)
+        whole[found.pieces] = False
+        self.put(pieces_between(borders, found, whole))
+        found.radius[self.cuts.ends[edges.is_enclosure[self.cuts.edge]]] = np.nan
+
+    def places(self) -> tuple[Floats, Floats]:
+        """(v, 2) places in input units, and as given, those on cuts between ends that are."""
+        borders, edges = self.borders, self.edges
+        return (
+            self._placed(self.graph.coordinates(borders.places).reshape(-1, 2), edges.places),
+            self._placed(self.joint.places_as_given(borders.places), edges.given),
+        )
+
+    def _placed(self, of_borders: Floats, of_cuts: Floats) -> Floats:
+        """Places of borders, of ends of cut edges, and of what is between these."""
+        found = self.found
+        inner = np.flatnonzero(found.edge >= 0)
+        places = np.full((len(found.node), 2), np.nan)
+        places[: self.count] = of_borders
+        places[self.count : self.count + len(of_cuts)] = of_cuts
+        places[inner] = self.lines.place(of_cuts[self.edges.ends], found.edge[inner], found.far[inner])
+        return places
+
+    def _tell_walls(self) -> None:
+        """Note the sites beside cuts that are walls."""
+        local, edges = self.local, self.edges
+        graph = local.owned.graph
+        if not len(graph):
+            return
+        key = np.sort(packed(edges.points.astype(np.int64))[edges.ends], axis=1)
+        walls = np.sort(packed(graph.points)[graph.segments].reshape(-1, 2), axis=1)
+        corners, number = np.unique(np.concatenate([key, walls]).ravel(), return_inverse=True)
+        number = number.reshape(-1, 2)
+        pair = number[:, 0] * len(corners) + number[:, 1]
+        of_edge, of_wall = pair[: len(key)], pair[len(key) :]
+        chosen = np.flatnonzero(np.isin(of_wall, of_edge))
+        order = np.argsort(of_edge, kind="stable")
+        edge = order[np.searchsorted(of_edge[order], of_wall[chosen])]
+        _, sites, _ = sides_of_segments(local.owned)
+        same = (graph.points[graph.segments[chosen, 0]] == edges.points[edges.ends[edge, 0]]).all(axis=1)
+        told = np.full((len(edges.ends), 2), UNKNOWN, dtype=np.int64)
+        for hand in (0, 1):
+            own = edges.regions[edge, hand] == local.segment_region[chosen]
+            told[edge[own], hand] = np.where(same, sites[chosen, hand], sites[chosen, 1 - hand])[own]
+        self.cuts.sites[:] = np.where(self.cuts.sites == UNKNOWN, told[self.cuts.edge], self.cuts.sites)
+
     # ---- what lies in its region ------------------------------------------------------------------------
     def _is_kept(self, pieces: Pieces) -> NDArray[np.bool_]:
         """Whether parts of borders are in their region: all that hangs together between cuts is, or is not."""
         import shapely
 
         count, nodes = len(pieces.piece), len(self.found.node)
-        is_cut = np.zeros(nodes + 1, dtype=bool)
-        is_cut[self.cuts.ends] = True
+        is_cut = self.is_cut.copy()
         is_cut[-1] = True  # at infinity
         piece, end = np.nonzero(~is_cut[pieces.ends])
         pairs = np.stack([piece, count + pieces.ends[piece, end]], axis=1)
@@ -243,16 +304,15 @@ class Overlay:
 
     def _middles(self, pieces: Pieces) -> tuple[Floats, Floats]:
         """Places in the middle of parts of borders, and how far their ends are apart."""
-        places = np.concatenate([self.local.borders.places, self.edges.points])
+        places = self.found.place
         middle, length = np.zeros((len(pieces.piece), 2)), np.zeros(len(pieces.piece))
-        bent = np.flatnonzero(pieces.row >= 0)
-        curves = self.found.curves[pieces.row[bent]]
-        t = np.where(np.isfinite(pieces.t[bent]), pieces.t[bent], 0)
+        curves, bent = self.found.curves[pieces.row], slice(pieces.whole, None)
+        t = np.where(np.isfinite(pieces.t), pieces.t, 0)
         middle[bent] = curves.place(t.mean(axis=1))
         length[bent] = _norm(curves.place(t[:, 1]) - curves.place(t[:, 0]))
-        plain = np.flatnonzero((pieces.row < 0) & (pieces.ends >= 0).all(axis=1))
+        plain = np.flatnonzero((pieces.ends[: pieces.whole] >= 0).all(axis=1))
         a, b = (places[node] for node in pieces.ends[plain].T)
-        control = controls_of(self.local.borders, self.local.owned.graph)[pieces.piece[plain]]
+        control = self.control[pieces.piece[plain]]
         control = np.where(np.isnan(control), (a + b) / 2, control)
         middle[plain] = (a + 2 * control + b) / 4
         length[plain] = _norm(b - a)

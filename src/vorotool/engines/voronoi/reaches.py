@@ -11,7 +11,7 @@ from vorotool.engines.voronoi.borders import ridges_of
 from vorotool.engines.voronoi.crossings import crossings_of
 from vorotool.engines.voronoi.cut_arguments import given_cuts
 from vorotool.engines.voronoi.diagram import diagram_of
-from vorotool.engines.voronoi.frame_cut import cut_borders
+from vorotool.engines.voronoi.frame_cut import FrameOverlay
 from vorotool.engines.voronoi.joint_graph import joint_graph
 from vorotool.engines.voronoi.local_diagrams import local_diagrams
 from vorotool.engines.voronoi.measures import graph_again
@@ -67,9 +67,9 @@ def _take_vertices(reach: Floats, cells: VoronoiMap) -> None:
 def _take_ridges_in_frame(reach: Floats, cells: VoronoiMap) -> None:
     owned = graph_again(cells)
     ridges = ridges_of(owned, diagram_of(owned))
-    cut = cut_borders(ridges, owned.graph, cells.frame)
-    for radius in cut.radius[cut.ends].T:
-        _take(reach, cells, ridges.sites[cut.piece, 0], radius)
+    cut = FrameOverlay(ridges, owned.graph, cells.frame)
+    for radius in owned.graph.scale * cut.found.radius[cut.pieces.ends].T:
+        _take(reach, cells, ridges.sites[cut.pieces.piece, 0], radius)
 
 
 def _take_ridges_between_cuts(reach: Floats, cells: VoronoiMap) -> None:

@@ -9,23 +9,26 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vorotool.convert.sites import as_sites
-from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of, without_lost
-from vorotool.engines.voronoi.borders import Borders, borders_of
-from vorotool.engines.voronoi.cut_arguments import given_cuts
+from vorotool.convert.sites import Sites, as_sites
+from vorotool.engines.voronoi.assembly import Arcs, Rings, cells_of, rings_of, without_lost
+from vorotool.engines.voronoi.borders import borders_of
+from vorotool.engines.voronoi.cut_arguments import GivenCuts, frame_of, given_cuts
+from vorotool.engines.voronoi.cut_map import CutMap, cut_map
 from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
-from vorotool.engines.voronoi.frame_cut import CutBorders, cut_borders
-from vorotool.engines.voronoi.frame_ring import UNKNOWN, frame_ring
+from vorotool.engines.voronoi.frame_cut import FrameOverlay
 from vorotool.engines.voronoi.holes import shells_of
-from vorotool.engines.voronoi.map_between_cuts import map_between_cuts
+from vorotool.engines.voronoi.joint_graph import joint_graph
+from vorotool.engines.voronoi.local_diagrams import local_diagrams
 from vorotool.engines.voronoi.moves import moved_vertices
 from vorotool.engines.voronoi.nearest_site import site_at
-from vorotool.errors import UsageError
+from vorotool.engines.voronoi.overlay import RegionOverlay
+from vorotool.engines.voronoi.regions import regions_of
+from vorotool.errors import InputError, UsageError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress
-from vorotool.types.box import Extent, as_extent, check_lengths, corners_of, default_frame, is_extent
+from vorotool.types.box import Extent, as_extent, check_lengths, default_frame, is_extent
 from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 if TYPE_CHECKING:
@@ -131,13 +134,12 @@ def voronoi(
     limit = None if max_distance is None else _checked_limit(max_distance, given.polygons.xy)
     cuts = given_cuts(clip, enclosures, given.polygons.crs)
     if cuts.are_there:
-        made = map_between_cuts(given, cuts, given_frame, limit, threads=threads, progress=progress)
-        arcs, rings, is_cut, extent = made.arcs, made.rings, made.is_cut, made.frame
+        arcs, extent = _map_between_cuts(given, cuts, given_frame, limit, threads, progress)
+        rings = rings_of(arcs)
     else:
         extent = given_frame or default_frame(given.polygons, limit)
         owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
         arcs, rings = _map(owned, extent, limit, threads, progress)
-        is_cut = (arcs.sites == OUTSIDE).any(axis=1)
     cells = cells_of(rings, shells_of(rings, arcs), given.count)
     vertices = moved_vertices(arcs, rings)
     return VoronoiMap(
@@ -147,7 +149,7 @@ def voronoi(
         arcs.sites.astype(np.int32),
         arcs.control,
         without_lost(arcs.center, vertices, arcs.ends, arcs.sites[:, 0] != OUTSIDE),
-        is_cut,
+        arcs.is_cut,
         cells.ring_arcs,
         cells.ring_starts,
         cells.polygon_starts,
@@ -186,30 +188,40 @@ def _checked_limit(max_distance: float, xy: NDArray[np.float64]) -> float:
     return limit
 
 
+def _map_between_cuts(
+    given: Sites, cuts: GivenCuts, frame: Extent | None, limit: float | None, threads: int, progress: Progress
+) -> tuple[Arcs, Extent]:
+    """Make the diagrams of all regions that a frame, a clip and enclosures leave, in one map."""
+    frame = cuts.frame_for(given.polygons, frame, limit)
+    joint = joint_graph(
+        given.polygons, cuts.sides_near(frame), cuts.clip, cuts.enclosures, threads=threads, progress=progress
+    )
+    if cuts.clip is not None and not joint.clips:
+        raise InputError("the clip has no area: give polygons that have one")
+    regions = regions_of(joint, given.site, given.count)
+    local = local_diagrams(
+        joint.sites, given.site, given.count, regions, limit=limit, threads=threads, progress=progress
+    )
+    arcs = cut_map(RegionOverlay(local, regions.edges, joint.graph)).arcs()
+    return arcs, frame_of(regions.edges, frame, cuts.clip)
+
+
 def _map(owned: OwnedGraph, frame: Extent, limit: float | None, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
     if limit is not None:
         owned = _on_fine_lattice(owned, limit)
     diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
     if limit is not None:
         borders = borders_of(owned, diagram, level=limit / owned.graph.scale, threads=threads)
-        cut = cut_borders(borders, owned.graph, frame)
-        if (borders.sites[cut.piece] == OUTSIDE).any() or _is_beyond(owned, borders.level, frame):
-            return _cells_of(owned, cut, _beside(borders, cut), borders.level, frame)
+        overlay = FrameOverlay(borders, owned.graph, frame)
+        if (borders.sites[overlay.pieces.piece] == OUTSIDE).any() or _is_beyond(owned, borders.level, frame):
+            made, level = CutMap(overlay), borders.level
+            del diagram, borders, overlay
+            return _cells_of(owned, made, level, frame)
     borders = borders_of(owned, diagram, threads=threads)
     del diagram  # large, as borders are: what is made of them goes on alone
-    cut = cut_borders(borders, owned.graph, frame)
-    beside, level = _beside(borders, cut), borders.level
+    made, level = CutMap(FrameOverlay(borders, owned.graph, frame)), borders.level
     del borders
-    return _cells_of(owned, cut, beside, level, frame)
-
-
-def _beside(borders: Borders, cut: CutBorders) -> tuple[Indices, Indices, Indices]:
-    """Sites, parts and order of what is cut."""
-    return (
-        borders.sites.take(cut.piece, axis=0).astype(np.int64),
-        borders.parts.take(cut.piece, axis=0),
-        borders.order.take(cut.piece, axis=0),
-    )
+    return _cells_of(owned, made, level, frame)
 
 
 def _is_beyond(owned: OwnedGraph, level: float, frame: Extent) -> bool:
@@ -227,17 +239,17 @@ def _on_fine_lattice(owned: OwnedGraph, limit: float) -> OwnedGraph:
     return replace(owned, graph=replace(graph, scale=math.ldexp(1.0, int(np.frexp(limit)[1]) - _BITS)))
 
 
-def _cells_of(
-    owned: OwnedGraph, cut: CutBorders, beside: tuple[Indices, Indices, Indices], level: float, frame: Extent
-) -> tuple[Arcs, Rings]:
-    ring = frame_ring(cut, *beside, corners_of(frame))
-    if (ring.sides == UNKNOWN).any():
-        inside = arcs_of(cut, replace(ring, sides=np.full_like(ring.sides, OUTSIDE)), *beside)
-        rings = rings_of(inside)
-        ring.sides[:] = found = _of_frame(owned, level, frame, rings)
+def _cells_of(owned: OwnedGraph, made: CutMap, level: float, frame: Extent) -> tuple[Arcs, Rings]:
+    """Give the arcs and rings of a map; along a frame that no border meets those of what its inside tells."""
+    if made.unknown.size:
+        made.tell(OUTSIDE, OUTSIDE)
+        arcs = made.arcs()
+        rings = rings_of(arcs)
+        found = _of_frame(owned, level, frame, rings)
         if found[0] == OUTSIDE:
-            return inside, rings
-    arcs = arcs_of(cut, ring, *beside)
+            return arcs, rings
+        made.tell(*found)
+    arcs = made.arcs()
     return arcs, rings_of(arcs)
 
 
