@@ -23,8 +23,11 @@ SLACK = 2.0**-12
 """Of a step of the lattice: a place is on an edge that it misses by less. It is a thousand times what the coordinates
 there, below 2^30, are rounded by, and what is drawn to an edge so moves by 2^-43 of the extent."""
 
-LARGEST = 2.0**30
-"""Coordinates up to which that is so; beyond them, where sides of a frame are, the slack grows with them."""
+ROUNDING = 2.0**-42
+"""Of coordinates on the lattice: a thousand times what they are rounded by, of those of frames beyond 2^30, too."""
+
+ROUNDING_GIVEN = 2.0**-51
+"""Of coordinates in input units: what differs by less may be the same number there."""
 
 
 @plain(eq=False)
@@ -67,12 +70,16 @@ class EdgeLines:
         self.length = np.sqrt((way * way).sum(axis=1))
         self.forward = way / np.where(self.length > 0, self.length, 1)[:, None]  # beyond all borders both ends are one
         self.normal = np.stack([-self.forward[:, 1], self.forward[:, 0]], axis=1)
-        # of a side of a frame the coordinate that it is at tells
-        largest = np.where(self.source == self.target, np.abs(self.source), np.inf).min(axis=1)
-        size = np.abs(edges.points).max(axis=1)
-        largest = np.where(np.isinf(largest), size[edges.ends].max(axis=1), largest)
-        self.slack = SLACK * np.maximum(largest / LARGEST, 1)  # (m,) by which places may miss edges
-        self.end_slack = SLACK * np.maximum(size / LARGEST, 1)[edges.ends]  # (m, 2) and their ends
+        # what coordinates are rounded by: of a side of a frame the one that it is at tells
+        off = np.maximum(SLACK, ROUNDING * np.abs(edges.points))
+        if edges.scale is not None:
+            with np.errstate(over="ignore"):
+                given = ROUNDING_GIVEN * np.abs(edges.places) / edges.scale
+            off = np.maximum(off, np.minimum(given, np.abs(edges.points)))
+        same = self.source == self.target
+        self.slack = np.where(same, off[edges.ends[:, 0]], np.inf).min(axis=1)  # (m,) that places may miss edges by
+        self.slack = np.where(same.any(axis=1), self.slack, off[edges.ends].max(axis=(1, 2)))
+        self.end_slack = off.max(axis=1)[edges.ends]  # (m, 2) and their ends
 
     def along(self, edge: Indices, places: Floats) -> Floats:
         """(k,) how far along edges places are."""

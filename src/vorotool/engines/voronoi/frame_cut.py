@@ -36,7 +36,7 @@ class FrameBox:
 
     def __init__(self, frame: Extent, graph: PlanarGraph) -> None:
         self.corners = corners_of(frame)
-        self.low, self.high = self.corners[0], self.corners[2]
+        self.low, self.high, self.scale = self.corners[0], self.corners[2], graph.scale
         with np.errstate(over="ignore"):
             on_lattice = (self.corners - np.array(graph.origin)) / graph.scale
         self.on_lattice = on_lattice.clip(-_FARTHEST, _FARTHEST)
@@ -45,7 +45,8 @@ class FrameBox:
         """Its sides, the only region on their left."""
         ends = np.stack([np.arange(SIDES), np.roll(np.arange(SIDES), -1)], axis=1)
         regions = np.tile([0, NOBODY], (SIDES, 1))
-        return CutEdges(self.on_lattice, self.corners, self.corners, ends, regions, np.zeros(SIDES, dtype=bool))
+        none = np.zeros(SIDES, dtype=bool)
+        return CutEdges(self.on_lattice, self.corners, self.corners, ends, regions, none, self.scale)
 
     def is_inside(self, places: Floats) -> NDArray[np.bool_]:
         """(n,) whether places in input units are strictly inside."""
@@ -101,10 +102,9 @@ class FrameOverlay(Overlay):
         places[at[on_side]] = given[on_side]  # the lattice may have them beside it
         side = np.full(len(places), -1, dtype=np.int64)
         near = box.near_sides(places, graph.scale * float(lines.slack.max()))
-        is_site = borders.radius[near] == 0  # these are on a side where the input has them there
+        is_site = borders.radius[near] == 0  # which nothing but rounding to doubles draws to sides
         rounded = np.where(is_site[:, None], np.nan, borders.places[near])
         side[near] = box.side_of(places[near], rounded, lines.slack)
-        side[at[~on_side]] = -1
         drawn = _drawn(box, borders, places, side, lines)
         control = controls_of(borders, graph)
         state = _states(borders, places, graph, control, box)

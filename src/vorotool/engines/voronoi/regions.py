@@ -32,6 +32,7 @@ class CutEdges:
     ends: Indices  # (m, 2) int64 array: source and target, numbers of points
     regions: Indices  # (m, 2) int64 array: left and right, two different ones; `NOBODY` where nothing is shared out
     is_enclosure: NDArray[np.bool_]  # (m,) bool array: whether an enclosure runs along it
+    scale: float | None = None  # the step of the lattice, where places are given in input units, and not on it
 
 
 @plain(eq=False)
