@@ -88,9 +88,9 @@ def test_walls_meet_the_frame_at_vertices_that_are_on_it(least, most, lean):
 def test_a_ring_that_might_turn_over_stays():
     thin, wide = [[0, 0], [4, 1e-3], [4, 0]], [[9, 0], [12, 0], [12, 4]]
     ends = np.array([[0, 1], [1, 2], [0, 2], [3, 4], [4, 5], [3, 5]])
-    none, sides = np.full((6, 2), np.nan), np.zeros((6, 2), dtype=np.int64)
+    none, sides, cut = np.full((6, 2), np.nan), np.zeros((6, 2), dtype=np.int64), np.zeros(6, dtype=bool)
     moves = Moves(np.array([1, 4]), np.array([[4, -1e-3], [12, 1e-3]]))
-    arcs = Arcs(np.array([*thin, *wide], dtype=float), np.zeros(6), ends, none, none, sides, sides, sides, np.zeros(6, dtype=bool), moves)
+    arcs = Arcs(np.array([*thin, *wide], dtype=float), np.zeros(6), ends, none, none, sides, sides, sides, cut, moves)
     half_edges = np.array([1, 4, 3, 6, 8, 11])
     rings = Rings(np.array([0, 3, 6]), half_edges, np.array([0, 1]), np.array([0, 1]), np.array([2e-3, 6.0]))
     assert moved_vertices(arcs, rings)[[1, 4]].tolist() == [[4, 1e-3], [12, 1e-3]]
