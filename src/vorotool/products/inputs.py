@@ -57,9 +57,9 @@ _ALL = (
         points="formats.points.tables:read_npz",
         polygons="formats.results.npz_reader:read_polygons",
         sites="formats.results.npz_reader:read_sites",
-        skeleton="formats.results.skeleton_files:read_archive",
-        offsets="formats.results.offset_files:read_archive",
-        voronoi="formats.results.voronoi_files:read_archive",
+        skeleton="formats.results.skeleton_files:read_skeleton",
+        offsets="formats.results.offset_files:read_offsets",
+        voronoi="formats.results.voronoi_files:read_voronoi",
     ),
     _of_maps("csv-wkt", reader="well_known:features_of_rows", has=""),
     _of(

@@ -179,13 +179,12 @@ _DISC_PRODUCT = _product(
 )
 
 
-def _documents(module: str) -> dict[str, Writer]:
+def _documents(function: str) -> dict[str, Writer]:
     """Give what writes all of a result in JSON and as arrays."""
-    json = Writer(f"formats.results.{module}:write_json", ("precision", "threads"))
-    return {"json": json, "npz": Writer(f"formats.results.{module}:write_npz", ("threads",))}
+    return dict.fromkeys(("json", "npz"), Writer(f"formats.results.{function}", ("fmt", "precision", "threads")))
 
 
-_SKELETON, _OFFSETS = _documents("skeleton_files"), _documents("offset_files")
+_SKELETON, _OFFSETS = _documents("skeleton_files:write_skeleton"), _documents("offset_files:write_offsets")
 _THICKNESS = Writer("formats.images.label_images:write_thickness", ("fmt", "threads"))
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels", "render.layers.skeleton:skeleton")
@@ -230,7 +229,7 @@ _WITHOUT_SAMPLES = {"offset", "discs", "thickness"}
 _MAP_LAYERS = _pictures("cells edges objects labels", "render.layers.voronoi:voronoi")
 _VORONOI = (
     _product("cells", "VoronoiMap", "geojson csv tsv json npz wkt", _MAP_LAYERS, "cells objects",
-        own=_documents("voronoi_files"), has_page=True, is_curved=True),
+        own=_documents("voronoi_files:write_voronoi"), has_page=True, is_curved=True),
     _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP_LAYERS, "edges objects", is_curved=True),
     _product("neighbors", "VoronoiMap", _TABLES),
     _product("table", "VoronoiMap", _TABLES),

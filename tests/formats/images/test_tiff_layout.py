@@ -172,5 +172,5 @@ def test_rows_of_a_strip_are_read_alone(tmp_path):
         read.append(size)
         return bytes(size)
 
-    decode_rows(layout, pieces, 0, 10, 2)
+    decode_rows(layout, pieces, 10, 2)
     assert read == [2 * 900 * 2]

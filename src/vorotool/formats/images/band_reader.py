@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import AS_VOLUME, InputError
 from vorotool.formats.images.tiff_grid import PageGrid, grid_of, missing_values, placed_grid
-from vorotool.formats.images.tiff_layout import TiffLayout, decode_band, is_decoded_here
+from vorotool.formats.images.tiff_layout import TiffLayout, decode_rows, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_of
 from vorotool.formats.io.limits import check_pixels, decoding
 from vorotool.formats.io.npy_arrays import plain_values
@@ -126,7 +126,7 @@ class TiffRows(StoredParts):
                 file.seek(offset)
                 return file.read(size)
 
-            rows = decode_band(layout, read, first, count)
+            rows = decode_rows(layout, read, first, count)[:, :, 0]
         values = plain_values(rows)
         missing = missing_values(values, self._opened[1].nodata)
         return values if missing is None else np.ma.MaskedArray(values, missing)

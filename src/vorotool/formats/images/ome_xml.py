@@ -35,24 +35,25 @@ class _Refused(Exception):  # noqa: N818, nothing is wrong with the image
 
 def ome_sizes(text: str) -> tuple[Fraction, Fraction, str] | None:
     """Read both sides of a pixel and their unit; None where they are not stated, or not the same for all images."""
-    found: set[tuple[Fraction, Fraction, str] | None] = set()
-
-    def start(name: str, attributes: dict[str, str]) -> None:
-        if name == "Pixels":
-            found.add(_sizes_of(attributes))
-
-    return found.pop() if parse_ome(text, start) and len(found) == 1 else None
+    found = {_sizes_of(attributes) for attributes in _pixels_of(text)}
+    return found.pop() if len(found) == 1 else None
 
 
 def states_one_side(text: str) -> str:
     """Return the name of the one side of a pixel that is stated where the other is not; empty where both are."""
-    found: set[str] = set()
+    found = {each for attributes in _pixels_of(text) for each in _SIZES if each in attributes}
+    return found.pop() if len(found) == 1 else ""
+
+
+def _pixels_of(text: str) -> list[dict[str, str]]:
+    """Read the attributes of all images, none where the text is not safe XML."""
+    found: list[dict[str, str]] = []
 
     def start(name: str, attributes: dict[str, str]) -> None:
         if name == "Pixels":
-            found.update(each for each in _SIZES if each in attributes)
+            found.append(attributes)
 
-    return found.pop() if parse_ome(text, start) and len(found) == 1 else ""
+    return found if parse_ome(text, start) else []
 
 
 def parse_ome(text: str, start: Callable[[str, dict[str, str]], None]) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import product
 from typing import Any, Literal
 
 import numpy as np
@@ -267,62 +268,59 @@ def is_decoded_here(layout: TiffLayout) -> bool:
 
 def decode_image(layout: TiffLayout, data: bytes) -> NDArray[Any]:
     """Decode all of an image: (H, W), or (H, W, C) of several values a pixel."""
-    assert layout.dtype is not None
-    view, count = memoryview(data), layout.planes * layout.across * layout.down
-    image = np.empty((layout.height, layout.width, layout.samples), layout.dtype)
-
-    def put(index: int) -> None:
-        plane, y, x, rows = layout.place(index)
-        offset, count = int(layout.offsets[index]), int(layout.counts[index])
-        channels = slice(plane, plane + 1) if layout.planes > 1 else slice(None)
-        place = image[y : y + rows, x : x + layout.columns, channels]
-        place[...] = decode_segment(layout, view[offset : offset + count], index)[:rows, : place.shape[1]]
-
+    view = memoryview(data)
     # segments that take long are decoded in this thread, which sees signals in between
     is_short = layout.rows * layout.row_bytes <= unpacking.PIECE
-    for _ in in_order(put, range(count), 0 if is_short and image.nbytes >= _WORTH_THREADS else 1):
-        pass
+    is_large = layout.height * layout.width * layout.samples * layout.bits >= 8 * _WORTH_THREADS
+    threads = 0 if is_short and is_large else 1
+    image = decode_rows(layout, lambda offset, size: view[offset : offset + size], 0, layout.height, threads)
     return image[:, :, 0] if layout.samples == 1 else image
 
 
 def decode_rows(
-    layout: TiffLayout, read: Callable[[int, int], bytes], index: int, first: int, count: int
+    layout: TiffLayout, read: Callable[[int, int], bytes | memoryview], first: int, count: int, threads: int = 1
+) -> NDArray[Any]:
+    """Decode some rows of a page: (count, W, C)."""
+    rows = np.empty((count, layout.width, layout.samples), layout.dtype)
+    bands = range(first // layout.rows, -(-(first + count) // layout.rows))
+
+    def put(index: tuple[int, int, int]) -> None:
+        plane, band, column = index
+        number = (plane * layout.down + band) * layout.across + column
+        _, y, x, height = layout.place(number)
+        top, bottom = max(y, first), min(y + height, first + count)
+        channels = slice(plane, plane + 1) if layout.planes > 1 else slice(None)
+        place = rows[top - first : bottom - first, x : x + layout.columns, channels]
+        place[...] = _rows_of_segment(layout, read, number, top - y, bottom - top)[:, : place.shape[1]]
+
+    for _ in in_order(put, product(range(layout.planes), bands, range(layout.across)), threads):
+        pass
+    return rows
+
+
+def _rows_of_segment(
+    layout: TiffLayout, read: Callable[[int, int], bytes | memoryview], index: int, first: int, count: int
 ) -> NDArray[Any]:
     """Decode some rows of a segment: (count, columns, values). Of one that is not compressed no others are read."""
     offset, size = int(layout.offsets[index]), int(layout.counts[index])
     if layout.compression == _PLAIN and size:
         data = read(offset + first * layout.row_bytes, count * layout.row_bytes)
         return _values(layout, _in_order_of_bits(layout, data), count)
-    return decode_segment(layout, read(offset, size), index)[first : first + count]
+    return _decode_segment(layout, read(offset, size), index)[first : first + count]
 
 
-def decode_band(layout: TiffLayout, read: Callable[[int, int], bytes], first: int, count: int) -> NDArray[Any]:
-    """Decode some rows of a page that has one value a pixel: (count, W)."""
-    rows = np.empty((count, layout.width), layout.dtype)
-    for band in range(first // layout.rows, -(-(first + count) // layout.rows)):
-        for index in range(band * layout.across, (band + 1) * layout.across):
-            _, y, x, height = layout.place(index)
-            top, bottom = max(y, first), min(y + height, first + count)
-            place = rows[top - first : bottom - first, x : x + layout.columns]
-            place[...] = decode_rows(layout, read, index, top - y, bottom - top)[:, : place.shape[1], 0]
-    return rows
-
-
-def decode_segment(layout: TiffLayout, data: bytes | memoryview, index: int) -> NDArray[Any]:
+def _decode_segment(layout: TiffLayout, data: bytes | memoryview, index: int) -> NDArray[Any]:
     """Decode a segment: (rows, columns, values); a tile at the lower end may have only the rows of the image."""
     assert layout.dtype is not None
     rows = layout.place(index)[3]
     if not data:  # left out by its writer, which the layout tells from damage
         return np.full((rows, layout.columns, layout.values), layout.background, layout.dtype)
     full = layout.rows * layout.row_bytes
-    if layout.compression != _PLAIN:
-        if full > LARGEST_SEGMENT:
-            raise LimitError(
-                f"{layout.name} has {layout.kind}s of {full} bytes, which are decoded as a whole: save it in tiles"
-            )
-        data = _unpacked(layout, _in_order_of_bits(layout, data), index, full + SPARE)
-    else:
-        data = _in_order_of_bits(layout, data)
+    if full > LARGEST_SEGMENT:
+        raise LimitError(
+            f"{layout.name} has {layout.kind}s of {full} bytes, which are decoded as a whole: save it in tiles"
+        )
+    data = _unpacked(layout, _in_order_of_bits(layout, data), index, full + SPARE)
     if len(data) < rows * layout.row_bytes:
         raise InputError(
             f"{layout.name} is damaged: {layout.kind} {index} has {len(data)} bytes, "

@@ -20,7 +20,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.polygons.json import read_json, write_items
 from vorotool.formats.results.rows import PREFIXES, ArrayRows, JsonRows, Rows, is_number
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows
-from vorotool.formats.text.tables import json_bytes, json_text
+from vorotool.formats.text.tables import json_bytes, json_text, write_arrays
 from vorotool.types.axis import MEMBER as Y_AXIS
 from vorotool.types.axis import UNSTATED
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -56,8 +56,11 @@ class Parts(NamedTuple):
     lists: dict[str, list[Member]]
 
 
-def write_document(out: BinaryIO, parts: Parts, *, precision: int | None, threads: int) -> None:
-    """Write a result as JSON, one object of a list a line of text."""
+def write_document(out: BinaryIO, parts: Parts, fmt: str, *, precision: int | None, threads: int) -> None:
+    """Write a result as JSON, one object of a list a line of text, or as 1-D arrays; all indices are 0-based."""
+    if fmt == "npz":
+        write_arrays(out, document_arrays(parts), threads=threads)
+        return
     write_head(out, parts.head)
     write_items(out, parts.polygons)
     for name, members in parts.lists.items():
@@ -120,6 +123,13 @@ def opened_archive(source: Source, options: ReadOptions, kind: str, noun: str) -
         raise InputError(f"{source.name}: {ABOUT} is of type {about.dtype}; write bytes (uint8)")
     document = opened_document(Source(f"{source.name}, {ABOUT}", about.tobytes(), "json"), kind, noun).document
     return ArrayRows(source.name, rows.arrays, document)
+
+
+def opened(source: Source, options: ReadOptions, kind: str, noun: str) -> Rows:
+    """Open a result that was written as JSON or as NPZ."""
+    if source.format == "npz":
+        return opened_archive(source, options, kind, noun)
+    return opened_document(source, kind, noun)
 
 
 def read_polygons(rows: Rows, options: ReadOptions) -> PolygonSet:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -12,21 +10,21 @@ from numpy.typing import NDArray
 from vorotool.convert.sites import Sites, as_sites
 from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.json import read_y_axis
 from vorotool.formats.parsing.npz_columns import npz_columns, npz_holds
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.polygons.json import read_json
-from vorotool.formats.results.offset_files import read_archive as read_offsets
-from vorotool.formats.results.skeleton_files import read_archive as read_skeleton
-from vorotool.formats.results.voronoi_files import read_archive as read_map
-from vorotool.formats.results.voronoi_files import sites_of_map
-from vorotool.numeric.ragged import divides
+from vorotool.formats.results.offset_files import read_offsets
+from vorotool.formats.results.rows import ArrayRows
+from vorotool.formats.results.skeleton_files import read_skeleton
+from vorotool.formats.results.voronoi_files import read_sites as read_map_sites
+from vorotool.formats.results.voronoi_files import read_voronoi
+from vorotool.numeric.ragged import divides, owners
 from vorotool.types.axis import MEMBER as Y_AXIS
-from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.axis import UNSTATED
+from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet, set_of_rings
 
 _CELLS = option("delaunay --what cells", "voronoi_cells")
 _AS_JSON = option("-f json", 'fmt="json"')
-
-Arrays = Mapping[str, NDArray[Any]]
 
 
 def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
@@ -37,21 +35,18 @@ def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
             f"{source.name} holds no polygons: an NPZ file has polygons for cells ({_CELLS}) and skeletons only; for "
             f"other results give the JSON ({_AS_JSON}); unpack other archives"
         )
+    if holds == "polygons":
+        return _cells(ArrayRows(source.name, npz_columns(source, options), {}), options)
     if holds == "voronoi":
-        return read_map(source, options).polygons
-    if holds == "offsets":
-        return read_offsets(source, options).polygons
-    if holds == "skeleton":
-        return read_skeleton(source, options).polygons
-    document = _cells(source.name, npz_columns(source, options))
-    return read_json(Source(source.name, b"", "json", document), options)
+        return read_voronoi(source, options).polygons
+    return (read_offsets if holds == "offsets" else read_skeleton)(source, options).polygons
 
 
 def read_sites(source: Source, options: ReadOptions) -> Sites:
     """Read the sites of a Voronoi map, or polygons as `read_polygons`, each feature a site."""
     if npz_holds(source.data) == "voronoi":
         options.note(f"{source.name} holds a Voronoi map: its sites are read")
-        return sites_of_map(read_map(source, options))
+        return read_map_sites(source, options)
     return as_sites(read_polygons(source, options))
 
 
@@ -59,24 +54,48 @@ def read_sites(source: Source, options: ReadOptions) -> Sites:
 _OF_CELLS = (Y_AXIS, "cell_starts", "polygon_starts", "ring_starts", "vertex_x", "vertex_y", "frame")
 
 
-def _cells(name: str, arrays: Arrays) -> dict[str, Any]:
-    x, y = _lists(name, arrays, ["vertex_x", "vertex_y"], "finite")
-    nested: list[Any] = list(map(list, zip(x, y, strict=True)))
-    for each in ("ring_starts", "polygon_starts", "cell_starts"):
-        (start,) = _lists(name, arrays, [each])
-        nested = _divided(name, each, start, nested)
-    names = [each for each in arrays if each not in _OF_CELLS and not each.endswith("_missing")]
-    columns = {each: _present(arrays[each], arrays.get(f"{each}_missing")) for each in names}
-    if any(len(values) != len(nested) for values in columns.values()):
-        raise InputError(f"{name}: its columns have other lengths than the {len(nested)} cells; write it again")
-    ids = columns.pop("id", columns.get("label", [None] * len(nested)))
-    polygons = []
-    for cell, parts in enumerate(nested):
-        properties = {each: values[cell] for each, values in columns.items()}
-        for part, (shell, *holes) in enumerate(parts, 1):
-            found = {"id": ids[cell], "part": part, "properties": properties, "shell": shell, "holes": holes}
-            polygons.append(found)
-    return {"polygons": polygons, **_axis(arrays)}
+def _cells(rows: ArrayRows, options: ReadOptions) -> PolygonSet:
+    """Read cells, each of which is a feature."""
+    rows.together("vertex_")
+    points = np.stack([rows.reals("vertex_x"), rows.reals("vertex_y")], axis=1)
+    options.check_vertices(rows.name, len(points))
+    rings = _starts(rows, "ring_starts", len(points), 1)
+    polygons = _starts(rows, "polygon_starts", len(rings) - 1, 1)
+    cells = _starts(rows, "cell_starts", len(polygons) - 1, 0)
+    cell = owners(np.diff(cells))
+    kind = np.full(len(rings) - 1, HOLE)
+    kind[polygons[:-1]] = SHELL
+    axis = rows.arrays.get(Y_AXIS, np.zeros(0)).tolist()
+    return set_of_rings(
+        points,
+        np.diff(rings),
+        kind,
+        owners(np.diff(polygons), dtype=np.int32),
+        feature=np.unique(cell, return_inverse=True)[1].reshape(-1).astype(np.int32),
+        y_axis=read_y_axis(rows.name, {Y_AXIS: axis[0] if len(axis) == 1 else axis} if axis else {}, UNSTATED),
+        **(_described(rows, cell, len(cells) - 1) if options.properties else {}),
+    )
+
+
+def _starts(rows: ArrayRows, name: str, count: int, least: int) -> NDArray[np.int64]:
+    """Read where each of some items begins, and the end; none is empty but cells."""
+    start = rows.array(name)
+    if start.dtype.kind not in "iu" or not divides(start.astype(np.int64), count):
+        raise InputError(f"{rows.name}: {name} should increase from 0 to {count}; write it again")
+    if (np.diff(start.astype(np.int64)) < least).any():
+        raise InputError(f"{rows.name}: {name} repeats a number, so that a part is empty; write it again")
+    return start.astype(np.int64)
+
+
+def _described(rows: ArrayRows, cell: NDArray[np.int64], count: int) -> dict[str, Any]:
+    """Ids and properties of the cells of polygons."""
+    names = [name for name in rows.arrays if name not in _OF_CELLS and not name.endswith("_missing")]
+    columns = {name: _present(rows.arrays[name], rows.arrays.get(f"{name}_missing")) for name in names}
+    if any(len(values) != count for values in columns.values()):
+        raise InputError(f"{rows.name}: its columns have other lengths than the {count} cells; write it again")
+    ids = columns.pop("id", columns.get("label", [None] * count))
+    of_polygons = {name: [values[i] for i in cell.tolist()] for name, values in columns.items()}
+    return {"ids": [ids[i] for i in cell.tolist()], "properties": of_polygons}
 
 
 def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
@@ -84,35 +103,3 @@ def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
     if missing is None or len(missing) != len(listed):
         return listed
     return [None if none else value for value, none in zip(listed, missing.tolist(), strict=True)]
-
-
-def _axis(arrays: Arrays) -> dict[str, Any]:
-    """Which way y goes, where there is a word for it."""
-    found = arrays.get(Y_AXIS)
-    return {} if found is None else {Y_AXIS: found.tolist()[0] if found.size == 1 else found.tolist()}
-
-
-# ---- arrays --------------------------------------------------------------------------------------
-def _lists(name: str, arrays: Arrays, names: Sequence[str], numbers: str = "any") -> list[list[Any]]:
-    """Arrays that must be there, of one length, as lists."""
-    absent = [each for each in names if each not in arrays]
-    if absent:
-        raise InputError(f"{name} has no array {absent[0]}: write it again, or give the JSON ({_AS_JSON})")
-    if len({len(arrays[each]) for each in names}) > 1:
-        sizes = ", ".join(f"{each} {len(arrays[each])}" for each in names)
-        raise InputError(f"{name}: arrays that belong together are of different lengths ({sizes}); write it again")
-    for each in names if numbers == "finite" else ():
-        if arrays[each].dtype.kind not in "iuf" or not np.isfinite(arrays[each]).all():
-            raise InputError(f"{name}: {each} holds a number that is not finite; write it again")
-    return [arrays[each].tolist() for each in names]
-
-
-def _divided(name: str, what: str, start: list[Any], items: list[Any]) -> list[Any]:
-    """Lists of items, by where each begins, and the end; none is empty but those of cells."""
-    array = np.array(start)
-    if array.dtype.kind not in "iu" or not divides(array.astype(np.int64), len(items)):
-        raise InputError(f"{name}: {what} should increase from 0 to {len(items)}; write it again")
-    parts = [items[begin:end] for begin, end in pairwise(start)]
-    if what != "cell_starts" and not all(parts):
-        raise InputError(f"{name}: {what} repeats a number, so that a part is empty; write it again")
-    return parts

@@ -13,7 +13,6 @@ from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results import documents as d
 from vorotool.formats.results.documents import LATTICE_STEP, as_read, as_written
 from vorotool.formats.results.rows import Rows
-from vorotool.formats.text.tables import write_arrays
 from vorotool.numeric.ragged import starts_of
 from vorotool.types.skeleton.offsets import PIECE_KINDS, RING_KINDS, Offsets
 
@@ -22,14 +21,9 @@ NOUN = "offset curves"
 
 
 # ---- writing -------------------------------------------------------------------------------------
-def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None, threads: int = 0) -> None:
-    """Write polygons, sites, shapes, rings and pieces, one object a line of text; all indices are 0-based."""
-    d.write_document(out, _parts(offsets), precision=precision, threads=threads)
-
-
-def write_npz(out: BinaryIO, offsets: Offsets, *, threads: int = 0) -> None:
-    """Write the same as 1-D arrays; no polygon is -1, the center of a line NaN."""
-    write_arrays(out, d.document_arrays(_parts(offsets)), threads=threads)
+def write_offsets(out: BinaryIO, offsets: Offsets, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
+    """Write polygons, sites, shapes, rings and pieces; no polygon is null, or -1, the center of a line null, or NaN."""
+    d.write_document(out, _parts(offsets), fmt, precision=precision, threads=threads)
 
 
 def _parts(offsets: Offsets) -> d.Parts:
@@ -66,16 +60,8 @@ def _ranges(parts: str, start: NDArray[np.int64]) -> list[d.Member]:
 
 # ---- reading -------------------------------------------------------------------------------------
 def read_offsets(source: Source, options: ReadOptions) -> Offsets:
-    """Read offset curves that were written as JSON."""
-    return _offsets(d.opened_document(source, TYPE, NOUN), options)
-
-
-def read_archive(source: Source, options: ReadOptions) -> Offsets:
-    """Read offset curves that were written as NPZ."""
-    return _offsets(d.opened_archive(source, options, TYPE, NOUN), options)
-
-
-def _offsets(rows: Rows, options: ReadOptions) -> Offsets:
+    """Read offset curves."""
+    rows = d.opened(source, options, TYPE, NOUN)
     polygons = as_read(d.read_polygons(rows, options), rows.document)
     sites = d.read_sites(rows, polygons)
     distance = rows.numbers("shapes", "distance")

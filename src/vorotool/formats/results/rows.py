@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,39 +25,6 @@ PREFIXES = {
 """How names of arrays begin, by the lists that they are of."""
 
 _AS_JSON = option("-f json", 'fmt="json"')
-
-
-class Rows(Protocol):
-    """Lists of objects, by the names of the lists and of their members."""
-
-    name: str
-    document: Mapping[str, Any]
-
-    def count(self, member: str) -> int:
-        """Return the number of items of a list."""
-
-    def has(self, member: str, name: str) -> bool:
-        """Return whether items have a member."""
-
-    def numbers(self, member: str, name: str, *, optional: bool = False) -> NDArray[np.float64]:
-        """Return numbers; NaN for null, where that is allowed."""
-
-    def indices(self, member: str, name: str, limit: int, *, optional: bool = False) -> NDArray[np.int32]:
-        """Return integers from 0 to below a limit; -1 for null, where that is allowed."""
-
-    def choices(self, member: str, name: str, names: tuple[str, ...], *, optional: bool = False) -> NDArray[np.int8]:
-        """Return the number of each name in a list; -1 for null, where that is allowed."""
-
-    def truths(self, member: str, name: str) -> NDArray[np.bool_]:
-        """Return truth values."""
-
-    def pairs(self, member: str, name: str, *, optional: bool) -> NDArray[np.float64]:
-        """Return pairs of numbers; NaN for null, where that is allowed."""
-
-    def index_pairs(
-        self, member: str, name: str, parts: tuple[str, str], limit: int, *, optional: bool = False
-    ) -> NDArray[np.int32]:
-        """Return pairs of integers from 0 to below a limit; -1 for null, where that is allowed."""
 
 
 def is_number(value: Any) -> bool:
@@ -242,3 +209,7 @@ class ArrayRows:
         """Return pairs of integers from 0, or from -1, to below a limit."""
         found = [self.indices(member, part, limit, optional=optional) for part in parts]
         return np.stack(found, axis=1)
+
+
+Rows = JsonRows | ArrayRows
+"""Lists of objects, by the names of the lists and of their members."""

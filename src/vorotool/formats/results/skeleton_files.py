@@ -12,7 +12,6 @@ from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.results import documents as d
 from vorotool.formats.results.documents import LATTICE_STEP, as_read, as_written
 from vorotool.formats.results.rows import Rows, is_number
-from vorotool.formats.text.tables import write_arrays
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import KINDS, SIDES, Skeleton
 
@@ -21,14 +20,11 @@ _SITES = ("site_a", "site_b")
 
 
 # ---- writing -------------------------------------------------------------------------------------
-def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = None, threads: int = 0) -> None:
-    """Write polygons, sites, vertices and arcs, one object a line of text; all indices are 0-based."""
-    d.write_document(out, _parts(skeleton), precision=precision, threads=threads)
-
-
-def write_npz(out: BinaryIO, skeleton: Skeleton, *, threads: int = 0) -> None:
-    """Write the same as 1-D arrays; no polygon, side or source is -1."""
-    write_arrays(out, d.document_arrays(_parts(skeleton)), threads=threads)
+def write_skeleton(
+    out: BinaryIO, skeleton: Skeleton, fmt: str, *, precision: int | None = None, threads: int = 0
+) -> None:
+    """Write polygons, sites, vertices and arcs; no polygon, side or source is null, or -1."""
+    d.write_document(out, _parts(skeleton), fmt, precision=precision, threads=threads)
 
 
 def _parts(skeleton: Skeleton) -> d.Parts:
@@ -56,21 +52,8 @@ def _parts(skeleton: Skeleton) -> d.Parts:
 
 # ---- reading -------------------------------------------------------------------------------------
 def read_skeleton(source: Source, options: ReadOptions) -> Skeleton:
-    """Read a skeleton that was written as JSON."""
-    return _skeleton(d.opened_document(source, TYPE, "skeleton"), options)
-
-
-def read_archive(source: Source, options: ReadOptions) -> Skeleton:
-    """Read a skeleton that was written as NPZ."""
-    return _skeleton(d.opened_archive(source, options, TYPE, "skeleton"), options)
-
-
-def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
-    """Read the polygons of a skeleton that was written as NPZ."""
-    return d.read_polygons(d.opened_archive(source, options, TYPE, "skeleton"), options)
-
-
-def _skeleton(rows: Rows, options: ReadOptions) -> Skeleton:
+    """Read a skeleton."""
+    rows = d.opened(source, options, TYPE, "skeleton")
     polygons = as_read(d.read_polygons(rows, options), rows.document)
     skeleton = _arcs(rows, polygons.as_given)
     return skeleton if polygons.as_given is polygons else skeleton.with_corners(polygons)

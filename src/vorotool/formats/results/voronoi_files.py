@@ -34,8 +34,13 @@ _MOST = 2**31 - 1
 
 
 # ---- writing -------------------------------------------------------------------------------------
-def write_json(out: BinaryIO, cells: VoronoiMap, *, precision: int | None = None, threads: int = 0) -> None:
-    """Write polygons, sites, vertices, arcs and cells, one object a line of text; all indices are 0-based."""
+def write_voronoi(
+    out: BinaryIO, cells: VoronoiMap, fmt: str, *, precision: int | None = None, threads: int = 0
+) -> None:
+    """Write polygons, sites, vertices, arcs and cells; what belongs to no cell is null, or -1."""
+    if fmt == "npz":
+        write_arrays(out, _arrays(cells), threads=threads)
+        return
     polygons = cells.polygons
     assert polygons.feature is not None
     d.write_head(out, _head(cells))
@@ -50,8 +55,8 @@ def write_json(out: BinaryIO, cells: VoronoiMap, *, precision: int | None = None
     out.write(b"}\n")
 
 
-def write_npz(out: BinaryIO, cells: VoronoiMap, *, threads: int = 0) -> None:
-    """Write the same as 1-D arrays; what belongs to no cell is -1."""
+def _arrays(cells: VoronoiMap) -> dict[str, NDArray[Any]]:
+    """The same as 1-D arrays."""
     arrays: dict[str, NDArray[Any]] = {}
     for name, members in _lists(cells).items():
         arrays |= d.arrays_of(PREFIXES[name], members)
@@ -60,7 +65,7 @@ def write_npz(out: BinaryIO, cells: VoronoiMap, *, threads: int = 0) -> None:
     arrays |= {f"cell_{name}": values for name, values in zip(_STARTS, starts, strict=True)}
     arrays |= d.polygon_arrays(cells.polygons) | {"polygon_site": cells.polygon_site}
     sites = d.described_rows(len(cells), cells.ids, cells.properties)
-    write_arrays(out, arrays | d.about_array(_head(cells), cells.polygons, sites=sites), threads=threads)
+    return arrays | d.about_array(_head(cells), cells.polygons, sites=sites)
 
 
 def _head(cells: VoronoiMap) -> dict[str, Any]:
@@ -127,24 +132,18 @@ def _write_cells(out: BinaryIO, cells: VoronoiMap, threads: int) -> None:
 
 # ---- reading -------------------------------------------------------------------------------------
 def read_voronoi(source: Source, options: ReadOptions) -> VoronoiMap:
-    """Read a Voronoi map that was written as JSON."""
-    rows = d.opened_document(source, TYPE, NOUN)
+    """Read a Voronoi map."""
+    rows = d.opened(source, options, TYPE, NOUN)
     with d.naming_values(rows.name):
-        items = rows.list_of("polygons")
-        polygons = _whole(rows, options)
-        site = rows.indices("polygons", "site", len(rows.list_of("sites")))
-        made = _map(rows, replace(polygons, feature=rows.indices("polygons", "feature", _MOST)), site, options)
-    assert len(items) == len(polygons)
-    check_map(rows.name, made)
-    return made
-
-
-def read_archive(source: Source, options: ReadOptions) -> VoronoiMap:
-    """Read a Voronoi map that was written as NPZ."""
-    rows = d.opened_archive(source, options, TYPE, NOUN)
-    with d.naming_values(rows.name):
-        site = rows.integers("polygon_site", 0, JsonRows(rows.name, rows.document).count("sites"))
-        made = _map(rows, d.read_polygons(rows, options), site.astype(np.int32), options)
+        sites = JsonRows(rows.name, rows.document).count("sites")
+        if isinstance(rows, ArrayRows):
+            site = rows.integers("polygon_site", 0, sites).astype(np.int32)
+            polygons = d.read_polygons(rows, options)
+        else:
+            polygons = _whole(rows, options)
+            site = rows.indices("polygons", "site", sites)
+            polygons = replace(polygons, feature=rows.indices("polygons", "feature", _MOST))
+        made = _map(rows, polygons, site, options)
     check_map(rows.name, made)
     return made
 
@@ -185,7 +184,7 @@ def _whole(rows: JsonRows, options: ReadOptions) -> PolygonSet:
 
 
 def read_sites(source: Source, options: ReadOptions) -> Sites:
-    """Read the sites of a Voronoi map that was written as JSON."""
+    """Read the sites of a Voronoi map."""
     return sites_of_map(read_voronoi(source, replace(options, note=no_note)))
 
 

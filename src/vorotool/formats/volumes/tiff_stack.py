@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, option
 from vorotool.formats.images.ome_xml import decimal_side
 from vorotool.formats.images.tiff_grid import grid_of, missing_values, side_of_imagej, unescaped
-from vorotool.formats.images.tiff_layout import TiffLayout, decode_band, is_decoded_here
+from vorotool.formats.images.tiff_layout import TiffLayout, decode_rows, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout
 from vorotool.formats.io.limits import decoding
 from vorotool.formats.io.npy_arrays import plain_values
@@ -102,7 +102,7 @@ class TiffStack(VolumeSource):
                 threads = 0 if values.nbytes >= _WORTH_THREADS else 1
 
                 def put(index: int) -> None:
-                    values[index] = decode_band(stack.pages[first + index], self._read, 0, height)
+                    values[index] = decode_rows(stack.pages[first + index], self._read, 0, height)[:, :, 0]
 
                 for _ in in_order(put, range(count), threads):
                     pass
