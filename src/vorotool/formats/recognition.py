@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
-from vorotool.formats.io.npy_arrays import MAGIC, npy_header
+from vorotool.formats.io.arrays import MAGIC, npy_header
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.products.formats import resolved

@@ -7,7 +7,7 @@ import zlib
 from dataclasses import replace
 
 from vorotool.errors import INPUT_FORMAT, OTSU, InputError, UsageError, option
-from vorotool.formats.io.npy_arrays import MAGIC
+from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.convertible import refuse_convertible
 from vorotool.formats.parsing.json import RECORD_MARK, holds_shapes, is_json_lines, parse_json
@@ -130,7 +130,7 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
         return "points", _points(source, chosen, None)
     source = _with_format(source, chosen)
     if INPUTS[chosen].features and chosen != "wkt":
-        source = replace(source, document=resolved("formats.gis.reading:features_of")(source))
+        source = replace(source, document=resolved("formats.gis.feature_table:features_of")(source))
         return ("polygons" if source.document.holds_shapes else "points"), source
     if chosen == "npz":
         return npz_holds(source.data), source

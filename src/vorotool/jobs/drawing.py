@@ -10,7 +10,7 @@ from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.gis.feature_table import Features
 from vorotool.formats.images.band_reader import read_rows
 from vorotool.formats.images.label_images import label_image_of
-from vorotool.formats.io.npy_arrays import MAGIC
+from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.opening import open_zarr
 from vorotool.formats.parsing.reader_options import ReadOptions

@@ -79,8 +79,7 @@ def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets
     """Read one input, compute, check and write its results, which take their places together."""
     from vorotool.formats.io.atomic_output import make_folder
     from vorotool.formats.io.commit import committed_together
-    from vorotool.formats.text.feature_collection import unit_member
-    from vorotool.formats.text.tables import safe_texts, unit_column
+    from vorotool.formats.text.tables import safe_texts, unit_column, unit_member
     from vorotool.jobs.refusals import check_system
     from vorotool.numeric.coordinate_grid import coordinates_written
     from vorotool.types.identity import columns_wanted

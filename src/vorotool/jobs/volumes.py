@@ -21,7 +21,6 @@ from vorotool.engines.tessellation.volume_seeding import (
 )
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
-from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import reading
 from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.points import read_xyz

@@ -10,7 +10,7 @@ from typing import Any
 
 from vorotool.errors import UsageError
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.text.feature_collection import unit_member
+from vorotool.formats.text.tables import unit_member
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_value
 from vorotool.jobs.results import Results

@@ -39,7 +39,7 @@ def _of_maps(
     return _of(name, *names, has=has, features=features, points=_FEATURES[0], polygons=_FEATURES[1], sites=_FEATURES[2])
 
 
-_FEATURES = tuple(f"formats.gis.reading:read_{each}" for each in ("points", "polygons", "sites"))
+_FEATURES = tuple(f"formats.gis.feature_table:read_{each}" for each in ("points", "polygons", "sites"))
 _IMAGE = "formats.images.reader:read_image"
 _ALL = (
     _of(
@@ -65,8 +65,8 @@ _ALL = (
     _of(
         "geojson",
         points="formats.points.json:read_geojson",
-        polygons="formats.polygons.geojson:read_geojson",
-        sites="formats.polygons.geojson:read_sites",
+        polygons="formats.polygons.json:read_geojson",
+        sites="formats.polygons.json:read_geojson_sites",
     ),
     _of_maps("wkt", reader="well_known:features_of_texts", has=""),
     _of(
@@ -115,7 +115,7 @@ SPACE_READERS = {
     "geojson": "formats.points.json:geojson_rows",
     "npz": "formats.points.tables:npz_rows",
     "node": "formats.points.node:node_rows",
-    **{each.name: "formats.gis.reading:point_rows" for each in _ALL if each.features and each.name != "csv"},
+    **{each.name: "formats.gis.feature_table:point_rows" for each in _ALL if each.features and each.name != "csv"},
 }
 """Formats whose points may have a z, and ``module:function`` of ``function(source, options)`` that reads it."""
 

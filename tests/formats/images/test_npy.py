@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 
 from vorotool.errors import InputError, LimitError
-from vorotool.formats.images.npy import read_npy, write_npy
-from vorotool.formats.io.npy_arrays import npy_header
+from vorotool.formats.io.arrays import npy_header, read_npy, write_npy
 
 
 def saved(array: object, **options: object) -> SimpleNamespace:

@@ -3,7 +3,7 @@ import itertools
 import numpy as np
 import pytest
 
-from vorotool.formats.io.row_bands import blocks, checked
+from vorotool.formats.io.arrays import blocks, checked
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 
 from support.readers.sources import read_as
 from vorotool.errors import InputError
-from vorotool.formats.io.npy_arrays import MAGIC
+from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.recognition import read_recognized

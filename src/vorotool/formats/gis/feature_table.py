@@ -1,4 +1,4 @@
-"""Features as libraries of maps give them, and the points, polygons and lines that are made of them."""
+"""Features of files of maps, whatever their format, and the points, polygons and lines that are made of them."""
 
 from __future__ import annotations
 
@@ -14,10 +14,14 @@ from vorotool.errors import NO_PROPERTIES, InputError, LimitError, option
 from vorotool.formats.io.sources import STANDARD_INPUT, Source
 from vorotool.formats.parsing.json import MOST_CELLS, OF_SITES, not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shortened
-from vorotool.formats.points.columns import PointRows
+from vorotool.formats.points.columns import PointRows, point_set
+from vorotool.formats.points.tables import rows_of_columns
 from vorotool.plain import plain
+from vorotool.products.formats import resolved
+from vorotool.products.inputs import INPUTS
 from vorotool.types.axis import UP
 from vorotool.types.points.conversion import part_numbers, single_points
+from vorotool.types.points.point_set import PointSet
 from vorotool.types.polygons.conversion import polygons_of_geometry
 from vorotool.types.polygons.polygon_set import PolygonSet
 
@@ -224,3 +228,34 @@ def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> in
             how = f"by {option('--input-layer', 'layer=...')}"
         raise InputError(f"{source.name} holds {len(named)} layers: choose one of {held}, {how}")
     return next(iter(named.values()))
+
+
+def features_of(source: Source) -> Features:
+    """Give the features of a source; those that were read to tell what it holds come with it."""
+    if isinstance(source.document, Features):
+        return source.document
+    read: Features = resolved(INPUTS[source.format].features)(source)
+    return read
+
+
+def read_points(source: Source, options: ReadOptions) -> PointSet:
+    """Read points with their attributes; where there is no geometry, as tables have them."""
+    return point_set(point_rows(source, options))
+
+
+def point_rows(source: Source, options: ReadOptions) -> PointRows:
+    """Read what `read_points` reads, with a z where the options want it."""
+    features = features_of(source)
+    if features.is_table:
+        return rows_of_columns(source.name, {name: list(values) for name, values in features.columns.items()}, options)
+    return feature_points(features, options)
+
+
+def read_sites(source: Source, options: ReadOptions) -> Sites:
+    """Read points, lines and polygons with their attributes, each feature a site."""
+    return sites_of_features(features_of(source), options)
+
+
+def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
+    """Read polygons and lines with their attributes."""
+    return polygons_of_features(features_of(source), options)

@@ -14,8 +14,8 @@ from vorotool.errors import AS_VOLUME, InputError
 from vorotool.formats.images.tiff_grid import PageGrid, grid_of, missing_values, placed_grid
 from vorotool.formats.images.tiff_layout import TiffLayout, decode_rows, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_of
+from vorotool.formats.io.arrays import plain_values
 from vorotool.formats.io.limits import check_pixels, decoding
-from vorotool.formats.io.npy_arrays import plain_values
 from vorotool.formats.io.sources import StoredParts
 from vorotool.formats.zarr.reader import StoredArray, ZarrImage
 from vorotool.numeric.length_units import ratio

@@ -13,9 +13,9 @@ from vorotool.formats.images.pnm_reader import pnm_header
 from vorotool.formats.images.tiff_grid import grid_of, placed_grid
 from vorotool.formats.images.tiff_reader import count_pages, opened_tiff, page_of
 from vorotool.formats.images.world_file import world_grid
+from vorotool.formats.io.arrays import MAGIC, npy_header
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.limits import check_pixels, decoding
-from vorotool.formats.io.npy_arrays import MAGIC, npy_header
 from vorotool.formats.io.sources import GZIP, Source, explained_reading, read_source
 from vorotool.formats.opening import TIFF_MAGIC, open_zarr
 from vorotool.formats.recognition import image_format, looks_like_pnm, picture_format

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError, LimitError, UsageError, option
-from vorotool.formats.io.row_bands import checked
+from vorotool.formats.io.arrays import checked
 from vorotool.products.formats import resolved
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.points.label_image import LabelImage
@@ -55,7 +55,7 @@ def write_label_image(
             out, bands, shape, dtype=kind, palette=palette, **of_pixels, threads=threads
         )
     elif fmt == "npy":
-        resolved("formats.images.npy:write_npy")(out, bands, shape, dtype=kind)
+        resolved("formats.io.arrays:write_npy")(out, bands, shape, dtype=kind)
     elif fmt == "text":
         resolved("formats.images.label_images:write_label_text")(out, bands, shape, largest_label=largest_label)
     else:

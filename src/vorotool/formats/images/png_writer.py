@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
-from vorotool.formats.io.row_bands import blocks, check_fits
+from vorotool.formats.io.arrays import blocks, check_fits
 from vorotool.numeric.parallel import in_order
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"

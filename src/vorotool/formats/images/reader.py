@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import AS_VOLUME, InputError, option
-from vorotool.formats.images import npy, png_reader, pnm_reader, tiff_reader
+from vorotool.formats.images import png_reader, pnm_reader, tiff_reader
 from vorotool.formats.images.picture_reader import is_lossy, read_picture_file
 from vorotool.formats.images.tiff_grid import tiff_raster
 from vorotool.formats.images.world_file import world_grid
+from vorotool.formats.io.arrays import npy_header, read_npy
 from vorotool.formats.io.limits import check_pixels
-from vorotool.formats.io.npy_arrays import npy_header
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.recognition import PICTURES
@@ -60,7 +60,7 @@ def _npy_shape(source: Source) -> tuple[int, ...]:
 def _read_npy(source: Source, max_pixels: int) -> NDArray[Any]:
     shape = _npy_shape(source)
     check_pixels(source.name, shape[1], shape[0], max_pixels)
-    return npy.read_npy(source, max_items=4 * max_pixels, option="4 x " + option("--max-pixels"))
+    return read_npy(source, max_items=4 * max_pixels, option="4 x " + option("--max-pixels"))
 
 
 def _plain(values: NDArray[Any]) -> NDArray[Any]:

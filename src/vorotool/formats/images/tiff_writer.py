@@ -18,9 +18,8 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from vorotool.formats.images.npy import stored
 from vorotool.formats.images.tiff_grid import grid_tags, scale_tag
-from vorotool.formats.io.row_bands import BLOCK_BYTES, blocks, checked
+from vorotool.formats.io.arrays import BLOCK_BYTES, blocks, checked, stored
 from vorotool.numeric.parallel import in_order
 from vorotool.types.pixel_grid import PixelGrid
 

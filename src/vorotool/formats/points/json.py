@@ -22,7 +22,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions, position_array,
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.points.columns import PointRows, point_set
 from vorotool.formats.points.tables import is_table, points_of_objects
-from vorotool.formats.text.feature_collection import stated_unit
+from vorotool.formats.text.tables import stated_unit
 from vorotool.types.axis import UP
 from vorotool.types.points.point_set import PointSet
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import AS_VOLUME, InputError
-from vorotool.formats.io.npy_arrays import npy_header, npy_values
+from vorotool.formats.io.arrays import npy_header, npy_values
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions
 from vorotool.numeric.coordinates import INEXACT, first_inexact

@@ -8,14 +8,19 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.formats.polygons.geojson import feature_columns, feature_ranges, feature_texts, write_geojson
-from vorotool.formats.polygons.json import write_json
+from vorotool.formats.polygons.json import feature_columns, feature_ranges, feature_texts, write_geojson, write_json
 from vorotool.formats.polygons.poly import write_poly
 from vorotool.formats.results.geometry_text import geometry_text, written_areas
-from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.rings import written_polygons
 from vorotool.formats.text.row_writer import Column, RowShape, coordinate_text, write_list_rows, write_rows
-from vorotool.formats.text.tables import json_column, json_text, object_shape, placed_column, write_npz
+from vorotool.formats.text.tables import (
+    json_column,
+    json_text,
+    object_shape,
+    placed_column,
+    write_collection,
+    write_npz,
+)
 from vorotool.numeric.ragged import owners, within
 from vorotool.types.axis import MEMBER as Y_AXIS
 from vorotool.types.features import Areas, Mixture, Rows, features_of, parts_of, rows_of

@@ -21,7 +21,7 @@ def write_value(
 ) -> None:
     """Write a value; the bytes depend on nothing but the value and the options that concern numbers."""
     if fmt == "npy":
-        resolved("formats.io.npy_arrays:write_array")(out, matrix_of(value, what))
+        resolved("formats.io.arrays:write_array")(out, matrix_of(value, what))
     elif fmt in TABLES:
         rows = rows_of(value, what, flatten=flatten)
         if isinstance(rows.geometry, Areas):

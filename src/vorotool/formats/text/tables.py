@@ -1,4 +1,4 @@
-"""Writing tables as CSV, TSV, JSON or NPZ."""
+"""Writing tables as CSV, TSV, JSON or NPZ, and collections of GeoJSON features."""
 
 from __future__ import annotations
 
@@ -13,11 +13,20 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.formats.text.row_writer import Column, RowShape, check_precision, slices, write_list_rows, write_rows
+from vorotool.formats.text.row_writer import (
+    Column,
+    RowShape,
+    TypedOutput,
+    check_precision,
+    slices,
+    write_list_rows,
+    write_rows,
+)
 from vorotool.numeric.coordinate_grid import on_grid
-from vorotool.numeric.length_units import ascii_unit
+from vorotool.numeric.length_units import ascii_unit, is_known
 from vorotool.numeric.numbers import NumberText
 from vorotool.numeric.parallel import in_order
+from vorotool.types.axis import MEMBER, UP, YAxis
 from vorotool.types.mesh.tables import MEASURE, unit_of_measure
 from vorotool.types.table import Computed, Lookup, Table
 
@@ -274,3 +283,54 @@ def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Loo
         np.lib.format.write_array_header_1_0(member, header)
         for part in in_order(gathered, parts, threads if len(parts) > 1 else 1):
             member.write(part.data)
+
+
+_COORDINATE_UNIT: ContextVar[str | None] = ContextVar("unit of coordinates", default=None)
+
+
+@contextmanager
+def unit_member(unit: str | None) -> Iterator[None]:
+    """State the unit of coordinates in collections that are written within, in ASCII, where no system states it."""
+    token = _COORDINATE_UNIT.set(None if unit is None else ascii_unit(unit))
+    try:
+        yield
+    finally:
+        _COORDINATE_UNIT.reset(token)
+
+
+def collection_opening(crs: Any, y_axis: YAxis) -> bytes:
+    """Return the text before the features of a collection, whose ``crs`` member may be None."""
+    unit = _COORDINATE_UNIT.get() if crs is None else None
+    member = "" if crs is None else f'"crs":{json_text(crs)},'
+    member += "" if unit is None else f'"unit":{json_text(unit)},'
+    member += "" if y_axis == UP else f'"{MEMBER}":"{y_axis}",'
+    return f'{{"type":"FeatureCollection",{member}"features":['.encode()
+
+
+def stated_unit(document: Mapping[str, Any]) -> str | None:
+    """Return the unit of length that the ``unit`` member of a collection states, if it is one."""
+    unit = document.get("unit")
+    return unit if isinstance(unit, str) and is_known(unit) else None
+
+
+def write_collection(
+    out: BinaryIO,
+    blocks: Sequence[tuple[Sequence[Column], RowShape]],
+    *,
+    crs: Any,
+    y_axis: YAxis,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    """Write a collection, streamed: one feature a row, of blocks of rows with the same members each."""
+    out.write(collection_opening(crs, y_axis))
+    is_first = True
+    for columns, shape in blocks:
+        has_rows = len(columns[0].values) > 0
+        if isinstance(out, TypedOutput) and (has_rows or len(blocks) == 1):
+            out.announce(columns)
+        if has_rows:
+            out.write(b"\n" if is_first else b",\n")
+            is_first = False
+            write_rows(out, columns, shape, precision=precision, threads=threads)
+    out.write(b"]}\n" if is_first else b"\n]}\n")

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from vorotool.errors import INPUT_FORMAT, InputError, option
+from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
-from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import STANDARD_INPUT, explained_reading, reading
 from vorotool.formats.volumes.source import NpyVolume, Spool, VolumeSource, check_voxels, slabs_of
 from vorotool.formats.volumes.tiff_stack import TiffStack

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option
-from vorotool.formats.io.npy_arrays import MAGIC, npy_header, npy_values
+from vorotool.formats.io.arrays import MAGIC, npy_header, npy_values
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.points.columns import PointRows, parse_columns

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
-from vorotool.formats.io.npy_arrays import NpyHeader, npy_header, npy_values, plain_values
+from vorotool.formats.io.arrays import NpyHeader, npy_header, npy_values, plain_values
 from vorotool.formats.io.sources import Source, StoredParts, copy_stream
 from vorotool.plain import plain
 from vorotool.types.volumes.voxel_frame import VoxelGrid

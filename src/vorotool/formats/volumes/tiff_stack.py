@@ -19,8 +19,8 @@ from vorotool.formats.images.ome_xml import decimal_side
 from vorotool.formats.images.tiff_grid import grid_of, missing_values, side_of_imagej, unescaped
 from vorotool.formats.images.tiff_layout import TiffLayout, decode_rows, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout
+from vorotool.formats.io.arrays import plain_values
 from vorotool.formats.io.limits import decoding
-from vorotool.formats.io.npy_arrays import plain_values
 from vorotool.formats.volumes.ome_stack import ome_stack
 from vorotool.formats.volumes.source import VolumeSource, mapped, refuse_axes
 from vorotool.numeric.parallel import in_order

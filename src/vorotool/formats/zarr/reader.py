@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.formats.io.arrays import plain_values
 from vorotool.formats.io.limits import decoding
-from vorotool.formats.io.npy_arrays import plain_values
 from vorotool.formats.io.sources import StoredParts
 from vorotool.formats.zarr.metadata import ZarrMetadata, array_metadata, overlap, places_within, read_metadata
 from vorotool.formats.zarr.multiscales import Described, label_images, largest_image

@@ -1,0 +1,164 @@
+"""NumPy's NPY files, and images and volumes that pass by as bands of rows or slabs of slices; nothing is unpickled."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from collections.abc import Callable, Iterable, Iterator
+from math import prod
+from typing import Any, BinaryIO, NamedTuple
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from vorotool.errors import InputError, LimitError, option
+from vorotool.formats.io.sources import Source
+
+MAGIC = b"\x93NUMPY"
+_LONGEST_HEADER = 65_536
+
+
+class NpyHeader(NamedTuple):
+    """The header of an NPY file."""
+
+    shape: tuple[int, ...]
+    dtype: np.dtype[Any]
+    fortran_order: bool
+    offset: int
+
+
+def npy_header(source: Source) -> NpyHeader:
+    """Read the header alone."""
+    stream = io.BytesIO(source.data[:_LONGEST_HEADER])
+    try:
+        version = np.lib.format.read_magic(stream)  # later ones only serve structured arrays
+        read = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
+        if version not in read:
+            raise ValueError(f"version {version[0]}.{version[1]}")
+        with warnings.catch_warnings():  # a header written by Python 2
+            warnings.simplefilter("ignore")
+            shape, fortran_order, dtype = read[version](stream)
+    except Exception as error:  # a header is a Python literal: many things can be wrong with it
+        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise InputError(
+            f"{source.name} is not an NPY file of version 1 or 2 ({reason}); save an array of numbers with numpy.save"
+        ) from error
+    if dtype.hasobject:
+        raise InputError(f"{source.name} holds pickled objects, which are never loaded; save it with a number dtype")
+    if dtype.kind not in "buif":
+        raise InputError(f"{source.name} holds {dtype}, not numbers; save it as integers or floating-point numbers")
+    if any(type(side) is not int or side < 0 for side in shape):  # a truth value is taken for a number, too
+        raise InputError(f"{source.name} has the shape {shape}; expected integers of 0 or more")
+    return NpyHeader(shape, dtype, fortran_order, stream.tell())
+
+
+def npy_values(source: Source, header: NpyHeader) -> NDArray[Any]:
+    """Give the array of a source, as a view of its bytes."""
+    items = prod(header.shape)
+    needed, present = items * header.dtype.itemsize, len(source.data) - header.offset
+    if present < needed:
+        raise InputError(
+            f"{source.name} is cut off: shape {header.shape} of {header.dtype} needs {needed} bytes, it has {present}; "
+            "write the file again"
+        )
+    flat = np.frombuffer(source.data, header.dtype, items, header.offset)
+    return flat.reshape(header.shape, order="F" if header.fortran_order else "C")
+
+
+def plain_values(values: NDArray[Any]) -> NDArray[Any]:
+    """Give values in the order of bytes of this machine; truth values become 0 and 1."""
+    if values.dtype == np.bool_:
+        return values.astype(np.uint8)
+    return values.astype(values.dtype.newbyteorder("="), copy=False)
+
+
+def write_array(out: BinaryIO, values: NDArray[Any]) -> None:
+    """Write an array of numbers: the same bytes for the same values, little-endian."""
+    stored = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))
+    header = {"descr": np.lib.format.dtype_to_descr(stored.dtype), "fortran_order": False, "shape": values.shape}
+    np.lib.format.write_array_header_1_0(out, header)
+    out.write(stored.data)
+
+
+_WIDER = option("-o labels.tif or .npy", "the path labels.tif or labels.npy")
+_SIGNED = option("-o labels.npy", "the path labels.npy")
+
+BLOCK_BYTES = 1 << 20
+"""Bytes of a block: its own code tables cost nothing, and it stays in the cache."""
+
+
+def checked(bands: Iterable[NDArray[Any]], shape: tuple[int, ...]) -> Iterator[NDArray[Any]]:
+    """Pass on bands of rows, or slabs of slices, and see that together they have a shape."""
+    seen = 0
+    for item in bands:
+        band = np.asarray(item)
+        if band.shape[1:] != shape[1:] or band.ndim != len(shape):
+            raise ValueError(f"a band has shape {band.shape}: it must be (rows, {', '.join(map(str, shape[1:]))})")
+        seen += len(band)
+        if seen > shape[0]:
+            break
+        yield band
+    if seen != shape[0]:
+        raise ValueError(f"the bands have {'more than ' * (seen > shape[0])}{min(seen, shape[0])} rows, not {shape[0]}")
+
+
+def check_fits(band: NDArray[Any], largest: int, target: str) -> None:
+    """Refuse values that ``target`` cannot hold: nothing is ever wrapped."""
+    if band.size == 0 or band.dtype.kind == "b":
+        return
+    if np.iinfo(band.dtype).max > largest and (top := int(band.max())) > largest:
+        raise LimitError(f"the value {top} does not fit in {target}, which ends at {largest}: use {_WIDER}")
+    if band.dtype.kind == "i" and (low := int(band.min())) < 0:
+        raise LimitError(f"the value {low} does not fit in {target}, which begins at 0: use {_SIGNED}")
+
+
+def blocks(
+    bands: Iterable[NDArray[Any]],
+    shape: tuple[int, ...],
+    *,
+    columns: int,
+    dtype: DTypeLike,
+    encode: Callable[[NDArray[Any], NDArray[Any]], None],
+) -> Iterator[NDArray[Any]]:
+    """Regroup bands into blocks whose limits depend on the shape alone, so that the bytes written do too."""
+    row_bytes = max(1, columns * np.dtype(dtype).itemsize)
+    rows = max(1, min(shape[0], BLOCK_BYTES // row_bytes))
+    block, filled = np.zeros((1 + rows, columns), dtype), 1
+    for band in checked(bands, shape):
+        start = 0
+        while start < len(band):
+            take = min(1 + rows - filled, len(band) - start)
+            encode(band[start : start + take], block[filled : filled + take])
+            start, filled = start + take, filled + take
+            if filled > rows:
+                last = block[-1]
+                yield block
+                block, filled = np.empty_like(block), 1
+                block[0] = last
+    if filled > 1:
+        yield block[:filled]
+
+
+def write_npy(out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, ...], *, dtype: DTypeLike) -> None:
+    """Write an array from bands of rows, or slabs of slices: the header first, then each as it comes."""
+    kind = np.dtype(dtype).newbyteorder("<")
+    header = {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": tuple(map(int, shape))}
+    np.lib.format.write_array_header_1_0(out, header)
+    for band in checked(bands, shape):
+        out.write(stored(band, kind).data)
+
+
+def stored(band: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
+    """Contiguous rows of the given type; integers that do not fit are refused (LimitError), never wrapped."""
+    if dtype.kind in "ui" and not np.can_cast(band.dtype, dtype):
+        check_fits(band, int(np.iinfo(dtype).max), f"{dtype.name} pixels")
+    return np.ascontiguousarray(band, dtype=dtype)
+
+
+def read_npy(source: Source, *, max_items: int, option: str) -> NDArray[Any]:
+    """Return the array of a source, as a view of its bytes where that is possible."""
+    header = npy_header(source)
+    items = prod(header.shape)
+    if items > max_items:
+        raise LimitError(f"{source.name} has {items} items, shape {header.shape}: more than {option} {max_items}")
+    return npy_values(source, header).astype(header.dtype.newbyteorder("="), order="C", copy=False)
