@@ -78,11 +78,6 @@ def test_a_file_that_is_not_ours_to_read(tmp_path):
         assert str(path) in error_of(read_source, path)
 
 
-def test_lines_are_counted_from_one():
-    source = Source("a", b"x\ny\nz")
-    assert [source.line_at(offset) for offset in (0, 1, 2, 4)] == [1, 1, 2, 3]
-
-
 @pytest.mark.parametrize("text", ["[" * 100 + "]" * 100, json.dumps({"a": "[[" * 200}), "POINT (1 2)" * 500])
 def test_nesting_that_is_accepted(text):
     check_nesting(text)

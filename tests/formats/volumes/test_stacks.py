@@ -14,8 +14,8 @@ import vorotool
 from support.families.tiff_files import grey, tiff_file
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.volumes import writer
-from vorotool.formats.volumes.ome_stack import ome_stack
 from vorotool.formats.volumes.opening import open_volume, read_volume
+from vorotool.formats.volumes.tiff_stack import ome_stack
 from vorotool.formats.volumes.writer import write_volume
 from vorotool.types.volumes.voxel_frame import VoxelGrid
 

@@ -50,10 +50,6 @@ class Source:
         """Extension of the name in lower case, with its dot, that of gzip left out; empty for standard input."""
         return Path(without_gz(self.name)).suffix.lower()
 
-    def line_at(self, offset: int) -> int:
-        """1-based line of the byte at ``offset``."""
-        return self.data.count(b"\n", 0, offset) + 1
-
 
 @plain
 class StoredParts:

@@ -51,6 +51,14 @@ def npz_columns(source: Source, options: ReadOptions) -> dict[str, NDArray[Any]]
     return columns
 
 
+def present_values(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
+    """List the values of a column, None where its array of what is missing says so."""
+    listed: list[Any] = values.tolist()
+    if missing is None or len(missing) != len(listed):
+        return listed
+    return [None if none else value for value, none in zip(listed, missing.tolist(), strict=True)]
+
+
 def _column(name: str, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, options: ReadOptions) -> NDArray[Any]:
     """One array, of which no more is read than its header announces and the file holds."""
     if entry.compress_type:  # it is not stored as it is

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.npz_columns import npz_columns
+from vorotool.formats.parsing.npz_columns import npz_columns, present_values
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, shortened
 from vorotool.formats.points.columns import Chosen, PointRows, chosen_columns, note_no_label, point_set
 from vorotool.formats.points.delimited import placed_by
@@ -57,15 +57,8 @@ def npz_rows(source: Source, options: ReadOptions) -> PointRows:
             f"curves give the table ({option('--what points -f npz', 'of points_along')}) or the JSON"
         )
     kept = {name: values for name, values in columns.items() if not name.endswith(_MISSING)}
-    values = {name: _present(values, columns.get(f"{name}{_MISSING}")) for name, values in kept.items()}
+    values = {name: present_values(values, columns.get(f"{name}{_MISSING}")) for name, values in kept.items()}
     return rows_of_columns(source.name, values, options)
-
-
-def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
-    listed: list[Any] = values.tolist()
-    if missing is None:
-        return listed
-    return [None if none else value for value, none in zip(listed, missing.tolist(), strict=True)]
 
 
 def rows_of_columns(name: str, columns: Mapping[str, list[Any]], options: ReadOptions) -> PointRows:

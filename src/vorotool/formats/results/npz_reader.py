@@ -11,7 +11,7 @@ from vorotool.convert.sites import Sites, as_sites
 from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.json import read_y_axis
-from vorotool.formats.parsing.npz_columns import npz_columns, npz_holds
+from vorotool.formats.parsing.npz_columns import npz_columns, npz_holds, present_values
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results.offset_files import read_offsets
 from vorotool.formats.results.rows import ArrayRows
@@ -90,16 +90,9 @@ def _starts(rows: ArrayRows, name: str, count: int, least: int) -> NDArray[np.in
 def _described(rows: ArrayRows, cell: NDArray[np.int64], count: int) -> dict[str, Any]:
     """Ids and properties of the cells of polygons."""
     names = [name for name in rows.arrays if name not in _OF_CELLS and not name.endswith("_missing")]
-    columns = {name: _present(rows.arrays[name], rows.arrays.get(f"{name}_missing")) for name in names}
+    columns = {name: present_values(rows.arrays[name], rows.arrays.get(f"{name}_missing")) for name in names}
     if any(len(values) != count for values in columns.values()):
         raise InputError(f"{rows.name}: its columns have other lengths than the {count} cells; write it again")
     ids = columns.pop("id", columns.get("label", [None] * count))
     of_polygons = {name: [values[i] for i in cell.tolist()] for name, values in columns.items()}
     return {"ids": [ids[i] for i in cell.tolist()], "properties": of_polygons}
-
-
-def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
-    listed: list[Any] = values.tolist()
-    if missing is None or len(missing) != len(listed):
-        return listed
-    return [None if none else value for value, none in zip(listed, missing.tolist(), strict=True)]

@@ -13,7 +13,7 @@ from vorotool.formats.images.ome_xml import ome_document, ome_type, shown_side
 from vorotool.formats.images.tiff_grid import NO_UNIT, NODATA, imagej_unit, ratio_of, resolution, resolution_tags
 from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, write_pages
 from vorotool.formats.io.arrays import write_npy
-from vorotool.formats.volumes.ome_stack import PIXEL
+from vorotool.formats.volumes.tiff_stack import PIXEL
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
