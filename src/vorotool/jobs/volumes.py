@@ -20,6 +20,7 @@ from vorotool.engines.tessellation.volume_seeding import (
     seeds_of_slabs,
 )
 from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.sources import reading
 from vorotool.formats.volumes.opening import open_volume
