@@ -8,7 +8,7 @@ import pytest
 from support.documents import ROOT
 from support.processes.ended import ENVIRONMENT, ended, ended_bash
 from support.processes.warm_commands import warm_commands
-from vorotool.jobs.samples import write_all_samples
+from vorotool.cli.commands.sample import write_all_samples
 
 
 @pytest.fixture(scope="session")

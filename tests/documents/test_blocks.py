@@ -9,8 +9,8 @@ import pytest
 
 from support.documents import blocks
 from support.processes.ended import ended, ended_bash, ended_python
+from vorotool.cli.commands.sample import write_all_samples
 from vorotool.cli.main import COMMANDS
-from vorotool.jobs.samples import write_all_samples
 
 ROOT = Path(__file__).parents[2]
 PICTURES = [*(ROOT / "docs/images").glob("*.svg")]

@@ -60,7 +60,7 @@ class LazyGroup(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Find the command; one that is mistyped is refused with those that are meant, perhaps."""
         name = args[0]
-        if not name.startswith("-") and not ctx.resilient_parsing and self.get_command(ctx, name) is None:
+        if not name.startswith("-") and not ctx.resilient_parsing and name not in COMMANDS:
             from difflib import get_close_matches
 
             meant = " or ".join(get_close_matches(name.lower().replace("_", "-"), COMMANDS))

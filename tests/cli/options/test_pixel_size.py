@@ -233,7 +233,7 @@ def test_rows_of_measures_have_units_of_their_own(run, tmp_path, fmt):
     found = {name: unit or None for name, unit in zip(names, units, strict=True)}
     assert found == {
         **{"area": "um2", "perimeter": "um", "nearest_distance": "um", "tree_length": "um"},
-        **dict.fromkeys(["roundness", "neighbors", "tree_normalised"]),
+        **dict.fromkeys(["roundness", "neighbors", "tree_normalized"]),
     }
 
 

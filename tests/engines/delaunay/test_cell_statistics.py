@@ -31,7 +31,7 @@ def test_hexagons():
     tree = row(found, "tree_length")
     assert tree["count"] == 35
     assert tree["mean"] == pytest.approx(1)
-    assert row(found, "tree_normalised")["mean"] == pytest.approx(35 / np.sqrt(36 * 25 * np.sqrt(3) / 2))
+    assert row(found, "tree_normalized")["mean"] == pytest.approx(35 / np.sqrt(36 * 25 * np.sqrt(3) / 2))
 
 
 def test_beside_numpy_and_shapely():

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from skimage.filters import threshold_otsu
 
-from vorotool.engines.tessellation.otsu import otsu_threshold
-from vorotool.engines.tessellation.raster_objects import foreground_values
+from vorotool.engines.tessellation.raster_objects import foreground_values, otsu_threshold
 from vorotool.types.points.raster import Raster
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vorotool.numeric.curves.bezier import areas_beside, lengths_of
+from vorotool.numeric.curves.mixed_arcs import areas_beside, lengths_of
 
 CHORDS = 4000
 

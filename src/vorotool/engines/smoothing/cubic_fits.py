@@ -17,11 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.smoothing.line_samples import LineSamples
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
-
-Numbers = NDArray[np.int64]
 
 ROUNDS = 4
 """Of least squares and Newton's method."""
@@ -40,8 +38,8 @@ HANDLE = 0.25
 class Stretches:
     """Parts of lines that are fitted by one curve each."""
 
-    first: Numbers  # (k,) int64 array: the places where they begin and end
-    last: Numbers  # (k,) int64 array: the places where they begin and end
+    first: Indices  # (k,) int64 array: the places where they begin and end
+    last: Indices  # (k,) int64 array: the places where they begin and end
     leaving: Floats  # (2, k) float64 array: unit tangents there: away from the first place, and away from the last
     entering: Floats  # (2, k) float64 array: unit tangents there: away from the first place, and away from the last
 
@@ -56,7 +54,7 @@ class Fits:
     control: Floats  # (4, 2, k) float64 array: control points
     error: Floats  # (k,) float64 array: bounds on their distances
     # (k,) int64 array: the place inside each stretch that is farthest from its parameter; -1 where none is inside
-    farthest: Numbers
+    farthest: Indices
 
 
 def fitted(samples: LineSamples, stretches: Stretches, tolerance: float) -> Fits:
@@ -125,7 +123,7 @@ class _Places:
         return made
 
     @property
-    def last(self) -> Numbers:
+    def last(self) -> Indices:
         """The last place of each stretch."""
         return self.start + self.counts - 1
 
@@ -177,7 +175,7 @@ def _control(places: _Places, handles: Floats) -> Floats:
     return np.stack([places.origin, one, two, places.end])
 
 
-def _farthest(places: _Places, off: Floats) -> Numbers:
+def _farthest(places: _Places, off: Floats) -> Indices:
     """The inner place that is farthest from its parameter, the first of several."""
     inner = off.copy()
     inner[places.start] = inner[places.last] = -1.0

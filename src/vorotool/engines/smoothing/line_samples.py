@@ -5,14 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.curves.flatten import chained, polylines
 from vorotool.numeric.ragged import owners, starts_of, within
 from vorotool.plain import plain
 from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.skeleton import Skeleton
-
-Numbers = NDArray[np.int64]
 
 NEARNESS = 16
 """How many times nearer the polylines are than the tolerance."""
@@ -26,7 +24,7 @@ class LineSamples:
     """Places along lines, line by line, from the start to the end of each."""
 
     xy: Floats  # (2, n) float64 array: their coordinates. Neighbors differ; a line without a length has one place
-    start: Numbers  # (l + 1,) integer array: the first place of each line, and `n`
+    start: Indices  # (l + 1,) integer array: the first place of each line, and `n`
     along: Floats  # (n,) float64 array: lengths along the polylines, all lines after one another
     # (n,) float64 array: how far the line may be from the straight piece that begins at each place; 0 at the ends of
     # lines
@@ -57,7 +55,7 @@ def sampled_lines(lines: Skeleton | LedOn, tolerance: float) -> LineSamples:
     return _parted(points, off, start, (ends[0] == ends[1]) & (path.degree[ends[0]] == 2))
 
 
-def _led_on(lines: LedOn, points: Floats, off: Floats, start: Numbers) -> tuple[Floats, Floats, Numbers]:
+def _led_on(lines: LedOn, points: Floats, off: Floats, start: Indices) -> tuple[Floats, Floats, Indices]:
     """With the straight pieces at both ends of lines."""
     first, last = lines.extended
     line = np.concatenate([first, owners(np.diff(start)), last])
@@ -67,7 +65,7 @@ def _led_on(lines: LedOn, points: Floats, off: Floats, start: Numbers) -> tuple[
     return points[order], off[order], np.searchsorted(line[order], np.arange(len(lines) + 1))
 
 
-def _parted(points: Floats, off: Floats, start: Numbers, is_closed: NDArray[np.bool_]) -> LineSamples:
+def _parted(points: Floats, off: Floats, start: Indices, is_closed: NDArray[np.bool_]) -> LineSamples:
     """Without places that are repeated, and with long pieces parted evenly."""
     line = owners(np.diff(start))
     kept = np.ones(len(line), dtype=bool)

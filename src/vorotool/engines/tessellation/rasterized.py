@@ -11,12 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, option
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.ragged import owners, ranges, within
 from vorotool.types.pixel_frame import FARTHEST, Frame
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _PIXELS = 2**22
 """Rows of edges, or pixels, that are listed at a time."""

@@ -197,7 +197,7 @@ class CellStatistics(Value, Tabular):
         """One row a measure of the whole cells, as `summary_table` has it, and two of the minimum spanning tree.
 
         The homogeneity of ``roundness`` is the roundness factor homogeneity RFH, the disorder of ``area`` the area
-        disorder AD (Marcelpoil and Usson 1992). ``tree_length`` is of the edges of the tree; ``tree_normalised`` of
+        disorder AD (Marcelpoil and Usson 1992). ``tree_length`` is of the edges of the tree; ``tree_normalized`` of
         these over √(A n) / (n - 1), for n places in an area A: its mean and sd are the (m, σ) of Dussert and others
         (1986).
         """
@@ -207,7 +207,7 @@ class CellStatistics(Value, Tabular):
         edges = len(self.tree_lengths)
         unit = sqrt(self.area * (edges + 1)) / edges if edges else 1.0
         normalized = self.tree_lengths / unit if unit > 0 else self.tree_lengths[:0]
-        return summary_table({**chosen, "tree_length": self.tree_lengths, "tree_normalised": normalized})
+        return summary_table({**chosen, "tree_length": self.tree_lengths, "tree_normalized": normalized})
 
     def _rows(self, what: str | None = None) -> Rows:
         return Rows(self.measures if what == "measures" else self.summary)
