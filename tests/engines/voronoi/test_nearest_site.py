@@ -8,7 +8,7 @@ from tests.support.oracles.voronoi_oracle import EQUAL, NEARLY, distances_of
 
 from vorotool.convert.sites import as_sites
 from vorotool.engines.voronoi.elements import owned_graph
-from vorotool.engines.voronoi.nearest_site import site_at
+from vorotool.engines.voronoi.nearest import site_at
 
 
 def owned_of(geometry):

@@ -6,13 +6,13 @@ import shapely
 from tests.support.families.site_families import mixed_sites
 
 from vorotool import voronoi
-from vorotool.types.voronoi import site_shapes
-from vorotool.types.voronoi.site_shapes import site_distances
+from vorotool.types.voronoi import tables
+from vorotool.types.voronoi.tables import site_distances
 
 
 @pytest.mark.parametrize("most", [1, 1 << 20])
 def test_distances_are_those_of_shapely(most, monkeypatch):
-    monkeypatch.setattr(site_shapes, "_MANY", most)
+    monkeypatch.setattr(tables, "_MANY", most)
     for seed in range(12):
         random = np.random.default_rng(seed)
         sites = mixed_sites(random, 8)

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.voronoi.moves import Moves
 from vorotool.errors import VerificationError
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.ragged import ranges, starts_of
@@ -138,3 +137,95 @@ def cells_of(rings: Rings, shell: Indices, count: int) -> Cells:
         np.append(first, len(sorting)),
         starts_of(of_site),
     )
+
+
+@plain(eq=False)
+class Moves:
+    """Where some of many places are in the input."""
+
+    at: Indices  # (k,) int64 array: their numbers
+    xy: Floats  # (k, 2) float64 array: where each is
+
+    def renumbered(self, number: Indices) -> Moves:
+        """Give places other numbers; those below 0 are left out."""
+        at = number[self.at]
+        return Moves(at[at >= 0], self.xy[at >= 0])
+
+
+def moved_vertices(arcs: Arcs, rings: Rings) -> Floats:
+    """(v, 2) vertices of a map, where the input has them; on rings so thin that they might turn over none is moved."""
+    at, xy = arcs.moves.at, arcs.moves.xy
+    made = arcs.vertices.copy()
+    if not at.size:
+        return made
+    made[at] = xy
+    most = float(np.sqrt(np.square(xy - arcs.vertices[at]).sum(axis=1).max()))
+    size = np.diff(rings.start)
+    around = np.add.reduceat(_lengths(arcs)[rings.half_edge >> 1], rings.start[:-1])
+    thin = np.flatnonzero(np.abs(rings.area) <= 2 * most * (around + size * most))
+    kept = arcs.ends[rings.half_edge[ranges(rings.start[:-1][thin], size[thin])] >> 1]
+    made[kept] = arcs.vertices[kept]
+    return made
+
+
+def _lengths(arcs: Arcs) -> Floats:
+    """(a,) at least the lengths of arcs."""
+    source, target = (arcs.vertices.take(end, axis=0) for end in arcs.ends.T)
+    length = _norm(target - source)
+    bent = np.flatnonzero(~np.isnan(arcs.control[:, 0]))
+    control = arcs.control[bent]
+    length[bent] = _norm(control - source[bent]) + _norm(target[bent] - control)
+    round_ = np.flatnonzero(~np.isnan(arcs.center[:, 0]))
+    length[round_] = 4 * _norm(source[round_] - arcs.center[round_])  # at most half a circle
+    return length
+
+
+def _norm(way: Floats) -> Floats:
+    length: Floats = np.sqrt(np.square(way).sum(axis=1))
+    return length
+
+
+def shells_of(rings: Rings, arcs: Arcs) -> Indices:
+    """(r,) the shell around each hole; of a shell its own number."""
+    shell = np.arange(len(rings.site))
+    shells, holes = np.flatnonzero(rings.area > 0), np.flatnonzero(~(rings.area > 0))
+    if not holes.size:
+        return shell
+    sorting = shells[np.argsort(rings.part[shells], kind="stable")]
+    first = np.searchsorted(rings.part[sorting], rings.part[holes])
+    last = np.searchsorted(rings.part[sorting], rings.part[holes], side="right")
+    held = last > first
+    shell[holes[held]] = sorting[first[held]]
+    several = np.flatnonzero(last - first > 1)
+    if several.size:
+        shell[holes[several]] = _around(holes[several], shells, rings, arcs)
+    return shell
+
+
+def _around(holes: Indices, shells: Indices, rings: Rings, arcs: Arcs) -> Indices:
+    """For each hole the smallest shell of its part that lies around it."""
+    import shapely
+
+    own = shells[np.isin(rings.part[shells], rings.part[holes])]
+    tree = shapely.STRtree([shapely.Polygon(_outline(each, rings, arcs)) for each in own.tolist()])
+    inner = np.array([shapely.Polygon(_outline(each, rings, arcs)) for each in holes.tolist()])
+    hole, row = tree.query(shapely.point_on_surface(inner), predicate="dwithin", distance=0.0)
+    shell = own[row]
+    fits = (rings.part[shell] == rings.part[holes[hole]]) & (rings.area[shell] >= -rings.area[holes[hole]])
+    hole, shell = hole[fits], shell[fits]
+    order = np.lexsort((shell, -rings.area[shell], hole))
+    found = np.full(len(holes), -1, dtype=np.int64)
+    found[hole[order]] = shell[order]  # the smallest comes last, and stays
+    for at in np.flatnonzero(found < 0).tolist():  # as far as doubles tell it lies in none: in the nearest
+        alike = np.flatnonzero(rings.part[own] == rings.part[holes[at]])
+        found[at] = own[alike[shapely.distance(tree.geometries[alike], inner[at]).argmin()]]
+    return found
+
+
+def _outline(ring: int, rings: Rings, arcs: Arcs) -> NDArray[np.float64]:
+    """Places along a ring, close enough to tell what is in it."""
+    half_edge = rings.half_edge[rings.start[ring] : rings.start[ring + 1]]
+    arc, is_back = half_edge >> 1, (half_edge & 1).astype(bool)
+    along = arcs.mixed()[arc].reversed(is_back)
+    tolerance = float(np.ptp(np.concatenate([along.source, along.target]), axis=0).max()) * 2.0**-20
+    return along.polylines(tolerance)[0]

@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.cut_curves import FAR, CutCurves, cut_curves
-from vorotool.engines.voronoi.joint_graph import packed
-from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
-from vorotool.engines.voronoi.regions import CutEdges
+from vorotool.engines.voronoi.elements import packed
+from vorotool.engines.voronoi.regions import CutEdges, LocalDiagrams
 from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 

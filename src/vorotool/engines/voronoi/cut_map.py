@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.voronoi.assembly import Arcs, by_ends, without_lost
-from vorotool.engines.voronoi.moves import Moves
-from vorotool.engines.voronoi.nearest_elements import NearestElements
+from vorotool.engines.voronoi.assembly import Arcs, Moves, by_ends, without_lost
+from vorotool.engines.voronoi.nearest import NearestElements
 from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay, RegionOverlay
 from vorotool.errors import VerificationError
 from vorotool.types.voronoi.voronoi_map import OUTSIDE

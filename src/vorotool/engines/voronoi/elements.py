@@ -16,6 +16,7 @@ from vorotool.engines.arrangement.planar_graph import (
     placed_vertices,
 )
 from vorotool.engines.arrangement.reports import report_repairs, report_small
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import LimitError
 from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import owners, ranges, starts_of
@@ -23,13 +24,14 @@ from vorotool.plain import plain
 from vorotool.types.box import check_magnitude
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
+
+Sites = NDArray[np.int32]
 
 NOBODY = np.int32(2**31 - 1)
 """A site after all others, while the smallest is looked for."""
 
 _FAULTS = ("repeated_vertices", "idle_segments", "empty_polygons")
-
-Sites = NDArray[np.int32]
 
 
 @plain(eq=False)
@@ -192,21 +194,41 @@ def _bounding_sources(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np
 def _lone_places(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
     """Points that are a whole line or hole, and the polygons that these are of."""
     assert graph.vertices is not None
-    places = _packed(graph.vertices)
+    places = packed(graph.vertices)
     starts = given.ring_starts[:-1]
     if not len(starts):
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int32)
     is_one = np.minimum.reduceat(places, starts) == np.maximum.reduceat(places, starts)
     is_one &= np.equal(given.ring_kind, LINE)
-    order = np.argsort(_packed(graph.points), kind="stable")
-    known = _packed(graph.points)[order]
+    order = np.argsort(packed(graph.points), kind="stable")
+    known = packed(graph.points)[order]
     at = np.searchsorted(known, places[starts[is_one]])
     point = np.concatenate([order[at], graph.point_holes[:, 0]])
     return point, np.concatenate([given.ring_polygon[is_one], graph.point_holes[:, 2]])
 
 
-def _packed(places: NDArray[np.int32]) -> NDArray[np.int64]:
+def packed(places: NDArray[np.integer]) -> NDArray[np.int64]:
     """One number a place of the lattice."""
     x, y = places.astype(np.int64).T
-    packed: NDArray[np.int64] = x * 2**32 + y
-    return packed
+    made: NDArray[np.int64] = x * 2**32 + y
+    return made
+
+
+def diagram_of(
+    owned: OwnedGraph, *, is_whole: bool = False, threads: int = 0, progress: Progress = None
+) -> SegmentVoronoiDiagram:
+    """Make the diagram of the points and segments of a graph."""
+    graph, unwanted = owned.graph, None if is_whole else _unwanted(owned)
+    return segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
+
+
+def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:
+    """Tell where the diagram is not needed: in covered faces; None where all of it is."""
+    graph, count = owned.graph, len(owned.graph.points)
+    degree = np.bincount(graph.segments.ravel(), minlength=count)
+    if (owned.face < 0).all() or (degree == 0).any():
+        return None
+    least, most = _core.voronoi.owners_at_points(graph.segments, owned.element[count:], count)
+    if ((degree == 2) & (least != most)).any():
+        return None
+    return unwanted_sides(graph, owned.face < 0)

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.flat_rings import with_flat_shells_as_lines
 from vorotool.engines.arrangement.planar_graph import MOST_VERTICES, Placement, arranged, placed_vertices
 from vorotool.engines.voronoi.elements import graph_of_sites
-from vorotool.errors import LimitError
+from vorotool.errors import InputError, LimitError
+from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
-from vorotool.types.box import Sides, check_magnitude
+from vorotool.types.box import Extent, Sides, bounds, check_magnitude, default_frame, extent_sides
 from vorotool.types.polygons.planar_graph import PlanarGraph
-from vorotool.types.polygons.polygon_set import LINE, SHELL, PolygonSet
+from vorotool.types.polygons.polygon_set import LINE, SHELL, PolygonSet, set_of_rings
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -116,13 +121,6 @@ def _joined(parts: list[PolygonSet]) -> PolygonSet:
     )
 
 
-def packed(places: NDArray[np.integer]) -> Indices:
-    """One number a place of the lattice."""
-    x, y = places.astype(np.int64).T
-    made: Indices = x * 2**32 + y
-    return made
-
-
 def _noded(given: PolygonSet, graph: PlanarGraph) -> tuple[PolygonSet, NDArray[np.int32]]:
     """Polygons with a vertex wherever a graph cuts their edges, and all vertices on its lattice."""
     assert graph.vertices is not None
@@ -150,3 +148,73 @@ def _noded(given: PolygonSet, graph: PlanarGraph) -> tuple[PolygonSet, NDArray[n
     sizes = np.diff(given.ring_starts) + np.bincount(ring, minlength=len(given.ring_kind))
     noded = _rings(all_places.astype(np.float64), sizes, given.ring_kind, given.ring_polygon)
     return noded, all_places
+
+
+FARTHEST = 8.0
+"""Margin of the frame at most, in extents of what is in it: the frame is on the lattice, whose step grows with it."""
+
+
+@plain(eq=False)
+class GivenCuts:
+    """What cells are cut by, beside a frame."""
+
+    clip: PolygonSet | None  # each in the coordinate reference system of the sites
+    enclosures: PolygonSet | None  # each in the coordinate reference system of the sites
+
+    @property
+    def are_there(self) -> bool:
+        """Whether there is one of them."""
+        return self.clip is not None or self.enclosures is not None
+
+    def frame_for(self, sites: PolygonSet, frame: Extent | None, limit: float | None) -> Extent | None:
+        """Return the frame that was given, else that of an image; without a clip that around sites and enclosures."""
+        if frame is None and sites.frame is not None:
+            return sites.frame.extent
+        if frame is not None or self.clip is not None:
+            return frame
+        if self.enclosures is None or not len(self.enclosures.xy):
+            return default_frame(sites, limit)
+        xy = np.concatenate([sites.xy, self.enclosures.xy])
+        if limit is not None:
+            low, high = bounds(xy)
+            limit = min(limit, FARTHEST * float((high - low).max()))
+        return default_frame(set_of_rings(xy, [len(xy)], [LINE], [0]), limit)
+
+    def sides_near(self, frame: Extent | None) -> Sides | None:
+        """Draw far sides of a frame near the clip, or leave out all: the step of the lattice grows with them."""
+        if frame is None or self.clip is None or not len(self.clip.xy):
+            return None if frame is None else extent_sides(frame)
+        sides = np.array(extent_sides(frame)).reshape(2, 2)
+        low, high = bounds(self.clip.xy)
+        if (sides[0] <= low).all() and (high <= sides[1]).all():
+            return None
+        if (sides[0] < high).all() and (low < sides[1]).all():
+            margin = (high - low).max()
+            sides = np.array([np.maximum(sides[0], low - margin), np.minimum(sides[1], high + margin)])
+        left, bottom, right, top = sides.ravel().tolist()
+        return left, bottom, right, top
+
+
+def given_cuts(clip: Any, enclosures: Any, crs: Any) -> GivenCuts:
+    """Take polygons to clip by, and lines and polygons that enclose."""
+    made = []
+    for name, source in (("clip", clip), ("enclosures", enclosures)):
+        given = None if source is None else as_polygons(source, name)
+        if given is not None:
+            given = _in_crs(given, crs, name)
+        made.append(given)
+    if made[0] is not None and made[0].is_line.all():
+        raise InputError("the clip has no polygon: give polygons that have an area")
+    return GivenCuts(*made)
+
+
+def _in_crs(given: PolygonSet, crs: Any, name: str) -> PolygonSet:
+    """The same in a system; what names none is taken to be in it."""
+    if crs is None or given.crs is None:
+        return given if crs is None or given.crs is crs else replace(given, crs=crs)
+    if not same_crs(given.crs, crs):
+        raise InputError(
+            f"the {name} and the sites are in different coordinate reference systems, {crs_name(given.crs)} and "
+            f"{crs_name(crs)}: reproject one of them"
+        )
+    return given

@@ -9,9 +9,8 @@ from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders, sides_of_segments
 from vorotool.engines.voronoi.crossings import SLACK, Crossings, EdgeLines, crossings_of
 from vorotool.engines.voronoi.cut_curves import controls_of
-from vorotool.engines.voronoi.joint_graph import packed
-from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
-from vorotool.engines.voronoi.regions import NOBODY, CutEdges, faces_of_sides
+from vorotool.engines.voronoi.elements import packed
+from vorotool.engines.voronoi.regions import NOBODY, CutEdges, LocalDiagrams, faces_of_sides
 from vorotool.numeric.ragged import owners, starts_of
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph

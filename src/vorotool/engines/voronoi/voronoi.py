@@ -10,20 +10,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.convert.sites import Sites, as_sites
-from vorotool.engines.voronoi.assembly import Arcs, Rings, cells_of, rings_of, without_lost
+from vorotool.engines.voronoi.assembly import Arcs, Rings, cells_of, moved_vertices, rings_of, shells_of, without_lost
 from vorotool.engines.voronoi.borders import borders_of
-from vorotool.engines.voronoi.cut_arguments import GivenCuts, frame_of, given_cuts
 from vorotool.engines.voronoi.cut_map import CutMap, cut_map
-from vorotool.engines.voronoi.diagram import diagram_of
-from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
+from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owned_graph
 from vorotool.engines.voronoi.frame_cut import FrameOverlay
-from vorotool.engines.voronoi.holes import shells_of
-from vorotool.engines.voronoi.joint_graph import joint_graph
-from vorotool.engines.voronoi.local_diagrams import local_diagrams
-from vorotool.engines.voronoi.moves import moved_vertices
-from vorotool.engines.voronoi.nearest_site import site_at
+from vorotool.engines.voronoi.joint_graph import GivenCuts, given_cuts, joint_graph
+from vorotool.engines.voronoi.nearest import site_at
 from vorotool.engines.voronoi.overlay import RegionOverlay
-from vorotool.engines.voronoi.regions import regions_of
+from vorotool.engines.voronoi.regions import frame_of, local_diagrams, regions_of
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import finite_double, shown_number

@@ -18,8 +18,7 @@ from vorotool.render.layers.mesh import cell_ids
 from vorotool.render.layers.polygons import polygon_layers
 from vorotool.types.axis import is_up
 from vorotool.types.box import extent_sides
-from vorotool.types.voronoi.site_shapes import site_shapes
-from vorotool.types.voronoi.tables import neighbor_pairs
+from vorotool.types.voronoi.tables import neighbor_pairs, site_shapes
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 LAYERS = ("cells", "edges", "objects", "labels")

@@ -206,8 +206,8 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
 
     @cached_property
     def reaches(self) -> Floats:
-        """(s,) largest distances of cells from their sites; see `vorotool.engines.voronoi.reaches.reaches`."""
-        made: Floats = resolved("engines.voronoi.reaches:reaches")(self)
+        """(s,) largest distances of cells from their sites; see `vorotool.engines.voronoi.measures.reaches`."""
+        made: Floats = resolved("engines.voronoi.measures:reaches")(self)
         return made
 
     @cached_property
