@@ -60,6 +60,8 @@ def read_recognized(holds: Holds, source: Source, options: ReadOptions) -> Any:
     name = readers["polygons"] if holds == "sites" and "sites" not in readers else readers[holds]
     reader: Callable[[Source, ReadOptions], Any] = resolved(name)
     value = reader(source, options)
+    if is_of(value, "PointRows"):
+        value = resolved("formats.points.columns:point_set")(value)
     if holds not in ("points", "polygons", "sites"):
         return value
     from vorotool.formats.parsing.reference_systems import with_crs

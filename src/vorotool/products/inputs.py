@@ -108,16 +108,8 @@ _ALL = (
 )
 INPUTS = {each.name: each for each in _ALL}
 """By name."""
-SPACE_READERS = {
-    "csv": "formats.points.delimited:text_rows",
-    "json": "formats.points.json:json_rows",
-    "jsonl": "formats.points.json:json_rows",
-    "geojson": "formats.points.json:geojson_rows",
-    "npz": "formats.points.tables:npz_rows",
-    "node": "formats.points.node:node_rows",
-    **{each.name: "formats.gis.feature_table:point_rows" for each in _ALL if each.features and each.name != "csv"},
-}
-"""Formats whose points may have a z, and ``module:function`` of ``function(source, options)`` that reads it."""
+SPACE_FORMATS = tuple(each.name for each in _ALL if "points" in each.readers and each.name != "npy")
+"""Formats whose points may have a z, which the same reader reads."""
 
 
 def names_of(*held: Holds) -> dict[str, str]:

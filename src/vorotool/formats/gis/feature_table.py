@@ -14,14 +14,13 @@ from vorotool.errors import NO_PROPERTIES, InputError, LimitError, option
 from vorotool.formats.io.sources import STANDARD_INPUT, Source
 from vorotool.formats.parsing.json import MOST_CELLS, OF_SITES, not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shortened
-from vorotool.formats.points.columns import PointRows, point_set
+from vorotool.formats.points.columns import PointRows
 from vorotool.formats.points.tables import rows_of_columns
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS
 from vorotool.types.axis import UP
 from vorotool.types.points.conversion import part_numbers, single_points
-from vorotool.types.points.point_set import PointSet
 from vorotool.types.polygons.conversion import polygons_of_geometry
 from vorotool.types.polygons.polygon_set import PolygonSet
 
@@ -238,13 +237,8 @@ def features_of(source: Source) -> Features:
     return read
 
 
-def read_points(source: Source, options: ReadOptions) -> PointSet:
+def read_points(source: Source, options: ReadOptions) -> PointRows:
     """Read points with their attributes; where there is no geometry, as tables have them."""
-    return point_set(point_rows(source, options))
-
-
-def point_rows(source: Source, options: ReadOptions) -> PointRows:
-    """Read what `read_points` reads, with a z where the options want it."""
     features = features_of(source)
     if features.is_table:
         return rows_of_columns(source.name, {name: list(values) for name, values in features.columns.items()}, options)

@@ -36,13 +36,11 @@ from vorotool.formats.points.columns import (
     choose,
     note_no_label,
     parse_columns,
-    point_set,
 )
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.numbers import typed_texts
 from vorotool.plain import plain
 from vorotool.types.axis import UNSTATED, UP
-from vorotool.types.points.point_set import PointSet
 
 GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
 """Names of columns with geometry."""
@@ -71,13 +69,8 @@ class _Layout:
         return f"column {column + 1}{shown}"
 
 
-def read_text(source: Source, options: ReadOptions) -> PointSet:
+def read_text(source: Source, options: ReadOptions) -> PointRows:
     """Read delimited text."""
-    return point_set(text_rows(source, options))
-
-
-def text_rows(source: Source, options: ReadOptions) -> PointRows:
-    """Read delimited text as `read_text` does, with a z where the options want it."""
     data = _plain_lines(source.data)
     wanted = None if options.columns is None else parse_columns(options.columns, wants_z=options.wants_z)
     delimiter = _guess_delimiter(data)

@@ -20,23 +20,17 @@ from vorotool.formats.parsing.json import (
 )
 from vorotool.formats.parsing.reader_options import ReadOptions, position_array, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
-from vorotool.formats.points.columns import PointRows, point_set
+from vorotool.formats.points.columns import PointRows
 from vorotool.formats.points.tables import is_table, points_of_objects
 from vorotool.formats.text.tables import stated_unit
 from vorotool.types.axis import UP
-from vorotool.types.points.point_set import PointSet
 
 _READER = option("skeleton-exact reads", 'geometry="polygons" reads')
 _ALONG = option("--what points -f csv there", "points_along")
 
 
-def read_json(source: Source, options: ReadOptions) -> PointSet:
+def read_json(source: Source, options: ReadOptions) -> PointRows:
     """Read ``[[x, y], ...]``, the rows of a table, or GeoJSON where the document is an object."""
-    return point_set(json_rows(source, options))
-
-
-def json_rows(source: Source, options: ReadOptions) -> PointRows:
-    """Read what `read_json` reads, with a z where the options want it."""
     options.check_sites(source.name, 0 if b"{" in source.data else source.data.count(b"[") - 1)
     document = parse_json(source)
     if isinstance(document, dict):
@@ -68,13 +62,8 @@ def _refuse_columns(name: str, options: ReadOptions) -> None:
         )
 
 
-def read_geojson(source: Source, options: ReadOptions) -> PointSet:
+def read_geojson(source: Source, options: ReadOptions) -> PointRows:
     """Read the points of a GeoJSON document with their ``id`` and properties."""
-    return point_set(geojson_rows(source, options))
-
-
-def geojson_rows(source: Source, options: ReadOptions) -> PointRows:
-    """Read what `read_geojson` reads, with a z where the options want it."""
     document = parse_json(source)
     if not isinstance(document, dict):
         raise InputError(f"{source.name}: GeoJSON is an object with a type; use {AS_JSON} for {_form(options)}")

@@ -39,16 +39,12 @@ class _Vertices(NamedTuple):
     first_number: int
 
 
-def read_node(source: Source, options: ReadOptions) -> PointSet:
+def read_node(source: Source, options: ReadOptions) -> PointSet | PointRows:
     """Read vertices; attributes and boundary markers become properties, numbering may begin at 0 or 1."""
-    read = _vertices(source, options, 2)
+    read = _vertices(source, options, options.axes)
+    if options.wants_z:  # whose labels are from 1
+        return PointRows(read.places, None, read.properties, {})
     return PointSet(read.places, None, read.properties, first_number=read.first_number)
-
-
-def node_rows(source: Source, options: ReadOptions) -> PointRows:
-    """Read vertices with a z; numbering may begin at 0 or 1, and labels are from 1."""
-    read = _vertices(source, options, 3)
-    return PointRows(read.places, None, read.properties, {})
 
 
 def _vertices(source: Source, options: ReadOptions, dimension: int) -> _Vertices:

@@ -13,11 +13,11 @@ from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.npz_columns import npz_columns, present_values
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, shortened
-from vorotool.formats.points.columns import Chosen, PointRows, chosen_columns, note_no_label, point_set
+from vorotool.formats.points.columns import Chosen, PointRows, chosen_columns, note_no_label
 from vorotool.formats.points.delimited import placed_by
 from vorotool.numeric.coordinates import INEXACT, first_inexact
 from vorotool.numeric.numbers import shown_number
-from vorotool.types.points.point_set import PointSet, labels_of
+from vorotool.types.points.point_set import labels_of
 
 _MISSING = "_missing"
 
@@ -41,13 +41,8 @@ def points_of_objects(name: str, rows: Sequence[Any], options: ReadOptions) -> P
     return rows_of_columns(name, {each: [row[each] for row in rows] for each in names}, options)
 
 
-def read_npz(source: Source, options: ReadOptions) -> PointSet:
+def read_npz(source: Source, options: ReadOptions) -> PointRows:
     """Read points from the columns of a table."""
-    return point_set(npz_rows(source, options))
-
-
-def npz_rows(source: Source, options: ReadOptions) -> PointRows:
-    """Read points from the columns of a table, with a z where the options want it."""
     columns = npz_columns(source, options)
     lengths = {len(values) for values in columns.values()}
     if len(lengths) != 1:

@@ -18,7 +18,7 @@ from vorotool.formats.points.npy import check_coordinates, npy_labels
 from vorotool.formats.recognition import recognized
 from vorotool.numeric.checks import checked_threads
 from vorotool.products.formats import resolved
-from vorotool.products.inputs import NAMES_WITH, SPACE_READERS, known_input_format
+from vorotool.products.inputs import INPUTS, NAMES_WITH, SPACE_FORMATS, known_input_format
 from vorotool.types.volumes.volume_points import VolumePoints
 
 _NUMBERS = option("--columns 1,2,z=3", 'columns="1,2,z=3"')
@@ -54,12 +54,11 @@ def _rows(source: Source, said: str | None, options: ReadOptions) -> PointRows:
     if said == "npy" or (said is None and source.data.startswith(MAGIC)):
         return _of_array(source, options)
     holds, source = recognized(source, "points", said, options.columns)
-    reader = SPACE_READERS.get(source.format)
-    if holds != "points" or reader is None:
+    if holds != "points" or source.format not in SPACE_FORMATS:
         what = "an image" if holds == "image" else f"in the format {source.format}"
-        known = ", ".join(SPACE_READERS)
+        known = ", ".join(SPACE_FORMATS)
         raise InputError(f"{source.name} is {what}, but points with a z are expected: give one of {known}, npy")
-    read: Callable[[Source, ReadOptions], PointRows] = resolved(reader)
+    read: Callable[[Source, ReadOptions], PointRows] = resolved(INPUTS[source.format].readers["points"])
     return read(source, options)
 
 
