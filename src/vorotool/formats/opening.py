@@ -133,6 +133,7 @@ def _member(crs: str) -> dict[str, Any]:
     return member
 
 
+# ---- images that are read band by band -----------------------------------------------------------
 TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 
 

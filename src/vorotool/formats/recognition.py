@@ -131,6 +131,7 @@ def _result(data: bytes) -> Holds | None:
     return found if found and data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") else None
 
 
+# ---- how images begin ----------------------------------------------------------------------------
 PICTURES = {"jpeg": "JPEG", "bmp": "BMP", "gif": "GIF", "webp": "WebP", "avif": "AVIF"}
 """Formats and what they are called."""
 _BMP_HEADERS = (12, 16, 40, 52, 56, 64, 108, 124)

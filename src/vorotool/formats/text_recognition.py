@@ -206,6 +206,7 @@ def text_source(source: Source, chosen: str) -> Source:
     return replace(source, data=data, format="jsonl" if is_lines else chosen)
 
 
+# ---- drawings ------------------------------------------------------------------------------------
 _TAKERS = option("skeleton-exact, skeleton-approx or draw", "skeleton_exact or skeleton_approx")
 
 SUFFIXES = {".svg": "svg", ".svgz": "svg", ".dxf": "dxf"}

@@ -257,6 +257,7 @@ def _map_of(insert: Any) -> Affine:
     return made
 
 
+# ---- entities ------------------------------------------------------------------------------------
 _SAME = 1e-12
 """Of ways of the unit circle: apart by no more than the digits of files."""
 

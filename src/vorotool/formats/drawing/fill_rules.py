@@ -173,6 +173,8 @@ OUTSIDE = -1
 MOST_MEETINGS = 2**21
 """Of edges with vertices of other edges."""
 
+
+# ---- rings in one another ------------------------------------------------------------------------
 _UNKNOWN = -2
 _ROUNDING = 2.0**-51
 """Of the products of an orientation: more than rounding takes away."""
@@ -290,6 +292,8 @@ def _side(a: Point, b: Point, c: Point) -> float:
 
 Indices = NDArray[np.int64]
 
+
+# ---- how often rings turn around places ----------------------------------------------------------
 _FAN = 4
 """Runs of edges in a run of the next level."""
 

@@ -150,6 +150,7 @@ def _open_end(ring: NDArray[np.float64]) -> NDArray[np.float64]:
     return ring[:-1] if len(ring) > 1 and (ring[0] == ring[-1]).all() else ring
 
 
+# ---- joining -------------------------------------------------------------------------------------
 JOINED = Fraction(5, 1000)
 """In mm: how far ends may be apart that are joined, if nothing else is asked for, as files round numbers."""
 

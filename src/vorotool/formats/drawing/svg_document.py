@@ -161,6 +161,7 @@ def _asks(element: Element) -> bool:
     return bool(names.get("requiredExtensions") or names.get("systemLanguage")) or element.tag == "foreignObject"
 
 
+# ---- styles --------------------------------------------------------------------------------------
 _COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)", re.DOTALL)  # one without an end goes on to that of the text
 _SELECTOR = re.compile(r"(\*|[A-Za-z][\w-]*)?(?:([.#])([\w-]+))?")
 _HAVE_STYLE = ("fill", "stroke", "fill-rule", "display", "visibility", "clip-path", "mask", "transform")
@@ -267,6 +268,7 @@ def _declarations(text: str) -> dict[str, str]:
     return {name: value for name, value in said if value and (name in _HAVE_STYLE or name == "transform-origin")}
 
 
+# ---- XML -----------------------------------------------------------------------------------------
 MOST_LEVELS = 200
 """Of elements in elements; drawings have a dozen."""
 

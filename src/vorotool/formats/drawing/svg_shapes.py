@@ -259,6 +259,7 @@ def fitted(box: tuple[float, float, float, float], viewport: Viewport, aspect: s
     return Affine(across, 0.0, 0.0, down, along * left - across * x, below * over - down * y)
 
 
+# ---- path data -----------------------------------------------------------------------------------
 def path_curves(data: str, place: str) -> list[Curve]:
     """Give the subpaths of path data."""
     lexer = needed("svgelements.svgelements", "cad", "SVG drawings").SVGLexicalParser()

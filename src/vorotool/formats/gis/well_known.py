@@ -103,6 +103,7 @@ def _parsed(text: DelimitedText, written: Sequence[str], flatten: float | None) 
     return geometry, crs, curves
 
 
+# ---- well-known binary ---------------------------------------------------------------------------
 _HEXADECIMAL = re.compile(rb"[0-9A-Fa-f\s]*")
 
 

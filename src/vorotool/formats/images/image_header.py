@@ -82,6 +82,7 @@ def _plain_size(source: Source) -> tuple[int, int]:
     )
 
 
+# ---- pages ---------------------------------------------------------------------------------------
 _HEAD = 4096
 """Bytes that tell the format."""
 

@@ -117,6 +117,7 @@ def _as_labels(values: NDArray[Any], name: str) -> NDArray[Any]:
     return values.astype(np.uint32)
 
 
+# ---- as text -------------------------------------------------------------------------------------
 _IMAGES = option("-o labels.png, labels.tif or labels.npy", "the path labels.png, labels.tif or labels.npy")
 
 WIDEST = 4096

@@ -108,6 +108,7 @@ def _check_jpeg(source: Source, kind: str) -> None:
         )
 
 
+# ---- sizes of JPEG pictures ----------------------------------------------------------------------
 _LARGEST_UNIT = 32
 """Pixels: 8 x 8 values, of up to 4 x 4 pixels each; a picture is filled up to whole units."""
 

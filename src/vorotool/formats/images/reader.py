@@ -80,6 +80,7 @@ def _plain(values: NDArray[Any]) -> NDArray[Any]:
     return np.ascontiguousarray(values)
 
 
+# ---- as a screen shows them ----------------------------------------------------------------------
 _WHITE = 255
 
 

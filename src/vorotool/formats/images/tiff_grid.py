@@ -189,6 +189,7 @@ def _nodata(page: Any) -> float | None:
         return None
 
 
+# ---- pixels without a value ----------------------------------------------------------------------
 def tiff_raster(name: str, values: NDArray[Any], about: PageGrid, note: Callable[[str], None]) -> Raster:
     """Make an image of what was read of a TIFF, and say what of it is not used."""
     if about.note:
@@ -221,6 +222,7 @@ def missing_values(values: NDArray[Any], nodata: float | None) -> NDArray[np.boo
     return missing if missing.any() else None
 
 
+# ---- tags that are written -----------------------------------------------------------------------
 _LARGEST = 2**32 - 1
 """The largest numerator and denominator."""
 

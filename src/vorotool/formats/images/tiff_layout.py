@@ -230,6 +230,7 @@ def _refuse(layout: TiffLayout, is_wrong: NDArray[np.bool_], words: str) -> None
         raise InputError(f"{layout.name} is damaged: {text}")
 
 
+# ---- decoding ------------------------------------------------------------------------------------
 SPARE = 2**16
 """Bytes beyond the pixels that a compressed segment may have: some writers fill up a block."""
 

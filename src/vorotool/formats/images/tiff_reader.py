@@ -140,6 +140,7 @@ def _by_pillow(source: Source, page: Any) -> NDArray[Any]:
         return np.asarray(image)
 
 
+# ---- tags, before tifffile reads them ------------------------------------------------------------
 _NUMBERS = {
     256: "ImageWidth",
     257: "ImageLength",

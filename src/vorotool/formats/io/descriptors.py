@@ -196,6 +196,7 @@ class _OnwardOnly(io.FileIO):
         raise io.UnsupportedOperation("what is open already has no position of ours")
 
 
+# ---- room on a disk ------------------------------------------------------------------------------
 def check_space(path: str | os.PathLike[str], most: int, expected: Callable[[], int]) -> None:
     """Refuse an output for which there is no room."""
     free = _free(path)

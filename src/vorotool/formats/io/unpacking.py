@@ -151,6 +151,7 @@ def _streamed(stream: _Stream, data: Packed, limit: int) -> tuple[bytes, bytes]:
     return pieces[0] if len(pieces) == 1 else b"".join(pieces), stream.unused_data
 
 
+# ---- how much Zstandard data can hold (RFC 8878, section 3) --------------------------------------
 _FRAME, _SKIPPABLE = 0xFD2FB528, 0x184D2A50
 _MOST_OF_BLOCK = 2**17
 _RAW, _RUN, _COMPRESSED = 0, 1, 2

@@ -128,6 +128,7 @@ def property_columns(
     return {key: [rows[i].get(key) for i in owners] for key in names}
 
 
+# ---- JSON lines ----------------------------------------------------------------------------------
 RECORD_MARK = b"\x1e"
 """What each text of a GeoJSON text sequence begins with; it may then have several lines."""
 
@@ -232,6 +233,7 @@ def _common_crs(name: str, lines: list[int], rows: list[dict[str, Any]]) -> Any:
     return crs
 
 
+# ---- advice --------------------------------------------------------------------------------------
 _TAKERS = (
     option("voronoi and skeleton-exact read", "voronoi and skeleton_exact take"),
     option("tessellate --cell-size rasterizes", "tessellate(..., cell_size=...) rasterizes"),

@@ -201,6 +201,7 @@ def _looks_numeric(text: str) -> bool:
     return bool(_NUMBER.fullmatch(text) or DECIMAL_COMMA.fullmatch(text))
 
 
+# ---- points as readers find them -----------------------------------------------------------------
 class PointRows(NamedTuple):
     """A list of points."""
 

@@ -194,6 +194,7 @@ def write_items(out: BinaryIO, polygons: PolygonSet, own: Mapping[str, Sequence[
     out.write(b"\n]" if len(polygons) else b"]")
 
 
+# ---- GeoJSON -------------------------------------------------------------------------------------
 def read_geojson(source: Source, options: ReadOptions) -> PolygonSet:
     """Read the polygons and lines of a GeoJSON document with their ``id``, properties and ``crs``."""
     polygons, features = _read(source, options)

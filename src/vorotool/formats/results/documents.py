@@ -239,6 +239,7 @@ def naming_values(name: str) -> Iterator[None]:
         raise InputError(f"{name}: {error.marked}") from error
 
 
+# ---- lists of objects ----------------------------------------------------------------------------
 SITE_KINDS = ("vertex", "edge")
 
 
@@ -359,6 +360,7 @@ def site_members(table: SiteTable) -> list[Member]:
     return made
 
 
+# ---- polygons on a lattice -----------------------------------------------------------------------
 LATTICE_STEP = "lattice_step"
 """The member that says that coordinates were rounded to multiples of this for the result."""
 

@@ -136,6 +136,7 @@ def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str) -> None:
     _WRITERS[fmt](out, written_polygons(polygons))
 
 
+# ---- cells ---------------------------------------------------------------------------------------
 def write_cells_json(out: BinaryIO, cells: CellSet, *, precision: int | None = None, threads: int = 0) -> None:
     """Write one item a polygon, and one for each empty cell."""
     rows, shapes = rows_of(cells), _written(cells)

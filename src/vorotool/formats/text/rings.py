@@ -204,6 +204,7 @@ def _replaced(given: Rings, features: Indices, by: Rings) -> Rings:
     return select(*together, order)
 
 
+# ---- reports and checks --------------------------------------------------------------------------
 _NAMED = 10
 
 

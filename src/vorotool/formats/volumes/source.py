@@ -125,6 +125,7 @@ def _remove(path: str) -> None:
     Path(path).unlink(missing_ok=True)
 
 
+# ---- NPY -----------------------------------------------------------------------------------------
 @plain
 class NpyVolume(VolumeSource):
     """The slices of an array of three axes; in Fortran order each slice is scattered over the whole file."""

@@ -197,6 +197,7 @@ def _step_of(pages: Sequence[TiffLayout]) -> int | None:
     return 0 if not steps else steps.pop() if len(steps) == 1 else None
 
 
+# ---- what ImageJ and tifffile say of a stack -----------------------------------------------------
 _NO_UNIT = 1
 """Of resolution."""
 
@@ -283,6 +284,7 @@ def _slices_of_shape(name: str, said: Mapping[str, Any]) -> int | None:
     return prod(leading)
 
 
+# ---- OME -----------------------------------------------------------------------------------------
 PIXEL = "pixel"
 """What OME calls a length that is in no unit."""
 

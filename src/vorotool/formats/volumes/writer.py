@@ -60,6 +60,7 @@ def _most_bytes(shape: tuple[int, int, int], kind: np.dtype[Any]) -> int:
     return depth * (height * width * kind.itemsize + _PAGE_BYTES)
 
 
+# ---- what is said of voxels ----------------------------------------------------------------------
 _IMAGEJ_TYPES = (np.uint8, np.uint16, np.float32)
 _ASCII = 2
 """Type of a tag."""

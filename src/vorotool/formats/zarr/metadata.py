@@ -265,6 +265,7 @@ def _fill_value(value: Any, dtype: np.dtype[Any]) -> Any:
     return number
 
 
+# ---- codecs --------------------------------------------------------------------------------------
 SPARE = 2**12
 """Bytes that a chunk may have beyond its values before it is undone: headers, and what did not compress."""
 

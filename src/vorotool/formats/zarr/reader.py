@@ -115,6 +115,7 @@ class StoredArray:
         return places
 
 
+# ---- images and volumes --------------------------------------------------------------------------
 @plain
 class ZarrImage(StoredParts):
     """An image or a volume in a store: an array, or the largest one that a group of OME-Zarr describes."""
