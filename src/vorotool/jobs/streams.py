@@ -15,26 +15,30 @@ from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.bands import Band, SeedBands, with_neighbors
 from vorotool.engines.tessellation.frames import CELL, band_limits, label_dtype, require_memory
-from vorotool.engines.tessellation.tessellate import verify_rows
+from vorotool.engines.tessellation.tessellate import labeled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
 from vorotool.jobs.checked_columns import check_columns
+from vorotool.jobs.inputs import JobInput, frame_of
 from vorotool.jobs.options import AUTO_LEVELS, Options
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import table_in_units
+from vorotool.jobs.units import sides_of, table_in_units
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.label_image import LabelImage
-from vorotool.types.spacing import PixelSides
+from vorotool.types.spacing import SQUARE, PixelSides
 from vorotool.types.table import Table
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
     from vorotool.engines.label_images.measured_regions import Regions
+    from vorotool.engines.tessellation.propagation import PropagatedRows
+    from vorotool.types.points.seed_set import SeedSet
+    from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
 PartOf = Callable[[int, int], NDArray[Any]]
 """``part_of(first, count)`` gives some rows of an image, or slices of a volume."""
@@ -84,27 +88,58 @@ class Stream:
         return size * whole // seen
 
 
-class Streamed(Results):
-    """Results of a tessellation, which are computed part by part."""
+class Tessellated(Results):
+    """Results of one tessellation, of which any rows or slices can be computed."""
 
-    frame: Any  # of pixels or voxels
-    seeds: Any  # at least their sites
-
-    def __init__(self, run: Run, options: Options, sides: PixelSides, grid: Any) -> None:
+    def __init__(self, run: Run, options: Options, given: JobInput, sweep: Any, sides: PixelSides, grid: Any) -> None:
         super().__init__(run, options)
+        self.sweep, self.frame, self.seeds = sweep, sweep.frame, sweep.seeds
         self.sides, self.grid = sides, grid
-        self.with_distances = "table" in options.what
+        self.is_held = False  # whether all labels are in memory: set before anything is written
+        self.with_distances = given.has_page or "table" in options.what
+        check_columns(options, self.seeds.properties)
+        self.dtype = label_dtype(self.seeds.largest_label, options.dtype)
 
-    def label_parts(self) -> Iterator[tuple[NDArray[Any], NDArray[Any] | None]]:
-        """Give labels part by part, with squared distances where a table needs them."""
-        raise NotImplementedError
+    @cached_property
+    def whole(self) -> Any:
+        """The whole label image or volume, in memory."""
+        require_memory(self.frame, self.options.max_pixels)
+        kind = LabelImage if len(self.frame.shape) == 2 else LabelVolume
+        return kind(self.labels(), self.frame, self.seeds, sides=self.sides)
+
+    @cached_property
+    def colors(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+        """Labels, and the color class of each."""
+        from vorotool.engines.label_images.regions import region_colors
+
+        return region_colors(self.whole, measures=self.regions.measures)
+
+    def labels(self, first: int = 0, count: int | None = None) -> NDArray[Any]:
+        """Compute the labels of some rows or slices."""
+        with self.run.phase("tessellate"):
+            made: NDArray[Any] = self.sweep.labels(first, count, dtype=self.dtype)
+        return made
 
     @cached_property
     def regions(self) -> Regions:
         """Areas, borders and boxes of the regions: one pass that tables and colors share."""
         from vorotool.engines.label_images.measured_regions import regions_of_parts
 
-        return regions_of_parts(self.label_parts(), self.frame, self.sides, self.seeds, threads=self.options.threads)
+        parts, threads = self._label_parts(), self.options.threads
+        return regions_of_parts(parts, self.frame, self.sides, self.seeds, threads=threads)
+
+    def _label_parts(self) -> Iterator[tuple[NDArray[Any], NDArray[Any] | None]]:
+        """Give labels part by part, with squared distances where a table needs them."""
+        has_squares = self.with_distances and len(self.seeds) and isinstance(self.sweep, Tessellator)
+        for first, count in self.limits():
+            if has_squares and not self.is_held:
+                with self.run.phase("tessellate"):
+                    both = self.sweep.measured(first, count, self.dtype)
+                yield both
+                continue
+            labels = self.whole.labels[first : first + count] if self.is_held else self.labels(first, count)
+            dtype = self.sweep.measured_dtype if has_squares else None
+            yield labels, self.sweep.squared_distances(first, count, dtype=dtype) if has_squares else None
 
     @cached_property
     def _table(self) -> Table:
@@ -119,10 +154,6 @@ class Streamed(Results):
             own = {"properties": self.seeds.properties, "has_rows": True} if what == "table" else {}
             table = table_in_units(self.options.pixel_size, table, **own)
         return table if what == "table" else ends_of_regions(table, self.seeds)
-
-    def stream(self, what: str) -> Stream:
-        """Give one of `STREAMED`."""
-        raise NotImplementedError
 
     def write_data(self, out: BinaryIO, target: Target) -> None:
         """Write an image or a volume part by part, if there is room for it; tables are made of the whole."""
@@ -178,47 +209,6 @@ class Streamed(Results):
                     write_chunks(array, first, part, threads=o.threads)
             add_levels(store, levels, threads=o.threads)
 
-
-class Tessellated(Streamed):
-    """Results of one tessellation of which any rows, or slices, can be computed."""
-
-    def __init__(self, run: Run, options: Options, sweep: Any, sides: PixelSides, grid: Any) -> None:
-        super().__init__(run, options, sides, grid)
-        self.sweep, self.frame, self.seeds = sweep, sweep.frame, sweep.seeds
-        self.is_held = False  # whether all labels are in memory: set before anything is written
-        check_columns(options, self.seeds.properties)
-        self.dtype = label_dtype(self.seeds.largest_label, options.dtype)
-
-    @cached_property
-    def whole(self) -> Any:
-        """The whole label image or volume, in memory."""
-        require_memory(self.frame, self.options.max_pixels)
-        kind = LabelImage if len(self.frame.shape) == 2 else LabelVolume
-        return kind(self.labels(), self.frame, self.seeds, sides=self.sides)
-
-    @cached_property
-    def colors(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-        """Labels, and the color class of each."""
-        from vorotool.engines.label_images.regions import region_colors
-
-        return region_colors(self.whole, measures=self.regions.measures)
-
-    def labels(self, first: int = 0, count: int | None = None) -> NDArray[Any]:
-        """Compute the labels of some rows or slices."""
-        with self.run.phase("tessellate"):
-            made: NDArray[Any] = self.sweep.labels(first, count, dtype=self.dtype)
-        return made
-
-    def label_parts(self) -> Iterator[tuple[NDArray[Any], NDArray[Any] | None]]:
-        """Give labels part by part, with squared distances where a table needs them."""
-        has_squares = self.with_distances and len(self.seeds) and isinstance(self.sweep, Tessellator)
-        for first, count in self.limits():
-            labels = self.whole.labels[first : first + count] if self.is_held else self.labels(first, count)
-            squares = None
-            if has_squares:
-                squares = self.sweep.squared_distances(first, count, dtype=self.sweep.measured_dtype)
-            yield labels, squares
-
     def stream(self, what: str) -> Stream:
         """Give labels, the diagram or distances."""
         part_of: PartOf = {"labels": self.labels, "diagram": self._diagram}.get(what) or getattr(
@@ -273,6 +263,28 @@ class Tessellated(Streamed):
             "method": self.options.method,
             "threads": self.options.threads,
         }
+
+
+def tessellated_rows(run: Run, o: Options, seeds: SeedSet | VolumeSeeds) -> Tessellator | PropagatedRows:
+    """Prepare what labels any rows or slices."""
+    if len(seeds) > o.max_sites:
+        raise LimitError(f"the input has {len(seeds)} seeds, more than --max-sites {o.max_sites}")
+    is_square = o.method == "propagation" and o.spacing is None
+    rows = labeled_rows(
+        seeds,
+        frame_of(o, seeds),
+        method=o.method,
+        passes=o.passes or 2,
+        max_distance=o.max_distance,
+        sides=SQUARE if is_square else sides_of(o, len(seeds.coordinates)),
+        strict=o.strict,
+        threads=o.threads,
+        max_pixels=o.max_pixels,
+        progress=run.progress("tessellate"),
+    )
+    if isinstance(rows, Tessellator) and {"distance", "distance2"} & set(o.what):
+        rows.check_distances()
+    return rows
 
 
 def check_chunks(o: Options, stream: Stream) -> tuple[int, ...]:

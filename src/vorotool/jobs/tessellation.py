@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property, partial
 from math import isqrt
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.bands import Band
-from vorotool.engines.tessellation.frames import band_limits, label_dtype, require_memory, squared_limit
+from vorotool.engines.tessellation.frames import require_memory, squared_limit
 from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.raster_objects import PartwiseObjects
 from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.engines.tessellation.streamed_image import StreamedImage
-from vorotool.engines.tessellation.tessellate import labeled_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError, UsageError
 from vorotool.jobs.checked_columns import tell_outside
@@ -29,10 +28,9 @@ from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import lengths_of_image, with_pixel_size, written_grid
 from vorotool.jobs.refusals import check_image_size, refuse
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.streams import Stream, Streamed, Tessellated, check_chunks, scale_of_squares
+from vorotool.jobs.streams import Tessellated, check_chunks, scale_of_squares, tessellated_rows
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import known_length, sides_of, unit_columns, unit_text
-from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import ANIMATIONS
 from vorotool.types.axis import is_up
 from vorotool.types.pixel_grid import PixelGrid
@@ -58,18 +56,13 @@ TABLES = frozenset({"table", "neighbors"})
 OF_LARGE = TABLES | {"labels", "distance", "distance2"}
 """What can be written of an image that is not held."""
 
+_OF_POINTS = "applies to lists of points, but the input is an image with its own frame"
+
 DARK_LABELS = 1024
 """Labels up to here look black in a 16-bit image."""
 
 
-class ReadSeeds(NamedTuple):
-    """Seeds, and what else an input says."""
-
-    seeds: SeedSet
-    grid: PixelGrid | None = None  # sides and places of the pixels of the image
-
-
-def products(run: Run, o: Options, given: JobInput) -> Products | StreamedProducts:
+def products(run: Run, o: Options, given: JobInput) -> Products:
     """Read points or an image, and prepare what labels any rows."""
     with run.phase("read"):
         with opened_input(o, given, None if o.is_laid_out else "points") as source:
@@ -84,19 +77,18 @@ def products(run: Run, o: Options, given: JobInput) -> Products | StreamedProduc
             run.grid = large.grid
             check_image_size(run, o, given.name, large.grid)
             o = with_pixel_size(run, lengths_of_image(o, large.grid), given, large.grid)
-            return StreamedProducts(run, o, large)
+            return StreamedProducts(run, o, given, _streamed(run, o, large), large.grid)
         if o.is_laid_out and not isinstance(value, Raster):
             o, seeds = seeds_on_map(run, o, given, value)
-            read = ReadSeeds(seeds, grid=seeds.grid)
         else:
-            read = _seeds_of(run, o, value)
+            seeds = _seeds_of(run, o, value)
         if isinstance(value, Raster):
-            o = with_pixel_size(run, o, given, read.grid)
+            o = with_pixel_size(run, o, given, seeds.grid)
     with run.phase("prepare" if o.method == "exact" else "tessellate"):
-        rows = _rows_of(run, o, read.seeds)
+        rows = tessellated_rows(run, o, seeds)
     if isinstance(value, PointSet):
         _tell_outside(run, rows)
-    return Products(run, o, given, read, rows)
+    return Products(run, o, given, rows, seeds.grid)
 
 
 def _tell_outside(run: Run, rows: Tessellator | PropagatedRows) -> None:
@@ -106,37 +98,14 @@ def _tell_outside(run: Run, rows: Tessellator | PropagatedRows) -> None:
         tell_outside(run, seeds.site_labels, (x < left) | (x > right) | (y < top) | (y > bottom))
 
 
-def _seeds_of(run: Run, o: Options, value: PointSet | PolygonSet | Raster) -> ReadSeeds:
+def _seeds_of(run: Run, o: Options, value: PointSet | PolygonSet | Raster) -> SeedSet:
     if isinstance(value, PointSet) and not len(value):
-        return ReadSeeds(replace(no_seeds(run, o), y_axis=value.y_axis))
+        return replace(no_seeds(run, o), y_axis=value.y_axis)
     if isinstance(value, PointSet):
-        frame = asked_frame(o) or partial(frame_of, o)
-        seeds = seeds_in_frame(value, frame, sides=sides_of(o), strict=o.strict)
-        return ReadSeeds(seeds)
+        return seeds_in_frame(value, asked_frame(o) or partial(frame_of, o), sides=sides_of(o), strict=o.strict)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
-    alone = {"columns": o.columns, **o.of_frame}
-    refuse(alone, "applies to lists of points, but the input is an image with its own frame")
-    return ReadSeeds(seeds_of_image(run, o, value, o.seeds), grid=value.grid)
-
-
-def _rows_of(run: Run, o: Options, seeds: SeedSet) -> Tessellator | PropagatedRows:
-    if len(seeds) > o.max_sites:
-        raise LimitError(f"the input has {len(seeds)} seeds, more than --max-sites {o.max_sites}")
-    rows = labeled_rows(
-        seeds,
-        frame_of(o, seeds),
-        method=o.method,
-        passes=o.passes or 2,
-        max_distance=o.max_distance,
-        sides=SQUARE if o.method == "propagation" and o.spacing is None else sides_of(o),
-        strict=o.strict,
-        threads=o.threads,
-        max_pixels=o.max_pixels,
-        progress=run.progress("tessellate"),
-    )
-    if isinstance(rows, Tessellator) and {"distance", "distance2"} & set(o.what):
-        rows.check_distances()
-    return rows
+    refuse({"columns": o.columns, **o.of_frame}, _OF_POINTS)
+    return seeds_of_image(run, o, value, o.seeds)
 
 
 class Products(Tessellated):
@@ -144,16 +113,9 @@ class Products(Tessellated):
 
     begins_empty = True
 
-    def __init__(
-        self,
-        run: Run,
-        options: Options,
-        given: JobInput,
-        read: ReadSeeds,
-        rows: Tessellator | PropagatedRows,
-    ) -> None:
-        super().__init__(run, options, rows, sides_of(options), written_grid(options.pixel_size, read.grid))
-        self.backdrop, self.with_distances = given.backdrop, self.with_distances or given.has_page
+    def __init__(self, run: Run, options: Options, given: JobInput, rows: Any, grid: PixelGrid | None) -> None:
+        super().__init__(run, options, given, rows, sides_of(options), written_grid(options.pixel_size, grid))
+        self.backdrop = given.backdrop
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written in the format of a target, before anything is."""
@@ -279,120 +241,53 @@ def rows_of_large(o: Options, source: Opened) -> ZarrRows | TiffRows | None:
     return rows if on_cluster or height * width > LARGE else None
 
 
-class StreamedProducts(Streamed):
+def _streamed(run: Run, o: Options, image: ZarrRows | TiffRows) -> StreamedImage:
+    """Read an image that is not held."""
+    from vorotool.formats.zarr.writer import CHUNK
+
+    refuse(o.of_frame, _OF_POINTS)
+    if image.note:
+        run.note(image.note)
+    assert o.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held
+    assert o.threshold != "otsu"
+    step = CHUNK[0] if o.chunk is None else max(LEAST_ROWS, o.chunk[1])
+    sweep = StreamedImage(
+        PartwiseObjects(image, o.seeds, int(o.connectivity or 8), o.threshold, o.invert, step),
+        max_sites=o.max_sites,
+        max_distance=o.max_distance,
+        sides=sides_of(o),
+        threads=o.threads,
+        strict=o.strict,
+        reading=run.progress("read"),
+        progress=run.progress("tessellate"),
+        note=run.note,
+        has_sites=bool(TABLES & set(o.what)),
+    )
+    if {"distance", "distance2"} & set(o.what):
+        sweep.check_distances()
+    return sweep
+
+
+class StreamedProducts(Products):
     """Results of one image that is not held."""
-
-    def __init__(self, run: Run, options: Options, image: ZarrRows | TiffRows) -> None:
-        refuse(
-            options.of_frame,
-            "applies to lists of points, but the input is an image with its own frame",
-        )
-        super().__init__(run, options, sides_of(options), written_grid(options.pixel_size, image.grid))
-        if image.note:
-            run.note(image.note)
-        from vorotool.formats.zarr.writer import CHUNK
-
-        assert options.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held
-        assert options.threshold != "otsu"
-        source = PartwiseObjects(
-            image,
-            options.seeds,
-            int(options.connectivity or 8),
-            options.threshold,
-            options.invert,
-            CHUNK[0] if options.chunk is None else max(LEAST_ROWS, options.chunk[1]),
-        )
-        self.image = StreamedImage(
-            source,
-            max_sites=options.max_sites,
-            strict=options.strict,
-            progress=run.progress("read"),
-            note=run.note,
-            sides=self.sides,
-            has_sites=bool(TABLES & set(options.what)),
-        )
-        self.frame, self.seeds = self.image.frame, self.image.seeds
-        if set(options.what) & {"distance", "distance2"}:
-            self.image.check_distances()
-        self.dtype = label_dtype(self.image.largest_label, options.dtype)
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written in the format of a target."""
-        from vorotool.formats.images.label_images import check_png
-
         if target.fmt in ("svg", "html"):
             raise UsageError("the image is too large for a picture: write a PNG, a TIFF or a Zarr store")
-        if target.what in TABLES:
-            return
-        stream = self.stream(target.what)
-        if target.fmt == "png":
-            check_png(stream.dtype, stream.about["largest_label"])
-        if target.fmt == "zarr":
-            check_chunks(self.options, stream)
+        super().check(target)
 
-    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
-        """Write one result."""
-        if target.what == "distance2" and self.options.spacing is not None:
-            step = self.sides.step
-            self.run.note(f"squared distances are in squares of a step of {step}{unit_text(self.options.pixel_size)}")
-        super().write(target, inputs=inputs)
-
-    def stream(self, what: Any) -> Stream:
-        """Labels or distances, band by band."""
-        dtype, largest, frame = self.dtype, self.image.largest_label, self.frame
-        if what == "distance":
-            dtype, largest = np.dtype(np.float32), 0
-        elif what == "distance2":
-            dtype = self.image.square_dtype
-            largest = int(np.iinfo(dtype).max)
-        limit = self.options.max_distance if what == "labels" else None
-        band = partial(self.image.band, what, dtype, max_distance=limit)
-        scale = scale_of_squares(self.sides.step) if what == "distance2" else None
-        about = {"grid": self.grid, "nodata": None if limit is None else 0, "scale": scale, "tiled": self.options.tiled}
-        about["largest_label"] = largest
-        return Stream(frame, partial(self._rows, band), dtype, band, band_limits(frame), about)
-
-    def label_parts(self) -> Iterator[tuple[NDArray[Any], NDArray[Any] | None]]:
-        """Give labels band by band, with squared distances where a table needs them."""
-        has_squares = self.with_distances and self.image.pixels
-        labels = self.stream("labels")
-        for first, count in labels.limits:
-            squares = None
-            if has_squares:
-                squares = self.image.band("distance2", self.image.measured_dtype, first, count).rows(
-                    threads=self.options.threads
-                )
-            yield labels.part_of(first, count), squares
-
-    def _rows(self, band: Callable[[int, int], Band], first: int, rows: int) -> NDArray[Any]:
-        show = self._progress
-        with self.run.phase("tessellate"):
-            made = band(first, rows).rows(threads=self.options.threads)
-        if show is not None:
-            show((first + rows) / self.frame.height)
+    def band(self, what: Any, dtype: np.dtype[Any], first: int, count: int) -> Band:
+        """Give some rows as what computes them anywhere."""
+        made: Band = self.sweep.band(what, dtype, first, count, self.options.max_distance if what == "labels" else None)
         return made
-
-    @cached_property
-    def _progress(self) -> Progress:
-        return self.run.progress("tessellate")
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        frame = self.frame
-        more: dict[str, Any] = {}
-        if self.options.spacing is not None:
-            more = {"distance2_step": str(self.sides.step), "arithmetic": self.image.arithmetic}
-        if self.seeds is not None:
-            more["labels"] = len(self.seeds.site_labels)
-        return {
-            **more,
-            "seeds": self.image.pixels,
-            "largest_label": self.image.largest_label,
-            "frame": [*frame.origin, *reversed(frame.shape)],
-            "objects": self.image.source.mode,
-            "method": "exact",
-            "threads": self.options.threads,
-        }
+        counts = {**super().stats(), "seeds": self.sweep.pixels, "objects": self.sweep.source.mode}
+        if not TABLES & set(self.options.what):
+            del counts["labels"]  # objects have sites for tables alone
+        return counts
 
 
 def check(o: Options, _targets: Sequence[Target]) -> None:

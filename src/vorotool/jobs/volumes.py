@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from vorotool.convert.spacings import sides_of_voxels
 from vorotool.engines.tessellation.cleaned_masks import Cleaning
 from vorotool.engines.tessellation.frames import require_memory
-from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.volume_seeding import (
     SLAB_VOXELS,
     objects_of_volume,
@@ -34,18 +33,17 @@ from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.pixel_sizes import lengths_of_voxels
 from vorotool.jobs.refusals import check_voxel_size, refuse
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.streams import Tessellated, check_chunks
+from vorotool.jobs.streams import Tessellated, check_chunks, tessellated_rows
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize, sides_of, unit_columns, unit_stats
 from vorotool.numeric.length_units import unit_name
-from vorotool.plain import plain
 from vorotool.products.inputs import VOLUME_NAMES
 from vorotool.products.registry import VOLUME_PRODUCTS, Product
 from vorotool.render.label_images.slices import SlicePicture
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame, VoxelGrid
+from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 if TYPE_CHECKING:
     from vorotool.render.label_images.picture import LabelPicture
@@ -60,33 +58,19 @@ _OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert", "min-ar
 def products(run: Run, o: Options, given: JobInput) -> VolumeProducts:
     """Read points or a volume, and prepare what labels any slices."""
     with run.phase("read"):
-        o, read = read_volume_seeds(run, o, given)
-    if len(read.seeds) > o.max_sites:
-        raise LimitError(f"the input has {len(read.seeds)} seeds, more than --max-sites {o.max_sites}")
+        o, seeds = read_volume_seeds(run, o, given)
     with run.phase("prepare"):
-        sweep = Tessellator(
-            read.seeds,
-            read.frame,
-            sides=read.sides,
-            max_distance=o.max_distance,
-            threads=o.threads,
-            strict=o.strict,
-            progress=run.progress("tessellate"),
-        )
-        if {"distance", "distance2"} & set(o.what):
-            sweep.check_distances()
-    return VolumeProducts(run, o, read, sweep, has_page=given.has_page)
+        rows = tessellated_rows(run, o, seeds)
+    return VolumeProducts(run, o, given, rows)
 
 
 class VolumeProducts(Tessellated):
     """Results of one tessellation."""
 
-    def __init__(
-        self, run: Run, options: Options, read: ReadVolume, sweep: Tessellator, *, has_page: bool = False
-    ) -> None:
-        super().__init__(run, options, sweep, read.sides, read.grid)
-        self.is_held = has_page or "color" in options.what
-        self.with_distances = self.with_distances or has_page
+    def __init__(self, run: Run, options: Options, given: JobInput, sweep: Any) -> None:
+        sides = sides_of(options, 3)
+        super().__init__(run, options, given, sweep, sides, _written_grid(options.pixel_size, sides, sweep.seeds.grid))
+        self.is_held = given.has_page or "color" in options.what
 
     @cached_property
     def products(self) -> Mapping[str, Product]:
@@ -163,17 +147,7 @@ class VolumeProducts(Tessellated):
 
 
 # ---- input
-@plain
-class ReadVolume:
-    """Seeds, and what else an input says."""
-
-    seeds: VolumeSeeds
-    frame: VoxelFrame | None  # what is tessellated; None where there are no seeds
-    sides: PixelSides  # of a voxel, in whose unit distances are
-    grid: VoxelGrid | None  # sides of the voxels, for files that are written
-
-
-def read_volume_seeds(run: Run, o: Options, given: JobInput) -> tuple[Options, ReadVolume]:
+def read_volume_seeds(run: Run, o: Options, given: JobInput) -> tuple[Options, VolumeSeeds]:
     """Read a volume, or points of space; options with a unit are in that of the voxels then."""
     if not _is_volume(o, given.path):
         return _read_points(run, o, given)
@@ -201,11 +175,10 @@ def read_volume_seeds(run: Run, o: Options, given: JobInput) -> tuple[Options, R
             slices=_slices_at_a_time(source),
             report=lambda mask: report_cleaning(run, o, mask.filled, (mask.removed, mask.objects), "voxels"),
         )
-    sides = sides_of(o, 3)
-    return o, ReadVolume(seeds, seeds.frame, sides, _written_grid(o.pixel_size, sides, source.grid))
+    return o, seeds
 
 
-def _read_points(run: Run, o: Options, given: JobInput) -> tuple[Options, ReadVolume]:
+def _read_points(run: Run, o: Options, given: JobInput) -> tuple[Options, VolumeSeeds]:
     if o.pixel_size is not None and o.pixel_size.is_auto:
         raise UsageError(
             "--spacing auto needs a volume whose file states its voxel size: give numbers and their unit, such as "
@@ -225,11 +198,11 @@ def _read_points(run: Run, o: Options, given: JobInput) -> tuple[Options, ReadVo
             note=run.note,
         )
         seeds = seeds_from_xyz(points, strict=o.strict, check=lambda seeds: frame_of(o, seeds))
-    sides, frame = sides_of(o, 3), frame_of(o, seeds)
     if not len(seeds):
+        frame = frame_of(o, seeds)
         report_no_seeds(run, o, frame)
         seeds = replace(seeds, frame=frame)
-    return o, ReadVolume(seeds, frame, sides, _written_grid(o.pixel_size, sides, None))
+    return o, seeds
 
 
 def _is_volume(o: Options, path: str) -> bool:

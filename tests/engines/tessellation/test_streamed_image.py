@@ -200,9 +200,9 @@ def test_what_is_refused(bands):
 def test_progress_is_told_and_stops():
     told = []
     mask = Held((rng.random((40, 40)) < 0.3).astype(np.uint8))
-    image = StreamedImage(PartwiseObjects(mask), progress=told.append)
+    image = StreamedImage(PartwiseObjects(mask), reading=told.append)
     image.band("labels", np.dtype(np.uint16), 10, 20).rows(progress=told.append)
     assert told == [1.0, 1.0]
 
     with pytest.raises(KeyboardInterrupt):
-        StreamedImage(PartwiseObjects(mask), progress=stop)
+        StreamedImage(PartwiseObjects(mask), reading=stop)

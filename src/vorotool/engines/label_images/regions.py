@@ -302,18 +302,7 @@ def _labeled(image: Any) -> Any:
     if values.dtype.kind == "f":
         with naming("volume"):
             raise InputError(f"expected labels, a 3-D array of integers, but got {described(values)}")
-    return LabelVolume(_numbered(values) if values.dtype == bool else values, grid=made.grid)
-
-
-def _numbered(mask: NDArray[np.bool_]) -> NDArray[np.uint32]:
-    """Number the 26-connected components."""
-    depth, height, width = mask.shape
-    components = _core.volumes.VolumeComponents(width, height, True)
-    provisional = np.empty((depth, height, width), np.uint32)
-    components.add(np.ascontiguousarray(mask).view(np.uint8), provisional, None)
-    number = np.empty(components.size + 1, np.uint32)
-    components.settle(number)
-    return number[provisional]
+    return LabelVolume(numbered_components(values, 26) if values.dtype == bool else values, grid=made.grid)
 
 
 def _checked_measures(measures: Any) -> Any:

@@ -11,18 +11,17 @@ from numpy.typing import NDArray
 from vorotool.convert.images import as_raster
 from vorotool.convert.spacings import asked_sides
 from vorotool.convert.volumes import is_volume
-from vorotool.engines.tessellation.frames import require_memory
+from vorotool.engines.tessellation.frames import frame_at, require_memory
 from vorotool.engines.tessellation.interior_seeds import surrounded
-from vorotool.engines.tessellation.raster_objects import LARGEST_LABEL
-from vorotool.engines.tessellation.seeding import seeds_from_raster
+from vorotool.engines.tessellation.raster_objects import label_values
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import real_number, shown_number
-from vorotool.types.pixel_frame import MAX_PIXELS, Frame
+from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.spacing import PixelSides, as_decimal
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, Spacing
@@ -119,37 +118,17 @@ def distance_transform(
     return_indices = checked_flag(return_indices, "return_indices")
     if not (return_distances or return_indices):
         raise UsageError("return_distances and return_indices are both False: set at least one of them")
-    sweep: Tessellator | _Background | None
-    if is_volume(mask):
-        values = volume(mask, "mask", max_pixels)
-        sweep = _Background.of(values, asked_sides(mask, spacing, 3), threads)
-    else:
-        values = plane(mask, "mask")
-        sweep = _sweep(values, asked_sides(mask, spacing), threads, max_pixels)
+    is_solid = is_volume(mask)
+    values = volume(mask, "mask", max_pixels) if is_solid else plane(mask, "mask")
+    sweep = _Background.of(values, asked_sides(mask, spacing, 3 if is_solid else 2), threads, max_pixels)
     if not return_indices:
         return _roots(sweep, values.shape)
-    indices = _nearest(sweep, values.shape)
+    indices = np.zeros((values.ndim, *values.shape), np.int32) if sweep is None else sweep.nearest()
     return (_roots(sweep, values.shape), indices) if return_distances else indices
 
 
-def _sweep(values: NDArray[Any], sides: PixelSides, threads: int, max_pixels: int) -> Tessellator | None:
-    """The tessellation whose seeds are the zero pixels; None of an image without pixels."""
-    if not values.size:
-        return None
-    height, width = values.shape
-    require_memory(Frame(0, 0, width, height), max_pixels)
-    background = values == 0
-    _require(background)
-    return Tessellator(seeds_from_raster(background, mode="pixels"), sides=sides, threads=threads)
-
-
-def _require(background: NDArray[np.bool_]) -> None:
-    if not background.any():
-        raise InputError("invalid mask: expected at least one zero pixel to measure distances to, but all are nonzero")
-
-
 class _Background(Tessellator):
-    """The tessellation of a volume whose seeds are its zero voxels, of which those at the foreground are enough."""
+    """The tessellation whose seeds are the zero pixels or voxels, of which those at the foreground are enough."""
 
     def __init__(self, background: NDArray[np.bool_], sides: PixelSides, threads: int) -> None:
         self.is_seed = background
@@ -158,12 +137,16 @@ class _Background(Tessellator):
         super().__init__(bare_seeds(self.places, labels, background.shape), sides=sides, threads=threads)
 
     @classmethod
-    def of(cls, values: NDArray[Any], sides: PixelSides, threads: int) -> _Background | None:
-        """None of a volume without voxels."""
+    def of(cls, values: NDArray[Any], sides: PixelSides, threads: int, max_pixels: int) -> _Background | None:
+        """None of an image or a volume without pixels."""
         if not values.size:
             return None
+        require_memory(frame_at((0,) * values.ndim, values.shape[::-1]), max_pixels)
         background = values == 0
-        _require(background)
+        if not background.any():
+            raise InputError(
+                "invalid mask: expected at least one zero pixel to measure distances to, but all are nonzero"
+            )
         return cls(background, sides, threads)
 
     def squared_distances(
@@ -180,17 +163,17 @@ class _Background(Tessellator):
         return squares
 
     def nearest(self) -> NDArray[np.int32]:
-        """(3, D, H, W) slice, row and column of the nearest zero voxel."""
+        """Row and column, or slice, row and column, of the nearest zero pixel or voxel, by axis."""
         seed = self.labels(dtype=np.uint32).astype(np.int64) - 1
         own = np.nonzero(self.is_seed)
-        indices = np.empty((3, *self.frame.shape), np.int32)
-        for axis in range(3):
+        indices = np.empty((self.axes, *self.frame.shape), np.int32)
+        for axis in range(self.axes):
             indices[axis] = self.places[:, axis][seed]
             indices[axis][own] = own[axis]
         return indices
 
 
-def _roots(sweep: Tessellator | _Background | None, shape: tuple[int, ...]) -> NDArray[np.float64]:
+def _roots(sweep: _Background | None, shape: tuple[int, ...]) -> NDArray[np.float64]:
     """Roots of squared distances, in the unit of the spacing."""
     if sweep is None:
         return np.zeros(shape)
@@ -198,17 +181,6 @@ def _roots(sweep: Tessellator | _Background | None, shape: tuple[int, ...]) -> N
     if sweep.step != 1:
         squares *= float(sweep.step * sweep.step)
     return np.sqrt(squares)
-
-
-def _nearest(sweep: Tessellator | _Background | None, shape: tuple[int, ...]) -> NDArray[np.int32]:
-    """Row and column of the nearest seed of each pixel: labels are the numbers of seeds, row by row."""
-    if isinstance(sweep, _Background):
-        return sweep.nearest()
-    indices = np.zeros((len(shape), *shape), np.int32)
-    if sweep is not None:
-        seed = sweep.labels(dtype=np.uint32).astype(np.int64) - 1
-        indices[0], indices[1] = sweep.seeds.y[seed], sweep.seeds.x[seed]
-    return indices
 
 
 def expand_labels(
@@ -275,28 +247,13 @@ def expand_labels(
         return values.copy()
     exact = Fraction if spacing is None else as_decimal
     most = None if limit == float("inf") else exact(limit)
-    if is_solid:
-        return _grown_volume(values, sides, most, threads)
-    height, width = values.shape
-    require_memory(Frame(0, 0, width, height), max_pixels)
-    seeds = seeds_from_raster(values.astype(np.uint8) if values.dtype == bool else values, mode="labels")
+    require_memory(frame_at((0,) * values.ndim, values.shape[::-1]), max_pixels)
+    outer = (values != 0) & ~surrounded(values)  # the others have their labels
+    seeds = bare_seeds(np.argwhere(outer), label_values(values)[outer].astype(np.uint32), values.shape)
     grown = Tessellator(seeds, max_distance=most, sides=sides, threads=threads).labels(dtype=np.uint32)
-    return grown.astype(values.dtype)
-
-
-def _grown_volume(values: NDArray[Any], sides: PixelSides, most: Fraction | None, threads: int) -> NDArray[Any]:
-    """The same for a volume: seeds are the outer voxels of each label."""
-    labels = values.view(np.uint8) if values.dtype == bool else values
-    if labels.min() < 0 or labels.max() > LARGEST_LABEL:
-        found = f"{labels.min()} to {labels.max()}"
-        raise InputError(f"invalid labels: expected 0 to {LARGEST_LABEL}, but they are {found}")
-    outer = (labels != 0) & ~surrounded(labels)
-    seeds = labels[outer].astype(np.uint32)
-    bare = bare_seeds(np.argwhere(outer), seeds, values.shape)
-    sweep = Tessellator(bare, sides=sides, max_distance=most, threads=threads)
-    grown = sweep.labels(dtype=np.uint32).astype(values.dtype)
-    np.copyto(grown, values, where=values != 0)
-    return grown
+    made = grown.astype(values.dtype)
+    np.copyto(made, values, where=values != 0)
+    return made
 
 
 def volume(values: Any, name: str, max_pixels: int) -> NDArray[Any]:
@@ -312,12 +269,13 @@ def volume(values: Any, name: str, max_pixels: int) -> NDArray[Any]:
     return array
 
 
-def bare_seeds(places: NDArray[np.int64], labels: NDArray[np.uint32], shape: tuple[int, ...]) -> VolumeSeeds:
-    """Give voxels as seeds of a volume of which no sites are wanted, which take time to find."""
-    depth, height, width = shape
-    frame = VoxelFrame(0, 0, 0, width, height, depth)
-    places = np.asfortranarray(places[:, ::-1])
-    return VolumeSeeds(places, labels, frame=frame, sites=np.empty((0, 3)), site_labels=np.empty(0, np.uint32))
+def bare_seeds(places: NDArray[np.int64], labels: NDArray[np.uint32], shape: tuple[int, ...]) -> SeedSet | VolumeSeeds:
+    """Give pixels or voxels as seeds of which no sites are wanted, which take time to find."""
+    known: Any = {"frame": frame_at((0,) * len(shape), shape[::-1]), "site_labels": np.empty(0, np.uint32)}
+    if len(shape) == 2:
+        y, x = places.T
+        return SeedSet(x, y, labels, sites=np.empty((0, 2)), **known)
+    return VolumeSeeds(np.asfortranarray(places[:, ::-1]), labels, sites=np.empty((0, 3)), **known)
 
 
 def plane(values: ImageLike, name: str) -> NDArray[Any]:

@@ -62,11 +62,7 @@ class SeedBand:
             from vorotool.engines.label_images.regions import diagram_of
 
             return diagram_of(sweep.labels(), threads=threads)[self.first - begin :][: self.count]
-        if self.what == "labels":
-            return sweep.labels(dtype=self.dtype)
-        if self.what == "distance":
-            return sweep.distances()
-        return sweep.squared_distances(dtype=self.dtype)
+        return sweep.computed(self.what, self.dtype)
 
 
 def _alone(_frame: Frame | VoxelFrame, first: int, count: int) -> tuple[int, int]:

@@ -149,8 +149,14 @@ def numbered_components(values: NDArray[Any], connectivity: int = 8) -> NDArray[
     """Number the components of what is not 0: libraries that do it take longer to load than most images to process."""
     components = np.empty(values.shape, np.uint32)
     foreground = np.ascontiguousarray(values != 0).view(np.uint8)
-    _core.label_images.label_components(foreground, connectivity == 8, components, None)
-    return components
+    if values.ndim == 2:
+        _core.label_images.label_components(foreground, connectivity == 8, components, None)
+        return components
+    in_space = _core.volumes.VolumeComponents(values.shape[2], values.shape[1], connectivity == 26)
+    in_space.add(foreground, components, None)
+    number = np.empty(in_space.size + 1, np.uint32)
+    in_space.settle(number)
+    return number[components]
 
 
 def objects_of_mask(labels: NDArray[Any]) -> NDArray[Any] | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -13,14 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.tessellation.bands import Quantity, SeedBand
-from vorotool.engines.tessellation.frames import square_dtype
+from vorotool.engines.tessellation.bands import Quantity
+from vorotool.engines.tessellation.frames import label_dtype
 from vorotool.engines.tessellation.interior_seeds import surrounded
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
     Note,
     PartwiseObjects,
-    refuse_distances,
     report_no_foreground,
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
@@ -140,14 +139,23 @@ class ImageBand:
 
     def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
         """Compute the rows."""
-        out = np.empty((self.count, self.parts[0].source.source.shape[1]), self.dtype)
+        return self.quantities({self.what: self.dtype}, threads, progress)[0]
+
+    def quantities(
+        self, dtypes: Mapping[Quantity, np.dtype[Any]], threads: int, progress: Progress = None
+    ) -> list[NDArray[Any]]:
+        """Compute several quantities of the rows, for which they are read once."""
+        shape = (self.count, self.parts[0].source.source.shape[1])
+        outs = {what: np.empty(shape, dtype) for what, dtype in dtypes.items()}
         for part in self.parts:
-            for first, pixels in self._pieces(part, out, threads):
+            for first, pixels in self._pieces(part, outs, threads):
                 if progress is not None:
                     progress((first + pixels - self.first) / self.count)
-        return out
+        return list(outs.values())
 
-    def _pieces(self, part: ObjectBand, out: NDArray[Any], threads: int) -> Iterator[tuple[int, int]]:
+    def _pieces(
+        self, part: ObjectBand, outs: Mapping[Quantity, NDArray[Any]], threads: int
+    ) -> Iterator[tuple[int, int]]:
         """Label the rows of a part piece by piece; gives the first row and the number of rows of each."""
         objects = part.objects()
         begin, end = max(self.first, part.first), min(self.first + self.count, part.first + part.count)
@@ -164,8 +172,8 @@ class ImageBand:
             below = first_seeds(rows(start, stop), start).or_else(below)
         above = last_seeds(rows(part.first, begin), part.first).or_else(ColumnEnvelope.unpacked(part.above))
         for (start, stop), below in zip(limits, reversed(lists_below), strict=True):
-            place = out[start - self.first : stop - self.first]
-            self._label(rows(start, stop), start, above, below, place, threads)
+            places = {what: out[start - self.first : stop - self.first] for what, out in outs.items()}
+            self._label(rows(start, stop), start, above, below, places, threads)
             above = last_seeds(rows(start, stop), start).or_else(above)
             yield start, stop - start
 
@@ -175,51 +183,61 @@ class ImageBand:
         first: int,
         above: ColumnEnvelope,
         below: ColumnEnvelope,
-        out: NDArray[Any],
+        outs: Mapping[Quantity, NDArray[Any]],
         threads: int,
     ) -> None:
-        is_object = objects != 0
+        is_object, limit = objects != 0, self.max_distance
         if not is_object.all():
             frame = Frame(0, first, objects.shape[1], len(objects))
             seeds = _seeds_near(objects, frame, above, below)
-            band = SeedBand(seeds, frame, 0, frame.height, self.what, self.dtype, self.sides, self.max_distance)
-            out[...] = band.rows(threads=threads)
-        np.copyto(out, objects if self.what == "labels" else 0, where=is_object, casting="unsafe")
+            sweep = Tessellator(seeds, frame, max_distance=limit, sides=self.sides, threads=threads)
+            for what, out in outs.items():
+                out[...] = sweep.computed(what, out.dtype)
+        for what, out in outs.items():
+            np.copyto(out, objects if what == "labels" else 0, where=is_object, casting="unsafe")
 
 
-class StreamedImage:
-    """The tessellation of an image that is read twice: for what bands need of each other, and for the bands."""
+class StreamedImage(Tessellator):
+    """The tessellation of an image that is read twice: for what bands need of each other, and for the bands.
+
+    Its seeds are the first one alone, with the largest label and the sites of all: no other is kept.
+    """
 
     def __init__(
         self,
         source: PartwiseObjects,
         *,
         max_sites: int = LARGEST_LABEL,
+        max_distance: float | Fraction | None = None,
+        sides: PixelSides = SQUARE,
+        threads: int = 0,
         strict: bool = False,
+        reading: Progress = None,
         progress: Progress = None,
         note: Note = None,
-        sides: PixelSides = SQUARE,
         has_sites: bool = False,
     ) -> None:
         height, width = source.source.shape
         source = replace(source, step=max(1, min(source.step, BAND_PIXELS // width)))
-        self.source, self.sides = replace(source, mode=source.mode or source.kind(note=note)), sides
-        self.frame = Frame(0, 0, width, height)
-        self.pixels = self.largest_label = 0
-        self._max_sites = max_sites
-        self.seeds: SeedSet | None = None  # sites alone, if there are any
+        self.source = replace(source, mode=source.mode or source.kind(note=note))
+        self.pixels = self._largest_label = 0
+        self._max_sites, self._max_distance = max_sites, max_distance
         self._corner: tuple[int, int] | None = None
         self._measurer = _core.volumes.VolumeMeasurer(width, 1) if has_sites else None
         self._bands: list[ObjectBand] = []
         self._components = _core.label_images.StreamingComponents(width, source.corners)
-        self._scan(progress)
+        x, y = np.array([0, width - 1]), np.array([0, height - 1])
+        corners = SeedSet(x, y, np.array([1, 1]), sites=np.empty((0, 2)), site_labels=np.empty(0, np.uint32))
+        with warnings.catch_warnings(action="ignore"):  # of an image of one pixel; seeds may be anywhere in the image
+            super().__init__(corners, Frame(0, 0, width, height), sides=sides, threads=threads, progress=progress)
+        self.duplicates = 0
+        self._scan(reading)
         if not self.pixels:
             report_no_foreground(strict=strict)
         number = self._number()
         del self._components
-        if self._measurer is not None:
-            self.seeds = self._with_sites(number)
-            del self._measurer
+        self.seeds = self._first_seed(number)
+        del self._measurer
 
     def band(
         self,
@@ -235,35 +253,41 @@ class StreamedImage:
         parts = tuple(band for band in self._bands if band.first < first + rows and band.first + band.count > first)
         return ImageBand(parts, first, rows, what, dtype, max_distance, self.sides)
 
-    def check_distances(self) -> None:
-        """Refuse distances where there is no foreground."""
-        if not self.pixels:
-            refuse_distances()
+    def labels(  # type: ignore[override]  # nothing is written to an array that is there
+        self, first: int = 0, count: int | None = None, *, dtype: Any = None
+    ) -> NDArray[Any]:
+        """Labels of some rows."""
+        kind = label_dtype(self.seeds.largest_label, dtype)
+        return self._rows("labels", kind, first, count, self._max_distance)
 
-    @property
-    def square_dtype(self) -> np.dtype[Any]:
-        """The type of squared distances, as `Tessellator.square_dtype`: none is larger than from the first seed."""
-        self.check_distances()
-        x, y = self._corner or (0, 0)
-        dx, dy = max(x, self.frame.width - 1 - x), max(y, self.frame.height - 1 - y)
-        dx, dy = dx * self.sides.x, dy * self.sides.y
-        return square_dtype(dx * dx + dy * dy)
+    def squared_distances(  # type: ignore[override]
+        self, first: int = 0, count: int | None = None, *, dtype: np.dtype[Any] | None = None
+    ) -> NDArray[Any]:
+        """Exact squared distances of some rows."""
+        return self._rows("distance2", np.dtype(dtype or self.square_dtype), first, count)
 
-    @property
-    def measured_dtype(self) -> np.dtype[Any]:
-        """The type of squared distances that are measured only, as `Tessellator.measured_dtype`."""
-        try:
-            return self.square_dtype
-        except LimitError:
-            return np.dtype(np.float64)
+    def distances(self, first: int = 0, count: int | None = None) -> NDArray[np.float32]:
+        """Distances of some rows."""
+        return self._rows("distance", np.dtype(np.float32), first, count)
 
-    @property
-    def arithmetic(self) -> str:
-        """The narrowest arithmetic that is exact wherever in the image seeds are."""
-        x, y = np.array([0, self.frame.width - 1]), np.array([0, self.frame.height - 1])
-        corners = SeedSet(x, y, np.array([1, 1]), sites=np.empty((0, 2)), site_labels=np.empty(0, np.uint32))
-        with warnings.catch_warnings(action="ignore"):  # of an image of one pixel
-            return Tessellator(corners, self.frame, sides=self.sides).arithmetic
+    def measured(self, first: int, count: int, dtype: np.dtype[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+        """Labels and squared distances of some rows."""
+        band = self.band("labels", dtype, first, count, self._max_distance)
+        labels, squares = band.quantities({"labels": dtype, "distance2": self.measured_dtype}, self._threads)
+        self._tell(first + count)
+        return labels, squares
+
+    def _rows(
+        self, what: Quantity, dtype: np.dtype[Any], first: int, count: int | None, limit: Any = None
+    ) -> NDArray[Any]:
+        count = self.frame.height - first if count is None else count
+        made = self.band(what, dtype, first, count, limit).rows(threads=self._threads)
+        self._tell(first + count)
+        return made
+
+    def _tell(self, rows: int) -> None:
+        if self._progress is not None:
+            self._progress(rows / self.frame.height)
 
     def _scan(self, progress: Progress) -> None:
         """Read the image from top to bottom; labels are provisional yet, and the list below is that of the band."""
@@ -289,13 +313,13 @@ class StreamedImage:
         """Label some rows, as far as the rows above them tell; gives how many labels need numbers so far, too."""
         if self.source.mode == "labels":
             objects = self.source.labels(first, count).astype(np.uint32, copy=False)
-            self.largest_label = max(self.largest_label, int(objects.max()))
+            self._largest_label = max(self._largest_label, int(objects.max()))
             return objects, 0
         mask = self.source.mask(first, count)
         if self.source.mode == "pixels":
             end = start + int(np.count_nonzero(mask))
             self._check(end, "foreground pixels")
-            self.largest_label = end
+            self._largest_label = end
             return _numbered_pixels(mask, start), end
         objects = np.empty(mask.shape, np.uint32)
         self._components.add(mask, objects, None)
@@ -317,31 +341,26 @@ class StreamedImage:
             self._corner = x, first + y
         self.pixels += count
 
-    def _with_sites(self, number: NDArray[np.uint32]) -> SeedSet:
-        """Give the sites of the objects, as `seeds_from_raster` does, but none of their seeds."""
-        assert self._measurer is not None
-        found = self._measurer.finish(None)
-        label = found["labels"] if self.source.mode != "components" else number[found["labels"]]
-        distinct, row = np.unique(label, return_inverse=True)
-        area, total = np.zeros(len(distinct), np.int64), np.zeros((len(distinct), 2), np.int64)
-        np.add.at(area, row, found["voxels"])
-        np.add.at(total, row, found["sums"][:, ::2])  # along x and z: each row of the image is a slice
-        nothing = np.empty(0, np.int64)
-        return SeedSet(
-            nothing,
-            nothing,
-            np.empty(0, np.uint32),
-            frame=self.frame,
-            sites=total / area[:, None],
-            site_labels=distinct,
-            object_area=None if self.source.mode == "pixels" else area,
-        )
+    def _first_seed(self, number: NDArray[np.uint32]) -> SeedSet:
+        """Give the first seed, and the sites of all objects if they are wanted, as `seeds_from_raster` does."""
+        x, y = np.array([] if self._corner is None else [self._corner], np.int64).reshape(-1, 2).T
+        sites: dict[str, Any] = {"sites": np.empty((0, 2)), "site_labels": np.empty(0, np.uint32)}
+        if self._measurer is not None:
+            found = self._measurer.finish(None)
+            label = found["labels"] if self.source.mode != "components" else number[found["labels"]]
+            distinct, row = np.unique(label, return_inverse=True)
+            area, total = np.zeros(len(distinct), np.int64), np.zeros((len(distinct), 2), np.int64)
+            np.add.at(area, row, found["voxels"])
+            np.add.at(total, row, found["sums"][:, ::2])  # along x and z: each row of the image is a slice
+            sites = {"sites": total / area[:, None], "site_labels": distinct}
+            sites["object_area"] = None if self.source.mode == "pixels" else area
+        return SeedSet(x, y, np.full(len(x), self._largest_label, np.uint32), frame=self.frame, **sites)
 
     def _number(self) -> NDArray[np.uint32]:
         """Read the lists from bottom to top: each band gets the list of what is below it, and all get their numbers."""
         number = np.empty(self._components.size + 1, np.uint32)
         if self.source.mode == "components":
-            self.largest_label = self._components.settle(number)
+            self._largest_label = self._components.settle(number)
         below = ColumnEnvelope.empty(self.frame.width)
         for k in range(len(self._bands) - 1, -1, -1):
             band = self._bands[k]

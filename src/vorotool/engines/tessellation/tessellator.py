@@ -177,6 +177,16 @@ class Tessellator:
         self._paint(array, first, 0)
         return array
 
+    def computed(self, what: str, dtype: np.dtype[Any]) -> NDArray[Any]:
+        """Labels, distances or squared distances (``distance2``) of the whole frame."""
+        if what == "labels":
+            return self.labels(dtype=dtype)
+        return self.distances() if what == "distance" else self.squared_distances(dtype=dtype)
+
+    def measured(self, first: int, count: int, dtype: np.dtype[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+        """Labels of some rows or slices, and squared distances that are measured only."""
+        return self.labels(first, count, dtype=dtype), self.squared_distances(first, count, dtype=self.measured_dtype)
+
     def check_distances(self) -> None:
         """Refuse distances where there are no seeds."""
         if not len(self.seeds):
