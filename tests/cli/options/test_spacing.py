@@ -207,23 +207,26 @@ def test_a_map_with_pixels_that_are_no_squares(run, tmp_path):
     assert (float(typed[0]["x"]), float(typed[0]["y"])) == (7 * 30, 5.5 * 25)
 
 
-@pytest.mark.parametrize("options", [["--seeds", "labels"], ["--seeds", "pixels"], []])
-@pytest.mark.parametrize("what", ["labels", "distance", "distance2"])
+@pytest.mark.parametrize("options", [["--seeds", "labels"], ["--seeds", "pixels"], ["--seeds", "components"], []])
+@pytest.mark.parametrize("what", ["labels", "distance", "distance2", "table", "neighbors"])
 def test_images_that_pass_by_have_the_same_bytes(run, tmp_path, monkeypatch, what, options):
     labels = np.kron(np.random.default_rng(2).random((40, 30)) < 0.05, np.ones((3, 2))).astype(np.uint8) * 7
     tifffile.imwrite(tmp_path / "in.tif", labels, rowsperstrip=8)
     args = ["tessellate", "in.tif", "--what", what, "--spacing", "0.325,0.5um", "-q", *options]
-    limit = ["--max-distance", "2"] if what == "labels" else []
-    assert run(*args, *limit, "-o", "held.npy").code == 0
+    limit = ["--max-distance", "2"] if not what.startswith("distance") else []
+    is_table = what in ("table", "neighbors")
+    end = "csv" if is_table else "npy"
+    assert run(*args, *limit, "-o", f"held.{end}").code == 0
     monkeypatch.setattr("vorotool.jobs.tessellation.LARGE", 100)
     monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.SWEEP_PIXELS", 60 * 7)
-    done = run(*args, *limit, "-o", "passed.npy", "--stats", "s.json", "--chunk", "60x8")
+    monkeypatch.setattr("vorotool.engines.tessellation.frames.BAND_PIXELS", 60 * 11)
+    done = run(*args, *limit, "-o", f"passed.{end}", "--stats", "s.json", "--chunk", "60x8")
     assert done.code == 2  # chunks are for stores
-    assert run(*args, *limit, "-o", "passed.npy", "--stats", "s.json").code == 0
-    assert (tmp_path / "passed.npy").read_bytes() == (tmp_path / "held.npy").read_bytes()
+    assert run(*args, *limit, "-o", f"passed.{end}", "--stats", "s.json").code == 0
+    assert (tmp_path / f"passed.{end}").read_bytes() == (tmp_path / f"held.{end}").read_bytes()
     stats = json.loads((tmp_path / "s.json").read_text())
     assert stats["spacing"] == [0.325, 0.5]
-    assert (stats["distance2_step"], stats["arithmetic"], "labels" in stats) == ("1/40", "float64", False)
+    assert (stats["distance2_step"], stats["arithmetic"], "labels" in stats) == ("1/40", "float64", is_table)
 
 
 @pytest.mark.parametrize("fmt", ["svg", "png", "html", "gif"])
