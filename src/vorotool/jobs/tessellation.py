@@ -95,7 +95,14 @@ def _tell_outside(run: Run, rows: Tessellator | PropagatedRows) -> None:
     seeds, (left, top, right, bottom) = rows.seeds, rows.frame.box.sides
     if seeds.sites is not None and seeds.site_labels is not None:
         x, y = seeds.sites.T
-        tell_outside(run, seeds.site_labels, (x < left) | (x > right) | (y < top) | (y > bottom))
+        is_outside = (x < left) | (x > right) | (y < top) | (y > bottom)
+        tell_outside(run, seeds.site_labels, is_outside)
+        if len(x) and is_outside.all():
+            run.warn(
+                f"no seed is in the frame: they lie at x {x.min():g} to {x.max():g}, y {y.min():g} to {y.max():g}; "
+                "choose the frame with --window X,Y,W,H, or for coordinates of a map the side of a pixel with "
+                "--cell-size SIDE"
+            )
 
 
 def _seeds_of(run: Run, o: Options, value: PointSet | PolygonSet | Raster) -> SeedSet:

@@ -48,6 +48,8 @@ def test_seeds_outside_the_frame_are_named(run, tmp_path, monkeypatch):
     lines, _ = told(run, "tessellate", "many.csv", "--window", "90,0,30,9", "-o", "a.png")
     assert lines == ["note: 2 of 14 seeds are outside the frame: sites 13, 14"]
     assert "outside" not in run("tessellate", "many.csv", "-o", "a.png").err
+    lines, _ = told(run, "tessellate", "many.csv", "--window", "5000,0,30,9", "-o", "a.png")
+    assert any(line.startswith("warning: no seed is in the frame") and "--window" in line for line in lines)
 
 
 @pytest.mark.usefixtures("inputs")
