@@ -49,7 +49,7 @@ def test_streams_give_the_same_bytes(run, folder):
 
 
 def test_batches(run, folder):
-    (folder / "more.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"><text>a</text></svg>')
+    (folder / "more.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"><path d="x"/></svg>')
     done = run(
         "skeleton-exact", "logo.svg", "plate.dxf", "more.svg", "--out-dir", "out", "--keep-going", "-f", "dxf", "-q"
     )

@@ -13,9 +13,6 @@ from vorotool.formats.drawing import svg_document
 
 # ---- what is refused -----------------------------------------------------------------------------
 REFUSED = [
-    ('<text id="t">a</text>', r"text #t is not outlined.* Object to Path"),
-    ('<image href="a.png"/>', "image is not a shape"),
-    ("<foreignObject/>", "not SVG"),
     ('<g clip-path="url(#c)"><rect width="1" height="1"/></g>', "g is clipped.*Path > Intersection"),
     ('<rect width="1" height="1" style="mask:url(#m)"/>', "has a mask"),
     ('<pattern id="p"/><rect fill="url(#p)" width="1" height="1"/>', r"painted with a pattern \(#p\).*flat fill"),
@@ -51,10 +48,13 @@ def test_what_is_refused(body, message):
         svg(body)
 
 
-@pytest.mark.parametrize(("body", "message"), [each for each in REFUSED if each[0].startswith(("<text", "<image"))])
-def test_what_is_not_shown_is_not_refused(body, message):
-    for wrapped in (f"<defs>{body}</defs>", f'<g display="none">{body}</g>', f'<g visibility="hidden">{body}</g>'):
-        assert len(svg(wrapped)[0]) == 0
+@pytest.mark.parametrize("tag", ["text", "image", "foreignObject"])
+def test_what_is_no_shape_is_skipped_with_a_note(tag):
+    shapes, notes = svg(f'<{tag}/><rect width="1" height="1"/>\n<g><{tag}/></g>')
+    assert len(shapes) == 1
+    assert [f"a.svg: 2 {tag}s skipped, the first in line 1" in note for note in notes] == [True]
+    for wrapped in (f"<defs><{tag}/></defs>", f'<g display="none"><{tag}/></g>'):
+        assert not any(tag in note for note in svg(wrapped)[1])
 
 
 @pytest.mark.parametrize(

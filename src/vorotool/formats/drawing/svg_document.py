@@ -22,11 +22,12 @@ GROUPS = ("g", "a", "svg", "switch")
 MOST_REPEATED = 2**17
 """Elements that are drawn, or pieces of curves, where some are used many times: a kilobyte could ask for billions."""
 _DEEPEST = 250
-_REFUSED = {
-    "text": "is not outlined: convert it to paths, in Inkscape with Path > Object to Path",
-    "image": "is not a shape: remove the image, and read it as a separate file",
-    "foreignObject": "holds elements that are not SVG: remove them, or save the drawing as plain SVG",
+NO_SHAPES = {
+    "text": "only its font has its outline; to read it convert it to paths, in Inkscape with Path > Object to Path",
+    "image": "read it as a file of its own",
+    "foreignObject": "it is not SVG",
 }
+"""Elements that are skipped with a note, and what a user may do."""
 _CLIPPED = {
     "clip-path": "is clipped: apply the clip to it, in Inkscape with Object > Clip > Release and Path > Intersection",
     "mask": "has a mask: apply it, in Inkscape with Object > Mask > Release and Path > Intersection",
@@ -40,6 +41,7 @@ class Document:
     name: str
     root: Element  # its outermost element
     hidden: int = 0  # counts elements that are not displayed
+    skipped: dict[str, list[int]] = field(default_factory=dict)  # lines of elements that are no shapes, by their tags
     _most: int = 0
     _counted: dict[Element, tuple[int, int] | None] = field(default_factory=dict)
 
@@ -126,10 +128,13 @@ class Document:
         )
 
     # ---- what is refused --------------------------------------------------------------------------
-    def check_drawn(self, element: Element) -> None:
-        """Refuse what would be drawn and is no shape."""
-        if element.tag in _REFUSED:
-            raise InputError(f"{self.place(element)} {_REFUSED[element.tag]}")
+    def note_skipped(self, note: Callable[[str], None]) -> None:
+        """Count hidden elements and those that are no shapes."""
+        if self.hidden:
+            note(f"{self.name}: {counted(self.hidden, 'hidden element')} skipped")
+        for tag, lines in self.skipped.items():
+            first = f"in line {lines[0]}" if len(lines) == 1 else f"the first in line {lines[0]}"
+            note(f"{self.name}: {counted(len(lines), tag)} skipped, {first}: {NO_SHAPES[tag]}")
 
     def check_own(self, element: Element, own: dict[str, str], style: Style) -> None:
         """Refuse what makes an element another shape than its curves are."""

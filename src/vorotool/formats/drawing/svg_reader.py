@@ -9,7 +9,7 @@ from typing import NamedTuple
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.drawing.curves import Affine, Curve
 from vorotool.formats.drawing.polygons import Shape, shapes_to_polygons
-from vorotool.formats.drawing.svg_document import GROUPS, MOST_REPEATED, Document, Element, Style
+from vorotool.formats.drawing.svg_document import GROUPS, MOST_REPEATED, NO_SHAPES, Document, Element, Style
 from vorotool.formats.drawing.svg_shapes import (
     MM,
     PX,
@@ -40,8 +40,7 @@ def read_svg(source: Source, options: ReadOptions) -> PolygonSet:
     page = _page(document)
     reader = _Reader(document, options)
     reader.walk_root(_State(page.map, Style(), page.viewport, None))
-    if document.hidden:
-        options.note(f"{source.name}: {counted(document.hidden, 'hidden element')} skipped")
+    document.note_skipped(options.note)
     if reader.unpainted:
         options.note(f"{source.name}: {counted(reader.unpainted, 'shape')} without fill and stroke skipped")
     document.note_styles(options.note)
@@ -171,7 +170,9 @@ class _Reader:
         if element.tag in (*SHAPES, "text", "image") and style.visibility in ("hidden", "collapse"):
             document.hidden += 1
             return
-        document.check_drawn(element)
+        if element.tag in NO_SHAPES:
+            document.skipped.setdefault(element.tag, []).append(element.line)
+            return
         document.check_own(element, own, style)
         by = state.map.after(self._transform(element, own))
         state = state._replace(map=by, style=style)
