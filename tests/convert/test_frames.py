@@ -1,7 +1,5 @@
 """Results as data frames and graphs: index, reference system and columns of the input, and geometry that is right."""
 
-from dataclasses import replace
-
 import geopandas
 import numpy as np
 import pandas
@@ -10,7 +8,7 @@ import shapely
 from pandas.testing import assert_frame_equal, assert_index_equal
 
 import vorotool
-from support.families.values import empty_values, example_values, label_image, point_set, polygon_set
+from support.families.values import empty_values, example_values, label_image
 from vorotool.types.pixel_grid import map_grid
 
 VALUES = example_values()
@@ -64,16 +62,6 @@ def test_pandas_takes_tables(name):
     table = {**VALUES, **empty_values()}[name]
     assert_frame_equal(pandas.DataFrame(table), table.to_pandas(), check_column_type=False)
     assert_frame_equal(pandas.DataFrame(dict(table)), table.to_pandas(), check_column_type=False)
-
-
-def test_pandas_takes_missing_integers_as_floats_and_we_as_integers():
-    table = vorotool.Table(
-        {"size": np.ma.array([7, 8], mask=[False, True]), "is": np.ma.array([True, False], mask=[1, 0])}
-    )
-    assert table.to_pandas().dtypes.astype(str).tolist() == ["Int64", "boolean"]
-    assert_frame_equal(pandas.DataFrame({"size": table["size"]}), table.to_pandas()[["size"]].astype("float64"))
-    with_columns = pandas.DataFrame(table, columns=["size"], index=["a", "b"])
-    assert with_columns["size"].isna().tolist() == [False, True]
 
 
 def test_a_table_is_a_mapping_that_does_not_change():
@@ -135,35 +123,6 @@ def test_cells_of_a_data_frame_are_those_of_geopandas(seed):
     assert_index_equal(cells.to_pandas().index, frame.index)
 
 
-def test_several_indices_and_names_come_back():
-    points = point_set(4)
-    levels = pandas.MultiIndex.from_tuples([("a", 1), ("a", 2), ("b", 1), ("b", 2)], names=["street", "number"])
-    for index in (levels, pandas.DatetimeIndex(["2020-01-01"] * 4), np.array([9, 8, 7, 6]), ["p", "q", "r", "s"]):
-        frame = replace(points, index=index).to_geopandas()
-        assert list(frame.index) == list(index)
-        if hasattr(index, "names"):
-            assert list(frame.index.names) == list(index.names)
-    assert isinstance(replace(points, index=None).to_geopandas().index, pandas.RangeIndex)
-
-
-def test_parts_repeat_the_index_of_their_row_as_explode_does():
-    polygons = polygon_set()
-    frame = polygons.to_geopandas()
-    assert frame.index.tolist() == [7, 8, 8, 9]
-    assert frame.index.name == "row"
-    assert frame["depth"].tolist()[:3] == [1, 2, 2]
-    skeleton = VALUES["Skeleton"]
-    arcs = skeleton.to_geopandas()
-    inside = skeleton.polygon >= 0
-    assert arcs.index[inside].tolist() == np.array([7, 8, 8, 9])[skeleton.polygon[inside]].tolist()
-    assert arcs["depth"][inside].tolist() == np.array([1, 2, 2, 0])[skeleton.polygon[inside]].tolist()
-    assert len(skeleton.to_geopandas(by="branch")) == skeleton.branch[-1] + 1
-    np.testing.assert_allclose(skeleton.to_geopandas(flatten=1e-6).length, skeleton.length, rtol=1e-3)
-    offsets = VALUES["Offsets"]
-    for row, polygon in zip(offsets.to_geopandas().index, offsets.polygon.tolist(), strict=True):
-        assert pandas.isna(row) if polygon < 0 else row == [7, 8, 8, 9][polygon]
-
-
 @pytest.mark.parametrize(
     ("name", "parts"),
     [
@@ -216,8 +175,3 @@ def test_regions_lie_on_the_map(transform):
     if "area" in frame:
         np.testing.assert_allclose(frame["area"], frame.area)
         assert not {"bbox_x", "bbox_y"} & set(frame.columns)
-
-
-def test_big_endian_columns_are_taken():
-    table = vorotool.Table({"a": np.array([1, 2], ">i4"), "b": np.arange(4.0)[::2]})
-    assert table.to_pandas()["a"].tolist() == [1, 2]

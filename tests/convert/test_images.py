@@ -60,15 +60,6 @@ def test_all_forms_have_the_same_values(dtype, form):
     assert made.values.dtype.kind == values.dtype.kind
 
 
-def test_masked_pixels_are_background():
-    hidden = np.ma.array(LABELS, mask=LABELS == 5)
-    assert as_raster(hidden, "image").mask.tolist() == (LABELS == 5).tolist()
-    assert (
-        as_label_image(hidden, "image", numbered_components).labels.tolist()
-        == np.where(LABELS == 5, 0, LABELS).tolist()
-    )
-
-
 @pytest.mark.parametrize(
     ("source", "expected"),
     [
@@ -108,13 +99,6 @@ def test_what_is_an_image(source, expected):
         assert is_image(source, "seeds", False) is False
 
 
-def test_grey_values_name_the_way():
-    with pytest.raises(InputError, match=r"^invalid seeds: .*vorotool.seeds_from_raster\(seeds, threshold=…\)"):
-        is_image(LABELS.astype(float).repeat(2, axis=0), "seeds")
-    with pytest.raises(UsageError, match="'yes'"):
-        is_image(LABELS, "seeds", "yes")
-
-
 @pytest.mark.parametrize(
     ("source", "message"),
     [
@@ -135,13 +119,6 @@ def test_what_is_refused_names_the_parameter(source, message):
         as_raster(source, "mask")
     with pytest.raises(InputError, match=f"^invalid mask: .*{message}"):
         as_label_image(source, "mask", numbered_components)
-
-
-def test_grey_values_and_colors_where_there_may_be_a_threshold():
-    assert as_raster(LABELS.astype(float), "image", is_gray=True).values.dtype == float
-    assert as_raster(np.zeros((4, 5, 3), np.uint8), "image", is_gray=True).is_color
-    with pytest.raises(InputError, match="invalid labels: expected labels, a 2-D array of integers"):
-        as_label_image(Raster(LABELS.astype(float)), "labels", numbered_components)
 
 
 def test_what_is_not_in_memory_is_not_read_if_it_is_too_large():

@@ -9,7 +9,6 @@ import vorotool
 from vorotool import VorotoolError, VorotoolWarning
 
 RING = [[0, 0], [4, 0], [0, 3]]
-ARRAY = np.array([[4, 8], [8, 4]])
 
 
 def closed_file():
@@ -43,29 +42,6 @@ def test_by(by):
         vorotool.voronoi(RING, by=by)
 
 
-@pytest.mark.parametrize(
-    ("function", "arguments"),
-    [
-        ("skeleton_exact", {"polygons": RING, "side": ARRAY}),
-        ("skeleton_exact", {"polygons": RING, "features": ARRAY}),
-        ("outlines", {"image": np.eye(4, dtype=bool), "connectivity": ARRAY}),
-        ("outlines", {"image": np.eye(4, dtype=bool), "max_sites": None}),
-        ("outlines", {"image": np.eye(4, dtype=bool), "threads": None}),
-        ("seeds_from_raster", {"raster": np.eye(4, dtype=bool), "max_sites": "9"}),
-        ("proximity_graph", {"points": RING, "kind": ARRAY}),
-        ("alpha_complex", {"points": RING, "rule": ARRAY}),
-        ("neighbor_table", {"image": np.eye(4, dtype=int), "measures": 5}),
-    ],
-)
-def test_choices_and_counts(function, arguments):
-    with pytest.raises(VorotoolError):
-        getattr(vorotool, function)(**arguments)
-
-
-def test_no_count_is_one_disc():
-    assert len(vorotool.largest_empty_discs(RING, count=None)) == 1
-
-
 def test_by_a_path_into_objects():
     features = [
         {
@@ -81,13 +57,3 @@ def test_by_a_path_into_objects():
         vorotool.voronoi(document, by="classification")
     with pytest.raises(VorotoolError, match=r"classification\.color"):
         vorotool.voronoi(document, by="classification.color")
-
-
-def test_masks_are_their_outlines():
-    mask = np.zeros((6, 9), dtype=bool)
-    mask[1:5, 1:8] = True
-    outlines = vorotool.outlines(mask)
-    assert vorotool.skeleton_exact(mask) == vorotool.skeleton_exact(outlines)
-    assert vorotool.largest_discs(mask).radius.tolist() == vorotool.largest_discs(outlines).radius.tolist()
-    with pytest.warns(VorotoolWarning, match="no foreground"):
-        assert len(vorotool.offset(np.zeros((3, 3), dtype=bool), [1]).polygons) == 0

@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import vorotool
-from vorotool import InputError, PointSet, PolygonSet, Raster, SeedSet, UsageError, read
+from vorotool import InputError, PolygonSet, Raster, UsageError, read
 from vorotool.convert.points import as_place, as_points
 
 XY = [[2.0, 1.0], [7.5, 5.0], [4.0, 9.0]]
@@ -80,14 +80,6 @@ def test_all_forms_have_the_same_places(source):
     assert made.xy.dtype == np.float64
 
 
-def test_what_is_ours_is_given_back():
-    points = PointSet(XY)
-    assert as_points(points) is points
-    seeds = SeedSet(np.array([4, 0]), np.array([1, 2]), np.array([9, 3]), index=["a", "b"])
-    sites = as_points(seeds)
-    assert (sites.xy.tolist(), sites.labels.tolist()) == ([[0, 2], [4, 1]], [3, 9])
-
-
 @pytest.mark.parametrize(
     ("columns", "y_axis", "is_geographic"),
     [
@@ -123,26 +115,6 @@ def test_a_column_called_label_is_one_if_it_holds_integers_from_1():
     assert (other.labels, other.properties) == (None, {"label": [1, 0]})
 
 
-def test_columns_keep_types_and_gaps():
-    days = pd.to_datetime(["2024-05-01", None])
-    frame = pd.DataFrame(
-        {"x": [1, 2], "y": [3, 4], "k": pd.array([7, None], dtype="Int64"), "d": days, "f": [0.5, np.nan]}
-    )
-    assert as_points(frame).properties == {"k": [7, None], "d": [days[0], None], "f": [0.5, None]}
-    twice = pd.DataFrame([[1, 2, 3, 4]], columns=["x", "y", "a", "a"])
-    assert as_points(twice).xy.tolist() == [[1, 2]]
-
-
-def test_what_geopandas_knows_is_kept():
-    made = as_points(FRAME)
-    assert made.index.tolist() == ["p", "q", "r"]
-    assert made.properties == {"name": ["a", None, "c"]}
-    assert made.crs["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
-    assert made.y_axis == "up"
-    assert (as_points(SERIES.values).crs, as_points(SERIES.values).index) == (made.crs, None)
-    assert as_points(POINTS).y_axis == "up"
-
-
 def test_features_have_ids():
     document = {
         "type": "FeatureCollection",
@@ -173,12 +145,6 @@ def test_one_place(source):
 def test_what_is_no_place(source):
     with pytest.raises((InputError, UsageError), match=r"start"):
         as_place(source, "start")
-
-
-def test_nothing_is_no_points():
-    for source in ([], (), np.empty((0, 2)), np.empty(0), pd.DataFrame({"x": [], "y": []}), geopandas.GeoSeries([])):
-        assert as_points(source).xy.shape == (0, 2)
-    assert len(as_points(shapely.Point())) == len(as_points(shapely.MultiPoint())) == 0
 
 
 @pytest.mark.parametrize(
@@ -241,18 +207,3 @@ def test_features_without_geometry_are_left_out_with_a_warning():
             assert len(function(points).points) == 3
     assert len(vorotool.delaunay(geopandas.GeoSeries(points)).points) == 3
     assert vorotool.voronoi(points).areas[[1, 4]].tolist() == [0, 0]
-
-
-def test_longitude_and_latitude_of_data_frames_are_warned_of():
-    places = [(8.0, 47.0), (9.0, 47.0), (8.0, 48.0)]
-    frame = geopandas.GeoDataFrame(geometry=[shapely.Point(place) for place in places], crs=4326)
-    areas = geopandas.GeoDataFrame(geometry=[shapely.Point(place).buffer(0.1) for place in places], crs=4326)
-    for function, source in (
-        (vorotool.delaunay, frame),
-        (vorotool.voronoi, frame),
-        (vorotool.voronoi, areas),
-        (vorotool.skeleton_exact, areas),
-    ):
-        with pytest.warns(vorotool.VorotoolWarning, match="treated as planar.*EPSG:32632"):
-            function(source)
-        function(source.to_crs(32632))

@@ -1,7 +1,5 @@
 """Polygons and lines from whatever callers hold."""
 
-from pathlib import Path
-
 import geopandas
 import numpy as np
 import pandas as pd
@@ -9,10 +7,9 @@ import pytest
 import shapely
 
 import vorotool
-from vorotool import InputError, PointSet
+from vorotool import InputError
 from vorotool.convert.polygons import as_geometry, as_polygons
-from vorotool.types.polygons.conversion import to_shapely
-from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL
+from vorotool.types.polygons.polygon_set import SHELL
 
 TRIANGLE = [[0, 0], [9, 0], [0, 9]]
 HOLED = shapely.Polygon(TRIANGLE, [[[1, 1], [2, 1], [1, 2]]])
@@ -25,51 +22,6 @@ def test_one_shell():
         assert shapes.xy.tolist() == TRIANGLE
         assert shapes.ring_kind.tolist() == [SHELL]
     assert as_polygons(shapes) is shapes
-
-
-def test_shapely():
-    collection = shapely.GeometryCollection([HOLED, PATH, shapely.MultiPolygon([HOLED, shapely.box(20, 20, 30, 30)])])
-    shapes = as_polygons([PATH, collection, shapely.Polygon(), shapely.MultiLineString([PATH, PATH])])
-    assert shapes.ring_polygon.tolist() == [0, 1, 1, 2, 3, 3, 4, 5, 6]
-    assert shapes.ring_kind.tolist() == [LINE, SHELL, HOLE, LINE, SHELL, HOLE, SHELL, LINE, LINE]
-    assert shapes.feature.tolist() == [0, 1, 1, 1, 1, 3, 3]
-    assert shapes.part.tolist() == [1, 1, 2, 3, 4, 1, 2]
-    back = to_shapely(shapes)
-    expected = [PATH, HOLED, PATH, HOLED, shapely.box(20, 20, 30, 30), PATH, PATH]
-    assert [each.wkt for each in back] == [each.wkt for each in expected]
-
-
-def test_lists_of_anything():
-    shapes = as_polygons([HOLED, TRIANGLE, {"shell": TRIANGLE, "holes": [TRIANGLE, []]}, {"line": TRIANGLE}, []])
-    assert shapes.ring_kind.tolist() == [SHELL, HOLE, SHELL, SHELL, HOLE, LINE]
-    assert shapes.feature.tolist() == [0, 1, 2, 3]
-    assert len(as_polygons([])) == len(as_polygons(shapely.Polygon())) == 0
-    assert as_polygons({"shell": TRIANGLE}).ring_starts.tolist() == [0, 3]
-    assert as_polygons(shapely.LinearRing(TRIANGLE)).ring_kind.tolist() == [SHELL]
-
-
-@pytest.mark.parametrize(
-    ("source", "message"),
-    [
-        ("a.geojson", r"'a.geojson'"),
-        (Path("a.geojson"), r"invalid polygons: .*vorotool.read\('a.geojson'\)"),
-        (5, "invalid polygons: expected polygons or lines of .* but got an int$"),
-        (np.array(5.0), "expected polygons .* but got an array of float64 and shape"),
-        (PointSet([[1, 2]]), "item 1"),
-        (None, "None$"),
-        (shapely.Point(1, 1), "item 1"),
-        ([HOLED, shapely.MultiPoint([(1, 1)])], "MultiPoint"),
-        ([HOLED, 7], "item 2"),
-        ([HOLED, [[1, 2], [3]]], r"item 2"),
-        ([[0, 0, 0], [1, 1, 1], [2, 0, 0]], r"item 1"),
-        ({"hull": TRIANGLE}, "item 1"),
-        ({"shell": TRIANGLE, "holes": [TRIANGLE, [[1]]]}, "item 1"),
-        ([[0, 0], [1, 0], [float("inf"), 1]], r"polygon 1"),
-    ],
-)
-def test_what_is_refused(source, message):
-    with pytest.raises(InputError, match=message):
-        as_polygons(source)
 
 
 # ---- forms of other libraries -----------------------------------------------------------------------

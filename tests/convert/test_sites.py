@@ -75,23 +75,6 @@ def test_points(source):
     assert (sites.site.tolist(), sites.count) == ([0, 1], 2)
 
 
-@pytest.mark.parametrize("source", [None, 7, "POINT 1", "sites.geojson", {"a": 1}, [["a", "b"]], np.zeros((3, 3))])
-def test_what_is_no_site(source):
-    with pytest.raises(InputError, match=r"^invalid sites: (?!invalid)"):
-        as_sites(source)
-
-
-def test_values_that_join():
-    points = [[0, 0], [1, 0], [2, 0]]
-    for by in (["b", "a", "b"], np.array([3, 1, 3]), pandas.Series([2.5, 1, 2.5]), pandas.Categorical(["z", "q", "z"])):
-        sites = as_sites(points, by)
-        assert (sites.site.tolist(), sites.count) == ([0, 1, 0], 2)
-    with pytest.raises(InputError, match="feature 2"):
-        as_sites(points, [1.0, 2.0, np.nan])
-    with pytest.raises(InputError, match="feature, 3"):
-        as_sites(points, ["a"])
-
-
 # ---- images ------------------------------------------------------------------------------------------
 LABELS = np.zeros((9, 20), dtype=np.int64)
 LABELS[2:4, 2:5], LABELS[6:8, 10:15], LABELS[2:4, 5:8], LABELS[0, 19] = 7, 3, 9, 7

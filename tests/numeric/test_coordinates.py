@@ -73,12 +73,6 @@ def test_what_is_no_coordinate_is_refused(values, words):
             take(values)
 
 
-def test_an_integer_beyond_doubles_is_named():
-    with pytest.raises(InputError, match=r"^point 2 is \(9007199254740993, 7\): a double would"):
-        PointSet(np.array([[1, 2], [2**53 + 1, 7]]))
-    assert PointSet(np.array([[2**53, -(2**53)]])).xy.tolist() == [[2.0**53, -(2.0**53)]]
-
-
 class TestMaskedImages:
     image = np.ma.array([[5, 5, 0], [0, 0, 7]], mask=[[1, 0, 0], [0, 0, 0]])
 

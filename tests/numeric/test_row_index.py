@@ -5,7 +5,6 @@ import dataclasses
 import numpy as np
 import pandas as pd
 import pytest
-import shapely
 from numpy.random import default_rng
 
 import vorotool as v
@@ -38,15 +37,6 @@ def test_an_index_needs_one_entry_for_each():
             made()
 
 
-def test_the_index_of_points_goes_to_meshes_and_cells():
-    points = v.PointSet(SITES, index=NAMES)
-    mesh = v.delaunay(points)
-    assert mesh.index is NAMES
-    assert v.voronoi_cells(mesh).index is NAMES
-    assert v.alpha_shape(points, r=9).family.mesh.index is NAMES
-    assert v.voronoi_cells(mesh, clip=shapely.box(0, 0, 5, 5)).index is NAMES
-
-
 def test_the_index_follows_the_order_of_labels():
     points = v.PointSet(SITES, labels=[4, 2, 3, 1], index=NAMES)
     image = v.tessellate(points)
@@ -77,14 +67,6 @@ def test_the_index_of_polygons_goes_to_skeletons_and_offsets():
     assert shapes.index.tolist() == [*index, *index]
     around = v.offset(given, 4.0).flattened(0.01)  # they join: what is around several polygons comes from none
     assert around.index.tolist() == [None]
-
-
-def test_repaired_polygons_keep_their_index():
-    with pytest.warns(v.VorotoolWarning):
-        made = v.skeleton_exact(rectangles(pd.Index([30, 10, 20]), crossing=True))
-    assert len(made.polygons) == 4
-    assert made.polygons.index.tolist() == [30, 10, 10, 20]
-    assert v.rebuild(made).index.tolist() == [30, 10, 10, 20]
 
 
 @pytest.mark.parametrize("make", [list, np.array, pd.Index, lambda values: pd.Index(values, name="n").astype("Int64")])

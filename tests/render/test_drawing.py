@@ -14,13 +14,3 @@ def test_what_has_no_picture_is_refused(tmp_path, value, options):
     with pytest.raises(vorotool.UsageError, match=f"a {type(value).__name__} has no picture"):
         vorotool.write(value, tmp_path / "a.svg", **options)
     assert not (tmp_path / "a.svg").exists()
-
-
-def test_the_hull_of_a_shape_is_drawn_with_it(tmp_path):
-    """It is computed for the picture."""
-    shape = vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=4)
-    vorotool.write(shape, tmp_path / "a.svg", layers=["hull", "points"])
-    vorotool.write(vorotool.alpha_hull(shape), tmp_path / "b.svg", layers=["hull", "points"])
-    text = (tmp_path / "a.svg").read_text()
-    assert 'id="hull"' in text
-    assert text == (tmp_path / "b.svg").read_text()

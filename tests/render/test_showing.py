@@ -13,7 +13,6 @@ import imageio.v3 as iio
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.figure import Figure
 
 import vorotool
@@ -144,23 +143,6 @@ def test_plots_cover_the_data(name):
     ax.figure.savefig(io.BytesIO(), format="png", dpi=30)
 
 
-def test_lines_and_cells_are_where_they_belong():
-    mesh = VALUES["Triangulation"]
-    lines = next(each for each in axes_of(mesh).collections if isinstance(each, LineCollection))
-    expected = mesh.points[mesh.edges]
-    np.testing.assert_array_equal(np.array(lines.get_segments()), expected)
-    discs = next(each for each in axes_of(mesh).collections if isinstance(each, PathCollection))
-    assert {tuple(place) for place in discs.get_offsets().data.tolist()} == {tuple(p) for p in mesh.points.tolist()}
-    cells = VALUES["CellSet"]
-    area = sum(abs(signed_area(loop)) for patch in axes_of(cells).patches for loop in patch.get_path().to_polygons())
-    assert area == pytest.approx(cells.areas.sum())
-
-
-def signed_area(loop):
-    x, y = loop.T
-    return (x[:-1] * y[1:] - x[1:] * y[:-1]).sum() / 2
-
-
 def test_holes_are_holes():
     ring = vorotool.PolygonSet(
         [[0, 0], [9, 0], [9, 9], [0, 9], [3, 3], [3, 6], [6, 6], [6, 3]], [0, 4, 8], [0, 1], [0, 0]
@@ -203,16 +185,6 @@ def test_degrees_are_as_long_as_they_are_in_the_middle():
 def test_what_is_empty_is_drawn(name):
     ax = axes_of(empty_values()[name])
     ax.figure.savefig(io.BytesIO(), format="png", dpi=30)
-
-
-def test_features_of_what_is_in_no_file_have_the_reference_system():
-    for crs in ("EPSG:2056", crs_member("EPSG:2056")):
-        features = vorotool.PointSet([[2, 1]], crs=crs).__geo_interface__
-        assert features["crs"]["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
-        assert features["features"] == [
-            {"type": "Feature", "properties": {"label": 1}, "geometry": {"type": "Point", "coordinates": [2.0, 1.0]}}
-        ]
-    assert len(VALUES["AlphaComplex"].__geo_interface__["features"]) == len(VALUES["AlphaComplex"])
 
 
 @pytest.mark.parametrize("name", [name for name, value in VALUES.items() if hasattr(type(value), "__geo_interface__")])

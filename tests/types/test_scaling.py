@@ -10,7 +10,6 @@ from vorotool import UsageError
 from vorotool.types.scaling import scaled, scaled_table
 from vorotool.types.table import Table
 
-XY = np.random.default_rng(3).uniform(0, 50, (30, 2))
 THIRD = Fraction(1, 3)
 
 
@@ -21,16 +20,6 @@ def test_ties_are_decided_as_before():
     found = scaled(mesh, THIRD)
     assert found.triangles is mesh.triangles
     assert np.array_equal(found.points, lattice / 3)
-
-
-def test_radii_of_shapes():
-    shape = vorotool.alpha_shape(XY, r=Fraction(61, 10))
-    found = scaled(shape, Fraction(2, 5))
-    assert found.r == Fraction(61, 25)
-    assert np.array_equal(found.edges, shape.edges)
-    assert np.allclose(found.family.spectrum, 0.4 * shape.family.spectrum, rtol=1e-15)
-    assert np.isclose(found.area, 0.16 * shape.area, rtol=1e-12)
-    assert scaled(vorotool.alpha_shape(XY, r=np.inf), THIRD).r == np.inf
 
 
 def test_skeletons_with_frame():
@@ -46,12 +35,6 @@ def test_missing_fields_stay_missing():
     table = scaled_table(Table({"x": np.ma.array([3.0, 0], mask=[False, True]), "area": [9, 18]}), THIRD)
     assert table["x"].tolist() == [1.0, None]
     assert table["area"].tolist() == [1.0, 2.0]
-
-
-def test_columns_of_the_input_stay():
-    table = Table({"x": [3.0]}).with_properties({"x": [3], "area": [9]})
-    found = scaled_table(table, THIRD, properties={"x", "area"})
-    assert [found[name][0] for name in ("voro_x", "x", "area")] == [1.0, 3, 9]
 
 
 def test_what_has_no_size():

@@ -5,7 +5,7 @@ import inspect
 import io
 import pickle
 import sys
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import numpy as np
 import pandas
@@ -17,7 +17,6 @@ from support.families.values import (
     empty_values,
     example_values,
     label_image,
-    point_set,
     volume_values,
 )
 from support.processes.ended import ended_python
@@ -130,14 +129,6 @@ def test_comparison_never_raises():
 def test_parts_of_values(a, b, same):
     assert is_equal(a, b) is same
     assert is_equal(b, a) is same
-
-
-def test_a_shuffled_index_or_property_is_another_value():
-    points = point_set()
-    assert points == replace(points, index=np.asarray(points.index))
-    assert points != replace(points, index=points.index[::-1])
-    assert points != replace(points, properties={"name": points.properties["name"][::-1]})
-    assert points != replace(points, crs=None)
 
 
 TEXTS = {

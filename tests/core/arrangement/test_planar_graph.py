@@ -160,18 +160,6 @@ def test_every_lattice_point_of_a_crossing_of_many():
         assert fault(graph) is None
 
 
-def test_corners_of_the_lattice():
-    square = np.array([[-LIMIT, -LIMIT], [LIMIT, -LIMIT], [LIMIT, LIMIT], [-LIMIT, LIMIT]], dtype=np.int32)
-    bow = square[[0, 2, 1, 3]]
-    both = np.concatenate([square, bow])
-    graph = check(both, rings_of([4, 4], [0, 0]))
-    assert len(graph.segments) == 8
-    check(
-        np.array([[-LIMIT, -LIMIT], [LIMIT, LIMIT], [-LIMIT, 1 - LIMIT], [LIMIT, LIMIT - 1]], dtype=np.int32),
-        rings_of([2, 2], [LINE, LINE]),
-    )
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [

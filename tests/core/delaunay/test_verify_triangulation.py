@@ -87,22 +87,6 @@ def test_any_changed_number_is_found(name):
                 fault(replace(mesh, **{array: changed}))
 
 
-@pytest.mark.parametrize("array", ["edges", "hull"])
-def test_a_dropped_or_repeated_row_is_found(array):
-    for mesh in (delaunay(draw("uniform", 30, 5)), delaunay([[0, 0], [1, 1], [2, 2]])):
-        rows = getattr(mesh, array)
-        for i in range(len(rows)):
-            fault(replace(mesh, **{array: np.delete(rows, i, axis=0)}))
-            fault(replace(mesh, **{array: np.concatenate([rows, rows[i : i + 1]])}))
-        fault(replace(mesh, **{array: rows[:0]}))
-
-
-def test_no_triangles_where_there_should_be_some():
-    empty = np.zeros((0, 3), np.int32)
-    mesh = replace(delaunay(SQUARE), triangles=empty, neighbors=empty)
-    assert fault(mesh) == "there is no triangle, but the points are not collinear"
-
-
 def test_a_hull_gone_round_twice_is_found():
     """A double cover of a disc, branched at its middle: locally all is Delaunay."""
     angle = np.arange(12) * (4 * np.pi / 12)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vorotool import _core, verify_voronoi, voronoi
+from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi
 
 NO_SEGMENTS = np.empty((0, 2), dtype=np.int32)
@@ -16,15 +16,6 @@ def places_on_a_circle():
     y = np.round(np.sqrt(RADIUS**2 - x * x)).astype(int)
     right = x * x + y * y == RADIUS**2
     return np.unique(np.concatenate([np.stack([x, s * y], axis=1)[right] for s in (1, -1)]), axis=0)
-
-
-def test_many_cells_meet_at_one_vertex():
-    places = places_on_a_circle()
-    assert len(places) == 108
-    cells = voronoi(places)
-    verify_voronoi(cells)
-    assert (cells.table()["neighbors"] == 2).all()
-    assert (cells.areas > 0).all()
 
 
 def test_ranks_where_many_sites_meet():

@@ -237,12 +237,6 @@ def test_too_few_points(points, message):
         alpha_shape([[1, 2], [1, 2]], r=1)
 
 
-def test_alpha_is_minus_one_over_r():
-    shape = alpha_shape([[0, 0], [4, 0], [0, 3]], alpha=Fraction(-2, 5))
-    assert (shape.r, shape.alpha, shape.region_count) == (Fraction(5, 2), -0.4, 1)
-    assert alpha_shape([[0, 0], [4, 0], [0, 3]], alpha=-0.1).r == 10.0
-
-
 def changed(shape, array, index, value):
     values = getattr(shape, array).copy()
     values[index] = value

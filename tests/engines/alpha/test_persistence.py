@@ -84,17 +84,6 @@ def test_as_many_live_as_the_curves_count(name):
         assert (found.death > found.birth).all() or len(np.unique(radius)) <= m
 
 
-def test_sizes_are_those_of_the_shape_before_the_death():
-    family = vorotool.alpha_complex(draw("clustered", 200, 3))
-    found = persistence(family)
-    for region in np.flatnonzero(np.isfinite(found.death))[::9]:
-        rank = int(np.searchsorted(family.spectrum, found.death[region]))
-        table = alpha_shape(family, r=family.radius_from(rank - 1)).table()
-        sizes = list(zip(table["points"].tolist(), table["triangles"].tolist(), strict=True))
-        alike = [each == (found.points[region], found.triangles[region]) for each in sizes]
-        assert np.isclose(table["area"][alike], found.area[region]).any()
-
-
 def two_clusters(seed):
     rng = np.random.default_rng(seed)
     return np.concatenate([rng.random((80, 2)), rng.random((60, 2)) + np.array([4, 1])])
@@ -110,16 +99,6 @@ def test_what_stands_out():
     one = persistence(np.random.default_rng(1).random((300, 2)))
     assert one.suggested == 1
     assert one.apart_until == np.inf
-
-
-def test_the_tree_of_merges():
-    found = persistence(draw("clustered", 300, 1))
-    dies = np.isfinite(found.death)
-    assert (found.into[dies] >= 0).all()
-    assert (found.into[~dies] == -1).all()
-    assert (found.birth[found.into[dies]] <= found.birth[dies]).all()
-    assert (found.death[found.into[dies]] > found.death[dies]).all()
-    assert (np.diff(found.birth) >= 0).all()
 
 
 def test_without_triangles():

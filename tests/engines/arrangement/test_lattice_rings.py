@@ -40,18 +40,6 @@ def test_every_site_is_where_the_graph_has_it(family):
         assert (placed.sites.kind == EDGE).sum() == len(graph)
 
 
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
-def test_faces_are_in_the_part_that_holds_them(family):
-    rng = np.random.default_rng(6)
-    for _ in range(10):
-        graph = graph_of(family(rng))
-        placed = placed_shapes(graph)
-        assert ((placed.face_polygon >= 0) == graph.is_inside).all()
-        again = graph_of(placed.polygons)
-        assert np.array_equal(np.sort(graph.coordinates()[:, 0]), np.sort(again.coordinates()[:, 0]))
-        assert len(again) == len(graph)
-
-
 @pytest.mark.filterwarnings("ignore::vorotool.errors.RepairWarning")
 def test_holes_that_are_points_and_segments_on_the_lattice_only():
     """Vertices of three places that the lattice has at one or two."""

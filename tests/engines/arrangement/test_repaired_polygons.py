@@ -51,18 +51,6 @@ def check(graph, used):
         assert corners[0] == corners.min()
 
 
-def test_valid_polygons_come_back():
-    hole = [[1, 1], [1, 3], [3, 1]]
-    given = as_polygons(
-        [{"shell": SQUARE, "holes": [hole]}, {"line": [[20, 0], [21, 5], [20, 0]]}, [[9, 0], [12, 0], [9, 3]]]
-    )
-    _, used = both(given)
-    assert used.polygons.xy.tolist() == given.xy.tolist()
-    assert used.polygons.ring_kind.tolist() == given.ring_kind.tolist()
-    assert used.source.tolist() == [0, 1, 2]
-    assert used.segment.tolist() == [0, 1, 2, 3, 4, 5, 6, 7, 7, -1, 8, 9, 10]
-
-
 def test_what_the_input_says_of_polygons_is_kept():
     shapes = as_polygons([[[0, 0], [4, 4], [4, 0], [0, 4]], [[5, 5]], SQUARE])
     given = PolygonSet(

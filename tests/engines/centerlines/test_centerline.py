@@ -131,37 +131,6 @@ def test_ties_are_settled_by_edges_however_lengths_are_rounded(count):
         assert ends_of == pytest.approx(middles[nearest], abs=1e-6)
 
 
-def test_tips_are_led_into():
-    flat = [[0, 0], [20, 0], [10, 2]]  # both acute corners are tips
-    assert ends(flat) == [[0, 0], [20, 0]]
-    dart = [[0, 0], [-4, -4], [6, 0], [-4, 4]]
-    assert ends(dart) == [[-4, -4], [-4, 4]]
-    drop = [[0, 0], [6, 2], [9, 2], [9, -2], [6, -2]]
-    assert ends(drop) == [[0, 0], [9, 0]]
-
-
-def test_a_round_end_is_led_straight_on():
-    turns = np.linspace(-np.pi / 2, np.pi / 2, 33)
-    cap = np.round(np.stack([10 + 2 * np.cos(turns), 2 * np.sin(turns)], axis=1) * 1024) / 1024
-    for criterion in ({}, {"scale": 1.3}):
-        skeleton = vorotool.skeleton_exact([[0, -2], *cap.tolist(), [0, 2]])
-        line = vorotool.centerline(vorotool.prune(skeleton, **criterion) if criterion else skeleton).flattened(0.01)[0]
-        assert line[[0, -1]] == pytest.approx(np.array([[0, 0], [12, 0]]), abs=0.1)
-
-
-@pytest.mark.parametrize("shift", [0, 2**-20, -(2**-20), 0.05, -0.05])
-def test_ends_of_several_edges_stay_where_they_are_as_corners_move(shift):
-    for polygon in (
-        [[0, 0], [10, 0], [10, 4], [0, 4], [-0.03125, 2 + 4 * shift]],  # an end that is all but flat
-        [[0, 0], [10, 0], [10, 4], [0, 4 + shift], [-2, 2]],  # a gable
-        [[0, 0], [10, 0], [10, 4], [0, 4 + shift], [-1, 3], [-1, 1]],  # a bevelled end
-    ):
-        tip = min(x for x, _ in polygon)
-        line = sorted(places(polygon))
-        assert line[-1] == [10, 2]
-        assert line[0] == pytest.approx([tip, 2], abs=0.1)
-
-
 def regular(count, turn):
     """A polygon around the origin, whose coordinates are rounded."""
     turns = turn + np.arange(count) * (2 * np.pi / count)
@@ -179,24 +148,6 @@ def test_a_regular_polygon_is_gone_through_straight_however_it_is_turned(count):
         assert np.abs(line[:, 0] * corner[1] - line[:, 1] * corner[0]).max() < 1e-5
         found.append((np.degrees(np.arctan2(*corner[::-1]) - turn) + 1) % (360 if count % 2 else 180))
     assert np.ptp(found) < 1e-5  # the same corner
-
-
-PLATES = [
-    ([[0, 0], [10, 0], [10, 10], [0, 10]], [(3, 3, 4, 4)]),
-    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(3, 3, 4, 4), (13, 3, 4, 4)]),
-    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(1, 1, 18, 8)]),
-    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(9, 4, 2, 2)]),
-]
-
-
-@pytest.mark.parametrize(("shell", "holes"), PLATES)
-def test_a_plate_with_holes_has_no_end_in_its_corners(shell, holes):
-    rings = [[[x, y], [x, y + h], [x + w, y + h], [x + w, y]] for x, y, w, h in holes]
-    skeleton = vorotool.skeleton_exact([{"shell": shell, "holes": rings}])
-    whole, pruned = vorotool.centerline(skeleton), vorotool.centerline(vorotool.prune(skeleton, scale=1.5))
-    assert np.isnan(whole.ends).all()
-    assert whole.length == pytest.approx(pruned.length)
-    assert (whole.path.radius > 0).all()
 
 
 def random_polygon(random):
@@ -261,18 +212,6 @@ def test_lines_move_with_their_polygons():
             line = back(vorotool.centerline(vorotool.skeleton_exact(moved.tolist())).flattened(1e-3)[0])
             ends_of = sorted(line[[0, -1]].round(6).tolist())
             assert ends_of == pytest.approx(np.array(sorted(expected_line[[0, -1]].round(6).tolist())), abs=2e-6)
-
-
-@pytest.mark.parametrize("count", [8, 32])
-def test_no_coordinate_is_rounding_alone(count):
-    turns = np.linspace(-np.pi / 2, np.pi / 2, count + 1)
-    half = np.round(np.stack([2 * np.cos(turns), 2 * np.sin(turns)], axis=1), 3)
-    slot = [*np.add(half, [10, 0]).tolist(), *(-half).tolist()]
-    line = np.array(sorted(places(slot)))
-    assert (line[[0, -1]].tolist(), np.abs(line[:, 1]).max()) == ([[-2, 0], [12, 0]], 0)
-    round_polygon = np.round(regular(count, 0) * [1.3, 1], 3)
-    values = np.abs(places(round_polygon.tolist()))
-    assert ((values == 0) | (values > 1e-6)).all()
 
 
 def test_lines_that_are_led_on_end_on_edges_exactly():

@@ -21,23 +21,6 @@ def extended_of(shape):
     return pruned, extended
 
 
-def test_a_disc_keeps_its_handle():
-    pruned, extended = extended_of(DISC)
-    assert extended.path.length.sum() == pytest.approx(72, abs=0.5)
-    assert [0, 80] in extended.ends.reshape(-1, 2).tolist()
-    assert lost(pruned, extended) == []
-
-
-@pytest.mark.parametrize("length", [15, 20, 40])
-def test_handles_of_masks_are_kept(length):
-    y, x = np.mgrid[:120, :120]
-    disc = (x - 60) ** 2 + (y - 80) ** 2 <= 30**2
-    handle = (abs(x - 60) <= 4) & (y >= 50 - length) & (y <= 80)
-    _, extended = extended_of(disc | handle)
-    ends = extended.ends[~np.isnan(extended.ends[:, :, 0])]
-    assert np.hypot(*(ends - [60, 49.5 - length]).T).min() < 1
-
-
 @pytest.mark.parametrize("seed", few(range(12), 5))
 def test_stems_of_discs_are_kept(seed):
     shape, stems = disc_with_stems(np.random.default_rng(seed))
@@ -63,13 +46,6 @@ def test_a_ball_beyond_a_narrow_neck_is_kept():
     pruned, extended = extended_of(ball)
     assert lines_of(extended.path).distance(shapely.Point(58, 0)) < 1
     assert lost(pruned, extended) == []
-
-
-def test_a_sharp_corner_at_the_side_of_a_stroke_is_kept():
-    bend = [[0, 0], [40, 0], [10, 30], [7, 27], [29.5, 4.5], [0, 4.5]]
-    pruned, extended = extended_of(bend)
-    assert lost(pruned, extended) == []
-    assert [40, 0] in extended.path.vertices.tolist()
 
 
 def test_the_checker_notices_a_branch_that_is_missing():

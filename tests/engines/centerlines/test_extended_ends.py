@@ -52,24 +52,6 @@ def test_rectangles_end_in_the_middle_of_their_ends(angle):
         vorotool.verify_extended(extended)
 
 
-def test_tips_stay_and_round_shapes_are_places():
-    triangle = [[0, 0], [30, 4], [0, 8]]
-    extended = vorotool.extend_ends(vorotool.skeleton_exact(triangle))
-    assert led_on_to(extended).tolist() == [[0.0, 4.0]]
-    assert extended.path.vertices[extended.path.degree == 1].tolist().count([30.0, 4.0]) == 1
-    square = vorotool.extend_ends(vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]))
-    assert (len(led_on_to(square)), square.length.tolist()) == (0, [0.0])
-
-
-def test_what_is_outside_is_left_out():
-    shapes = [[[0, 0], [9, 0], [9, 2], [0, 2]], [[20, 0], [29, 0], [29, 2]]]
-    extended = vorotool.extend_ends(vorotool.skeleton_exact(shapes, side="both"))
-    assert (extended.path.polygon >= 0).all()
-    assert extended.flattened(0.1)[0].tolist() == (
-        vorotool.extend_ends(vorotool.skeleton_exact(shapes)).flattened(0.1)[0].tolist()
-    )
-
-
 @pytest.mark.parametrize("cap", ["flat", "round"])
 @pytest.mark.parametrize("is_curved", [False, True])
 def test_strokes_of_masks_reach_their_ends(cap, is_curved):

@@ -29,8 +29,3 @@ def test_a_stroke_ends_in_the_middle_of_its_cut(step):
 
 def test_hooks_are_what_other_ends_have():
     assert line_of(stroke(1)).length[0] < line_of(stroke(1), ends="corner").length[0]
-
-
-def test_polygons_are_led_into_their_tips():
-    wedge = [[0, 0], [20, 0], [20, 6], [10, 5]]
-    assert sorted(vorotool.centerline(vorotool.skeleton_exact(wedge)).flattened(0.1)[0].tolist())[0] == [0, 0]

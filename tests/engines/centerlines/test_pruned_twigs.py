@@ -46,23 +46,6 @@ def test_ends_are_those_of_the_whole_skeleton(polygon):
         assert ends(vorotool.prune(whole, **criterion)) == pytest.approx(expected, abs=0.1), criterion
 
 
-def test_no_twig_is_added_to_a_whole_skeleton():
-    random = np.random.default_rng(5)
-    for _ in range(15):
-        hull = shapely.MultiPoint(random.integers(0, 64, (12, 2))).convex_hull
-        shape = hull.union(shapely.box(20, 20, 90, 40)).difference(shapely.box(28, 28, 32, 31))
-        shell, *holes = (list(ring.coords)[:-1] for ring in (shape.exterior, *shape.interiors))
-        skeleton = vorotool.skeleton_exact([{"shell": shell, "holes": holes}])
-        assert with_pruned_twigs(skeleton) is skeleton
-
-
-@pytest.mark.parametrize("turn", [1, -1])
-def test_a_twig_is_added_whichever_way_the_ring_goes(turn):
-    skeleton = vorotool.prune(vorotool.skeleton_exact([[[0, 0], [20, 0], [21, 4], [1, 4]][::turn]]), scale=1.3)
-    made = with_pruned_twigs(skeleton)
-    assert sorted(made.vertices[made.arcs[len(skeleton) :, 1]].tolist()) == [[1, 4], [20, 0]]
-
-
 def slot(edges):
     """16 by 4, with half-round ends of as many edges."""
     turns = np.linspace(-np.pi / 2, np.pi / 2, edges + 1)
@@ -77,13 +60,6 @@ def test_a_slot_is_gone_through_along_the_middle(edges):
         line = vorotool.centerline(vorotool.prune(whole, **criterion)).flattened(0.01)[0]
         assert np.abs(line[:, 1]).max() < 1e-7, criterion
         assert np.ptp(line[:, 0]) == pytest.approx(16, abs=0.2), criterion
-
-
-@pytest.mark.parametrize("turn", [1, -1])
-def test_two_chamfers_are_one_end(turn):
-    whole = vorotool.skeleton_exact([[[0, 1], [1, 0], [20, 0], [20, 4], [1, 4], [0, 3]][::turn]])
-    for criterion in CRITERIA:
-        assert ends(vorotool.prune(whole, **criterion)).tolist() == [[0, 2], [20, 2]], criterion
 
 
 def convex_polygon(random):

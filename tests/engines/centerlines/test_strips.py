@@ -43,14 +43,6 @@ def test_a_bent_road_ends_in_the_middle(cap, count):
     assert max(np.hypot(*(found - end).T).min() for end in true) < 0.04
 
 
-@pytest.mark.parametrize("stretch", [1.2, 2, 5])
-def test_an_ellipse_is_gone_through_along_its_axis(stretch):
-    turns = np.arange(2000) * (2 * np.pi / 2000)
-    ring = np.stack([stretch * np.cos(turns), np.sin(turns)], axis=1)
-    ends = vorotool.centerline(vorotool.skeleton_exact(ring)).flattened(0.001)[0][[0, -1]]
-    np.testing.assert_allclose(ends[np.argsort(ends[:, 0])], [[-stretch, 0], [stretch, 0]], atol=0.01)
-
-
 @pytest.mark.parametrize("begin", [0.3, 1.2, 2.9, 4.4])
 def test_a_bent_stroke_of_pixels_ends_in_the_middle(begin):
     y, x = np.mgrid[:200, :200] - 100.0

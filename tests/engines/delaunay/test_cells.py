@@ -121,17 +121,6 @@ def test_threads_change_nothing(name):
         np.testing.assert_array_equal(one.starts, other.starts)
 
 
-def test_few_and_collinear_points():
-    assert rings(quietly([[5, 5]], frame=(0, 0, 2, 1))) == [[(0, 0), (2, 0), (2, 1), (0, 1)]]
-    assert rings(quietly([[1, 1], [3, 1]], frame=(0, 0, 4, 2))) == [
-        [(0, 0), (2, 0), (2, 2), (0, 2)],
-        [(2, 0), (4, 0), (4, 2), (2, 2)],
-    ]
-    strips = quietly([[0, 0], [2, 2], [1, 1], [0, 0]], frame=(0, 0, 2, 2))
-    assert strips.areas.tolist() == [0.5, 0.5, 3.0, 0.0]
-    assert len(quietly(np.empty((0, 2)))) == 0
-
-
 def test_sites_outside_the_frame():
     """A frame in one cell alone; a cell that touches the frame along a side, or at a corner, is empty."""
     cells = quietly([[0, 0], [10, 0], [0, 10]], frame=(0, 0, 1, 1))
@@ -147,17 +136,6 @@ def test_default_frame():
     assert quietly([[0, 0], [20, 10]]).frame == Box(-2, -2, 22, 12)
     assert quietly([[3, 4]]).frame == Box(2.5, 3.5, 3.5, 4.5)
     assert quietly([[1e17, 0]]).frame.left < 1e17
-
-
-def test_what_the_points_bring_is_kept():
-    given = vorotool.PointSet([[0, 0], [1, 1]], labels=[7, 3], properties={"name": ["a", "b"]}, y_axis="up", crs="x")
-    cells = voronoi_cells(given)
-    assert (cells.label_array.tolist(), cells.properties, cells.y_axis, cells.crs) == (
-        [7, 3],
-        given.properties,
-        "up",
-        "x",
-    )
 
 
 # ---- clipping to polygons ----

@@ -55,12 +55,6 @@ def test_the_definition_in_rationals(name):
         check_by_definition(draw(name, 4 + seed, seed))
 
 
-def test_a_large_mesh_over_threads():
-    """Enough points for several parts."""
-    for name in ("uniform", "grid", "small_lattice", "anisotropic"):
-        quietly(draw(name, 20_000, 1), threads=2)
-
-
 def test_against_scipy():
     for seed in range(3):
         points = draw("uniform", 2000, seed)
@@ -94,17 +88,6 @@ def test_any_lattice_points(points):
 @given(near | st.lists(st.tuples(floats, floats), max_size=7))
 def test_any_doubles(points):
     check_by_definition(points)
-
-
-@settings(max_examples=30, deadline=None)
-@given(st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1, max_size=60))
-def test_duplicates_change_nothing_but_first(points):
-    mesh = quietly(points)
-    places: dict = {}
-    assert mesh.first.tolist() == [places.setdefault(p, i) for i, p in enumerate(points)]
-    chosen = sorted(places.values())
-    once = quietly([points[i] for i in chosen])
-    np.testing.assert_array_equal(np.array(chosen, np.int32)[once.triangles], mesh.triangles)
 
 
 @pytest.mark.parametrize(

@@ -73,22 +73,6 @@ def test_every_family_is_as_triangulated_at_once(name, n, always_local):
         assert sum(always_local) >= 3
 
 
-@families
-def test_any_bounds(name):
-    for seed in range(4):
-        check(draw(name, 20 if name == "any_double" else 40, seed), 14 if name == "any_double" else 33)
-
-
-def test_one_after_the_other():
-    points = outermost_first(draw("small_lattice", 60, 9))
-    mesh = delaunay(points[:20])
-    for k in range(20, 60):
-        mesh = insert_points(mesh, points[k : k + 1])
-        verify_triangulation(mesh)
-    right = delaunay(points)
-    assert_same(ARRAYS, mesh, right)
-
-
 def test_hints_change_nothing(always_local):
     points = outermost_first(draw("uniform", 500, 2))
     rng = np.random.default_rng(0)

@@ -79,14 +79,6 @@ def test_duplicates_and_empty_cells():
     assert "voro_area" not in site_table(mesh, properties=False)
 
 
-@pytest.mark.parametrize("points", [np.empty((0, 2)), [[3, 4]]])
-def test_few_points(points):
-    table = site_table(delaunay(points))
-    assert table.rows == len(points)
-    assert table["nearest_label"].tolist() == [None] * len(points)
-    assert table["area"].tolist() == [1.0] * len(points)
-
-
 def test_cells_of_other_points():
     mesh = delaunay([[0, 0], [1, 1]])
     with pytest.raises(InputError, match="computed from this triangulation"):

@@ -24,7 +24,6 @@ from vorotool import (
     VorotoolWarning,
     _core,
     delaunay,
-    digital_delaunay,
     digital_triangulation,
     repair_digital,
     verify_digital_triangulation,
@@ -85,23 +84,6 @@ def test_many_rows_in_pieces():
     distinct = 1 + (np.diff(np.sort(corner, axis=0), axis=0) != 0).sum(axis=0)
     assert found.four_label_corners == np.count_nonzero(distinct == 4)
     assert found.three_label_corners == np.count_nonzero(distinct == 3)
-
-
-def test_objects_are_linked_at_their_centroids():
-    blobs = vorotool.read("data/blobs.png")
-    found = digital_triangulation(blobs)
-    seeds = vorotool.seeds_from_raster(blobs)
-    np.testing.assert_array_equal(found.points, seeds.sites)
-    table = vorotool.neighbor_table(vorotool.tessellate(seeds))
-    np.testing.assert_array_equal(found.labels[found.edges], np.stack([table["label_a"], table["label_b"]], axis=1))
-
-
-def test_labels_of_points_are_kept():
-    points = vorotool.PointSet([[6, 1], [1, 1], [2, 6]], labels=[30, 20, 10], properties={"name": ["a", "b", "c"]})
-    found = digital_triangulation(points, shape=(8, 8))
-    assert found.labels.tolist() == [10, 20, 30]
-    assert found.points.tolist() == [[2, 6], [1, 1], [6, 1]]
-    assert list(found.properties["name"]) == ["c", "b", "a"]
 
 
 def test_what_cannot_be_read():
@@ -212,14 +194,6 @@ def test_regions_that_are_no_points_are_refused():
         repair_digital([[0, 0], [5, 5]], max_pixels=10)
     with pytest.raises(InputError, match="lie on another seed"):
         repair_digital([[0, 0], [5, 5], [5, 5]], strict=True)
-
-
-def test_labels_in_any_order():
-    points = vorotool.PointSet([[6, 1], [1, 1], [2, 6], [3, 3]], labels=[30, 20, 10, 40])
-    seeds = vorotool.seeds_from_points(points)
-    mesh = digital_delaunay(points)
-    assert_same(ARRAYS, mesh, delaunay(seeds))
-    assert mesh.labels.tolist() == [10, 20, 30, 40]
 
 
 def test_an_interrupt_stops_the_repair():

@@ -90,25 +90,6 @@ def test_the_number_of_threads_changes_nothing():
         assert distance(a, b, threads=1) == distance(a, b, threads=3)
 
 
-@pytest.mark.parametrize("factor", [1e-60, 2.0**-30, 1e60])
-def test_large_and_small_coordinates(factor):
-    assert hausdorff([np.array(A) * factor], [np.array(B) * factor]).distance == pytest.approx(
-        hausdorff([A], [B]).distance * factor, rel=1e-14
-    )
-
-
-def test_one_direction():
-    found = hausdorff([[0, 0], [4, 0]], [[0, 0]], directed=True)
-    assert (found.distance, found.from_b) == (4, None)
-    assert hausdorff([[0, 0]], [[0, 0], [4, 0]], directed=True).distance == 0
-
-
-def test_overlapping_polygons_are_filled_where_any_is():
-    shapes = [shapely.box(0, 0, 2, 2), shapely.box(1, 1, 3, 3)]
-    assert hausdorff([[1.5, 1.5]], shapes).from_a.distance == 0
-    assert hausdorff([[2.5, 0.5]], shapes).from_a.distance == 0.5
-
-
 @pytest.mark.parametrize("empty", [[], np.empty((0, 2)), ["POLYGON EMPTY"]])
 def test_what_has_no_places(empty):
     for function in (hausdorff, distance):

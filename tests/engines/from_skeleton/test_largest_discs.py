@@ -60,15 +60,6 @@ def test_features_together_bound_each_other():
     verify_discs(together)
 
 
-def test_local_discs_are_those_that_cannot_grow():
-    """A dumb-bell has two, whatever joins them."""
-    shape = [[0, 0], [4, 0], [4, 1.5], [8, 1.5], [8, 0], [13, 0], [13, 5], [8, 5], [8, 2.5], [4, 2.5], [4, 4], [0, 4]]
-    local = largest_discs(shape, local=True)
-    np.testing.assert_allclose(local.radius, [2.5, 2.0])
-    assert len(largest_discs(shape, local=True, count=1)) == 1
-    verify_discs(local)
-
-
 @pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
 @pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
 def test_random_shapes(family):
@@ -101,12 +92,6 @@ def test_what_is_no_count_or_region():
         largest_empty_discs([[0, 0]], within=(0, 0, -1, 1))
     with pytest.raises(InputError, match="no area"):
         largest_empty_discs([[0, 0]], within="LINESTRING (0 0, 1 0)")
-
-
-@pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
-def test_nothing_has_no_disc():
-    assert len(largest_discs(["LINESTRING (0 0, 1 0)"])) == 0
-    assert len(largest_discs(["LINESTRING (0 0, 1 0)"], local=True, count=3)) == 0
 
 
 def test_the_checker_sees_faults():

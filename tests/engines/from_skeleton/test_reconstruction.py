@@ -24,23 +24,6 @@ def test_shapes_are_rebuilt(family):
         check_rebuilt(vorotool.rebuild(skeleton), skeleton.polygons)
 
 
-def test_polygons_of_a_label_image_come_back_one_by_one():
-    image = [[0, 0, 2], [0, 1, 1], [2, 1, 1]]  # the first has straight vertices, where the others end
-    outlines = vorotool.outlines(image, mode="labels")
-    again = vorotool.rebuild(vorotool.skeleton_exact(outlines))
-    assert again.ids == outlines.ids
-    pairs = zip(to_shapely(again), to_shapely(outlines), strict=True)
-    assert all(one.equals(other) for one, other in pairs)
-
-
-def test_what_is_pruned_to_a_place_is_a_disc():
-    square = [[0, 0], [4, 0], [4, 4], [0, 4]]
-    pruned = vorotool.prune(vorotool.skeleton_exact(square), chord=4)
-    (disc,) = to_shapely(vorotool.rebuild(pruned, flatten=1e-5))
-    assert disc.area == pytest.approx(4 * np.pi, rel=1e-4)
-    assert shapely.hausdorff_distance(disc, shapely.Point(2, 2).buffer(2, quad_segs=512)) < 2e-5
-
-
 @pytest.mark.parametrize("criterion", ["angle", "chord", "length"])
 @pytest.mark.parametrize("family", TOUCHING, ids=lambda family: family.__name__)
 def test_pruned_shapes_are_what_their_discs_cover(family, criterion):

@@ -58,7 +58,3 @@ def test_steps_are_those_of_the_formulas(name, parts):
         for ours, theirs in ((found.arc, arc), (found.along, along), (found.xy, xy), (found.radius, radius)):
             assert ours.tobytes() == theirs.astype(ours.dtype).tobytes()
         assert found.feet.tobytes() == feet.tobytes()
-
-
-def test_nothing_has_no_places():
-    assert len(points_along(skeleton_exact(SQUARE, side="exterior"), every=1)) == 0

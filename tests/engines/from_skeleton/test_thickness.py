@@ -12,7 +12,6 @@ from support.few import few
 from support.oracles.thickness_oracle import check_thickness
 from vorotool.engines.from_skeleton.thickness import thickness_of_pixels
 
-RANDOM = np.random.default_rng(22)
 NEAR = {"rtol": 0, "atol": 1e-11}
 
 
@@ -53,13 +52,6 @@ def test_threads_change_nothing():
     mask = blobs(400, 4.0)
     first = vorotool.local_thickness(mask, threads=1)
     assert all(np.array_equal(first, vorotool.local_thickness(mask, threads=threads)) for threads in (2, 3, 7))
-
-
-def test_labels_that_touch_are_taken_one_by_one():
-    labels = ndimage.zoom(RANDOM.integers(0, 5, (9, 9)), 7, order=0)
-    made = vorotool.local_thickness(labels)
-    alone = sum(vorotool.local_thickness(labels == label) for label in range(1, 5))
-    np.testing.assert_allclose(made, alone, **NEAR)
 
 
 def test_a_spacing_is_the_unit():

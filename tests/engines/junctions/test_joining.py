@@ -82,14 +82,6 @@ def test_groups_are_those_of_paths(skeleton):
     assert len(np.unique(joined.branch)) == len(np.unique(skeleton.branch)) - len(gone)
 
 
-def test_straight_arcs_stay_inside():
-    for skeleton in SKELETONS[:20]:
-        joined = join_junctions(skeleton)
-        lines = shapely.linestrings(joined.vertices[joined.arcs[joined.error_bound > 0]])
-        shape = shapely.Polygon(skeleton.polygons.ring(0)).buffer(1e-9)
-        assert shapely.covers(shape, lines).all()
-
-
 def test_how_far_straight_arcs_are():
     for skeleton in SKELETONS[:12]:
         joined = join_junctions(skeleton)

@@ -5,7 +5,7 @@ import pytest
 
 import vorotool
 from vorotool.engines.label_images.object_colors import object_colors
-from vorotool.engines.label_images.regions import measure_regions, region_colors
+from vorotool.engines.label_images.regions import measure_regions
 from vorotool.types.points.label_image import LabelImage
 
 
@@ -30,14 +30,3 @@ def test_neighbors_differ_across_the_background(seed):
     assert len(pairs)
     assert all(of[a] != of[b] for a, b in pairs.tolist())
     assert len(set(colors.tolist())) > 1
-
-
-def test_without_background_colors_are_those_of_the_regions():
-    image = vorotool.tessellate([[3, 4], [20, 9], [7, 30], [25, 25]], shape=(40, 40))
-    for found, right in zip(object_colors(image), region_colors(image), strict=True):
-        np.testing.assert_array_equal(found, right)
-
-
-def test_one_object_and_none():
-    assert object_colors(LabelImage(np.array([[0, 7]])))[1].tolist() == [1]
-    assert len(object_colors(LabelImage(np.zeros((3, 3), np.uint8)))[0]) == 0

@@ -18,7 +18,6 @@ from support.oracles.outline_oracle import (
 )
 from vorotool.engines.label_images.outlines import gray_level, outlines
 from vorotool.errors import LimitError, UsageError
-from vorotool.types.points.label_image import LabelImage
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import HOLE
 
@@ -63,24 +62,10 @@ def test_crack_outlines_of_all_small_masks(index, connectivity):
         assert np.count_nonzero(made.ring_kind == HOLE) == outside.max() - 1
 
 
-@pytest.mark.parametrize("dtype", [bool, np.uint8, np.uint16, np.uint32, np.int64, np.float32])
-def test_types_of_pixels(dtype):
-    made = outlines(np.array([[0, 1], [1, 1]], dtype=dtype))
-    assert ring_areas(made)[1].tolist() == [3]
-
-
 def test_a_view_with_strides():
     image = np.zeros((6, 8), dtype=np.uint8)
     image[::2, ::2] = 1
     assert ring_areas(outlines(image[::2, ::2], mode="labels"))[1].tolist() == [12]
-
-
-def test_a_label_image_lies_in_its_frame():
-    labels = vorotool.tessellate([[10, 20], [14, 20]], window=(9, 19, 8, 4))
-    made = outlines(labels)
-    assert isinstance(labels, LabelImage)
-    assert made.ids == [1, 2]
-    assert made.xy.min(axis=0).tolist() == [8.5, 18.5]
 
 
 # ---- contours ----

@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as hnp
 from scipy import ndimage
 
 from vorotool.engines.label_images import regions
-from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.errors import InputError, LimitError
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.seed_set import SeedSet
@@ -130,18 +130,6 @@ def test_diagram_agrees_with_the_definition(labels):
     np.testing.assert_array_equal(regions.voronoi_diagram(LabelImage(labels)), expected_diagram(labels))
 
 
-@pytest.mark.parametrize("shape", [(1, 1), (1, 50), (50, 1), (2, 33), (33, 2)])
-@pytest.mark.parametrize("dtype", DTYPES)
-def test_thin_images(shape, dtype):
-    labels = np.random.default_rng(3).integers(0, 4, shape).astype(dtype)
-    table = regions.region_table(LabelImage(labels))
-    expected = expected_measures(labels)
-    for name in ("label", "area", "perimeter", "components", "touches_frame"):
-        assert table[name].tolist() == [row[name] for row in expected]
-    assert borders_of(labels) == expected_borders(labels)
-    np.testing.assert_array_equal(regions.voronoi_diagram(labels), expected_diagram(labels))
-
-
 @pytest.mark.parametrize("threads", [1, 2, 3, 4, 5])
 def test_bands_leave_no_trace(threads):
     """Rows of 2^19 pixels make pieces of one row; regions run through many of them."""
@@ -217,20 +205,6 @@ def test_max_distance_by_region(dtype):
     np.testing.assert_array_equal(table["max_distance"].compressed(), expected[present])
     half = regions.region_table(image, distance2=d2.astype(dtype), distance_scale=2)
     np.testing.assert_array_equal(half["max_distance"] * 2, table["max_distance"])
-
-
-def test_neighbor_distance_is_between_the_sites():
-    labels, _, seeds = nearest_label_image((30, 40), 9, 4)
-    table = regions.neighbor_table(LabelImage(labels, None, seeds))
-    a, b = (seeds.sites[table[name] - 1] for name in ("label_a", "label_b"))
-    np.testing.assert_allclose(table["centroid_distance"], np.hypot(*(a - b).T), rtol=1e-15)
-
-
-def test_no_region_at_all():
-    table = regions.region_table(LabelImage(np.zeros((3, 4), dtype=np.uint16)))
-    assert all(len(table[name]) == 0 for name in COLUMNS)
-    assert borders_of(np.zeros((3, 4), dtype=np.uint16)) == []
-    assert regions.color_regions(LabelImage(np.zeros((3, 4), dtype=np.uint16))).tolist() == [0]
 
 
 # ---- the diagram in bands -----------------------------------------------------------------------------
@@ -322,18 +296,6 @@ def test_other_integer_types_and_layouts():
     frozen = labels.astype(np.uint16)
     frozen.flags.writeable = False
     assert borders_of(frozen) == expected
-
-
-def test_options_out_of_range():
-    image = LabelImage(np.array([[1]], dtype=np.uint8))
-    with pytest.raises(UsageError, match="threads is -1"):
-        regions.region_table(image, threads=-1)
-    with pytest.raises(InputError, match="distance2 must be an array of integers or float64 of shape"):
-        regions.region_table(image, distance2=np.zeros((2, 2), dtype=np.uint32))
-    with pytest.raises(InputError, match="distance2 must be an array of integers or float64"):
-        regions.region_table(image, distance2=np.zeros((1, 1), dtype=complex))
-    with pytest.raises(InputError, match="label 4294967296"):
-        regions.region_table(LabelImage(np.array([[2**32]])))
 
 
 def test_what_progress_raises_stops_the_work():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from vorotool import necks, parts, prune, read, rebuild, skeleton_exact, verify_necks, verify_parts, write
+from vorotool import necks, parts, read, rebuild, skeleton_exact, verify_necks, verify_parts, write
 
 FAR = [[500000.1, 3.3], [500010.7, 3.3], [500010.7, 9.9]]
 DUMBBELL = [
@@ -83,17 +83,3 @@ def test_of_shapes(features, others, tmp_path):
         shapes = written(rebuild(each), tmp_path / "shape.geojson")
         own = set(map(tuple, np.concatenate([shapely.get_coordinates(shape) for shape in shapes]).tolist()))
         assert own == set(map(tuple, vertices(polygons).tolist()))
-
-
-def test_of_pruned_shapes():
-    polygons = [DUMBBELL, HOLED, FAR]
-    pruned = prune(skeleton_exact(polygons), length=0.3)
-    assert_as_given(rebuild(pruned).xy, polygons, 4)
-
-
-def test_a_skeleton_of_other_places_is_not_drawn_to_vertices():
-    from dataclasses import replace
-
-    skeleton = skeleton_exact([DUMBBELL])
-    wider = replace(skeleton, radius=np.where(skeleton.radius > 0, skeleton.radius + 1e-6, 0))
-    assert not (set(map(tuple, rebuild(wider).xy.tolist())) & {(4.3, 1.1), (6.3, 3.0)})

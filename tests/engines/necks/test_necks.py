@@ -25,11 +25,6 @@ def rooms(*parts):
     return [*upper, *([x, -y] for x, y in reversed(upper))]
 
 
-def disc(count, radius, center):
-    turn = (np.arange(count) + 0.5) * 2 * np.pi / count
-    return np.stack([np.cos(turn), np.sin(turn)], axis=1) * radius + center
-
-
 def test_dumbbell_of_rectangles():
     found = necks(DUMBBELL)
     assert found.feet.tolist() == [[[5.5, 1.5], [5.5, 2.5]]]
@@ -43,21 +38,6 @@ def test_dumbbell_of_rectangles():
         "edge",
         8,
     ]
-
-
-@pytest.mark.parametrize("width", [1, 2, 3.5])
-def test_dumbbell_of_discs_of_many_sides(width):
-    count, radius = 240, 5.0
-    shape = shapely.union_all(
-        [*(shapely.Polygon(disc(count, radius, (x, 0))) for x in (0, 20)), shapely.box(0, -width / 2, 20, width / 2)]
-    )
-    found = necks(shape)
-    inscribed = radius * np.cos(np.pi / count)
-    narrow = found.taken(found.ratio < 0.9)
-    assert len(narrow) == 1
-    assert narrow.xy[0] == pytest.approx([10, 0], abs=1e-7)
-    assert narrow.width[0] == pytest.approx(width, rel=1e-7)
-    assert narrow.beside[0] == pytest.approx([inscribed, inscribed], rel=1e-6)
 
 
 def test_of_equally_narrow_necks_the_first_counts_as_narrower():
@@ -76,33 +56,6 @@ def test_random_shapes_are_as_brute_force_has_them(family, seed):
     verify_necks(found)
     if len(skeleton.polygons.xy) <= 40:
         assert disagreement(found) is None
-
-
-def blob(seed, count=25):
-    random = np.random.default_rng(seed)
-    angle = np.sort(random.random(count)) * 2 * np.pi
-    radius = random.uniform(20, 100, count)
-    return np.round(np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1))
-
-
-def essence(found, matrix=((1, 0), (0, 1))):
-    """All that is told of necks, after a map of the plane."""
-    feet = found.feet @ np.array(matrix, dtype=float) + 0.0
-    rows = np.concatenate([np.sort(feet.view(complex)[..., 0], axis=1).view(float), found.beside], axis=1)
-    return rows[np.lexsort(rows.T[::-1])]
-
-
-@pytest.mark.parametrize("seed", [0, 1, 3, 4, 5, 6])
-def test_mirrors_turns_and_scales(seed):
-    ring = blob(seed)
-    expected = necks(ring)
-    assert len(expected)
-    for matrix in ([[-1, 0], [0, 1]], [[0, 1], [-1, 0]], [[2, 0], [0, 2]]):
-        found = necks(ring @ np.array(matrix, dtype=float))
-        size = abs(matrix[0][0] + matrix[0][1])
-        rows = essence(expected, matrix)
-        rows[:, 4:] *= size
-        assert essence(found) == pytest.approx(rows[np.lexsort(rows.T[::-1])], rel=1e-12, abs=1e-11)
 
 
 def test_a_skeleton_gives_the_same_and_others_are_refused():

@@ -10,9 +10,7 @@ import vorotool
 from engines.necks.test_necks import DUMBBELL
 from support.families.skeleton_shapes import crossing, holed, several, star, tiles, valid
 from support.few import few
-from vorotool import UsageError, VerificationError, necks, parts, verify_parts
-
-RING = {"shell": [[0, 0], [20, 0], [20, 20], [0, 20]], "holes": [[[10, 2], [12, 10], [10, 19], [8, 10]]]}
+from vorotool import UsageError, VerificationError, parts, verify_parts
 
 
 def test_dumbbell_is_cut_in_two():
@@ -25,39 +23,6 @@ def test_dumbbell_is_cut_in_two():
     ]
     assert (pieces.cuts.tolist(), pieces.neighbors) == ([1, 1], [[1], [0]])
     verify_parts(pieces)
-
-
-@pytest.mark.parametrize(("ratio", "count"), [(0.24, 1), (0.25, 2), (1, 2), (0, 1)])
-def test_the_ratio_decides(ratio, count):
-    assert len(parts(DUMBBELL, neck=ratio)) == count
-
-
-def test_a_cut_that_parts_nothing_is_left_out():
-    ring = {"shell": RING["shell"], "holes": [[[8, 8], [12, 8], [12, 19], [8, 12]]]}
-    assert (necks(ring).ratio < 0.2).sum() == 1
-    pieces = parts(ring, neck=0.2)
-    assert (len(pieces), len(pieces.necks)) == (1, 0)
-    assert pieces.polygons.ring_kind.tolist() == [0, 1]
-    verify_parts(pieces)
-
-
-def test_two_cuts_part_a_ring():
-    pieces = parts(RING, neck=0.6)
-    assert len(pieces) == 2
-    assert pieces.between.tolist() == [[0, 1], [0, 1]]
-    assert pieces.area.tolist() == [183, 183]
-    assert (shapely.is_valid(pieces.to_shapely())).all()
-    verify_parts(pieces)
-
-
-def test_feet_may_be_shared():
-    """Three wedges with one tip: the cuts to it from both sides begin at one vertex."""
-    shape = [[0, 0], [10, 9], [20, 0], [20, 20], [15, 20], [11, 11], [10.5, 20], [9.5, 20], [9, 11], [5, 20], [0, 20]]
-    pieces = parts(shape, neck=1)
-    verify_parts(pieces)
-    tips = (pieces.necks.feet == [10, 9]).all(axis=2).sum()
-    assert tips == 2
-    assert len(pieces) == 3
 
 
 @pytest.mark.filterwarnings("ignore")

@@ -9,13 +9,12 @@ import pytest
 import vorotool
 from fuzz.skeleton_approx import failure
 from fuzz.skeleton_bounds import TOLERANCES, Shape, check_steps, check_tolerances, random_shapes
-from support.families.skeleton_shapes import FAMILIES, regular, small, under_symmetries
+from support.families.skeleton_shapes import FAMILIES, regular, small
 from support.readers.written import assert_same
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.sampled_skeleton.per_feature import skeleton_within
-from vorotool.engines.sampled_skeleton.verify_approximate import check_samples, verify_approximate
+from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
 from vorotool.errors import LimitError, UsageError
 
@@ -45,22 +44,6 @@ def test_bounds_hold_and_are_small_where_shapes_are_round():
     true = distances_to(shape.exact, spots).reshape(len(skeleton), 5)
     assert (true <= skeleton.error_bound[:, None]).all()
     assert skeleton.error_bound.max() < 1
-
-
-@pytest.mark.parametrize("order", [[0, 1, 2], [2, 1, 0], [1, 0, 2]])
-def test_arcs_beside_edges_with_common_seeds_are_in_their_polygons(order):
-    # edges lead from one corner at angles so small that seeds near it are rounded to one place
-    triangles = [
-        [[0, 0], [2, -1], [417237026, 284508827]],
-        [[0, 0], [417237024, 284508826], [417237026, 284508828]],
-        [[0, 0], [417237021, 284508830], [0, 2]],
-    ]
-    for shape in list(under_symmetries([triangles[i] for i in order]))[order[0] :: 3]:
-        graph = planar_graph(shape)
-        found = skeleton_within(graph, placed_shapes(graph), 950000.0, side="interior", most=100000)
-        seeds = found.shapes.samples.seeds
-        assert len(np.unique(seeds, axis=0)) < len(seeds)
-        verify_approximate(found)
 
 
 # three edges from one corner, at angles of 1e-8
@@ -99,13 +82,6 @@ FINEST = 2**-17
 def test_steps_below_the_spacing_of_samples_are_refused(sampling, features):
     with pytest.raises(LimitError, match=f"use at least {FINEST!r}"):
         vorotool.skeleton_approx(FAR_APART, step=FINEST * 0.99, sampling=sampling, features=features)
-
-
-@pytest.mark.parametrize("sampling", ["paper", "symmetric"])
-def test_the_spacing_of_samples_is_a_step(sampling):
-    graph = planar_graph(FAR_APART)
-    found = sampled_graph(graph, placed_shapes(graph), SamplingOptions(FINEST, None, sampling))
-    check_samples(found.samples, FINEST)
 
 
 def test_results_do_not_depend_on_threads():

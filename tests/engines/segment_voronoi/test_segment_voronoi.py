@@ -16,7 +16,6 @@ from support.families.segment_families import (
     renumbered,
     symmetries,
 )
-from support.few import few
 from support.oracles import boost_oracle
 from support.oracles.segment_oracle import differences, voronoi_diagram
 from vorotool import _core
@@ -113,13 +112,6 @@ def test_the_checker_passes_under_the_symmetries_of_the_square(name):
         verify_segment_voronoi(diagram)
         vertices.add((len(diagram), len(diagram.edges)))
     assert len(vertices) == 1
-
-
-@pytest.mark.parametrize("name", ["clusters", "two_boxes", "fan"])
-@pytest.mark.parametrize("seed", few(range(12), 3))
-def test_points_that_are_near_in_a_wide_extent(name, seed):
-    for k in range(4):
-        verify_segment_voronoi(segment_voronoi(*draw(name, 60, [seed, k])))
 
 
 @pytest.mark.parametrize("name", FAMILIES)

@@ -7,11 +7,8 @@ import pytest
 
 import vorotool
 from support.families.skeleton_shapes import FAMILIES, TOUCHING
-from support.readers.written import differing
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
-from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
 
 
 def contours(random):
@@ -30,19 +27,6 @@ def graphs(family):
             is_joined = np.isin(np.arange(len(graph.points)), graph.segments).all()
             if graph.is_inside.any() and is_joined:
                 yield graph
-
-
-@pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
-def test_the_skeleton_inside_is_the_same(family):
-    saved = 0
-    for graph in graphs(family):
-        whole = segment_voronoi(graph.points, graph.segments, threads=1)
-        part = segment_voronoi(graph.points, graph.segments, unwanted=unwanted_sides(graph, graph.is_inside), threads=2)
-        placed = placed_shapes(graph)
-        expected, made = (skeleton_of(ShapeDiagram(graph, diagram, placed)) for diagram in (whole, part))
-        assert differing(made, expected) == []
-        saved += len(whole.edges) - len(part.edges)
-    assert saved > 0
 
 
 @pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)

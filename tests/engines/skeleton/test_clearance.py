@@ -93,14 +93,6 @@ def rectangle(width, height):
     return np.array([[0, 0], [width, 0], [width, height], [0, height]], dtype=float)
 
 
-def test_a_cut_end_is_judged_by_doubles():
-    skeleton = vorotool.prune(vorotool.skeleton_exact(rectangle(7, 3)), angle=100)
-    assert clearance_course(skeleton).slope.tolist() == [[0, 0]]
-    one_place = vorotool.prune(vorotool.skeleton_exact(rectangle(3, 3)), scale=4)
-    assert clearance_course(one_place).slope.tolist() == [[0, 0]]
-    assert maxima(one_place, clearance_course(one_place)).all()
-
-
 def test_shortened_edges_and_an_empty_skeleton():
     gap = vorotool.skeleton_exact(rectangle(7, 3), gap=0.1)
     assert set(clearance_course(gap).slope.ravel().tolist()) <= {-1, 0, 1}

@@ -8,7 +8,6 @@ import pytest
 
 import vorotool
 from support.families.skeleton_shapes import FAMILIES
-from support.few import few
 from vorotool import verify_skeleton
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.sampled_skeleton import per_feature
@@ -17,7 +16,7 @@ from vorotool.engines.sampled_skeleton.per_feature import approximation
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.engines.skeleton.contraction import contraction
 from vorotool.engines.skeleton.diagrams import all_edges, diagram_of_all
-from vorotool.engines.skeleton.verify_skeleton import check_arrays, check_branches
+from vorotool.engines.skeleton.verify_skeleton import check_branches
 from vorotool.errors import VorotoolWarning
 
 OFFSETS = ((0.0, 0.0), (1e3, 2e3), (5e5, 4e6))
@@ -41,27 +40,6 @@ def polygon(count, radius, offset):
 def equal_ends(skeleton):
     source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
     return (source == target).all(axis=1)
-
-
-PAIRS_FIRST = [
-    (method, offset, ("interior", "both")[(k + i + turn) % 2])
-    for turn in (0, 1)
-    for k, method in enumerate(METHODS)
-    for i, offset in enumerate(OFFSETS)
-]
-
-
-@pytest.mark.parametrize(("method", "offset", "side"), few(PAIRS_FIRST, len(METHODS) * len(OFFSETS)))
-def test_regular_polygons_have_no_arc_between_equal_nodes(method, offset, side):
-    for count in (3, 4, 5, 24):
-        for radius in (3.7, 1000.0):
-            made = METHODS[method](polygon(count, radius, offset), side=side)
-            assert not equal_ends(made).any()
-            assert not np.isin(0, [line.length for line in made.to_shapely()])
-            check_arrays(made)
-            check_branches(made)
-            if method == "exact":
-                verify_skeleton(made)
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)

@@ -1,7 +1,7 @@
 """Skeletons: known shapes, random ones through the checker, and what must not change them."""
 
 import warnings
-from math import asinh, sqrt
+from math import sqrt
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +11,7 @@ import vorotool
 from support.families.skeleton_shapes import FAMILIES, under_symmetries
 from support.few import few
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
-from vorotool.engines.skeleton.exact import shape_diagram, whole_diagram
+from vorotool.engines.skeleton.exact import shape_diagram
 from vorotool.engines.skeleton.exact import skeleton_of as skeleton_of_shapes
 from vorotool.engines.skeleton.shortened_edges import element_diagram, exact_for, gap_deviation
 from vorotool.engines.skeleton.verify_skeleton import verify_exterior
@@ -48,17 +48,6 @@ def test_a_square_has_its_diagonals():
     assert len(np.unique(square.branch)) == 4
 
 
-def test_an_l_has_a_parabola_around_its_reflex_corner():
-    made = skeleton_of([[0, 0], [4, 0], [4, 2], [2, 2], [2, 4], [0, 4]])
-    assert np.count_nonzero(made.is_parabola) == 2
-    # x^2 = ... about (2, 2) and the walls x = 0 and y = 0: from (1, 2) and (2, 1) to the diagonal
-    corner = 4 - 2 * sqrt(2)
-    assert (round(corner, 9),) * 3 in places(made)
-    s = (2 - corner) / 2  # along the directrix, in units of the distance of focus and directrix
-    expected = s * sqrt(1 + s * s) + asinh(s)
-    assert made.length[made.is_parabola].tolist() == pytest.approx([expected] * 2, rel=1e-14)
-
-
 # ---- outside, and open lines ----
 
 
@@ -73,14 +62,6 @@ def test_outside_ends_on_the_frame():
     cut = skeleton_of(two, side="exterior", frame=(3, 0.5, 2, 1))
     assert places(cut) == [(4, 0.5, 2), (4, 1.5, 2)]
     assert len(skeleton_of(two, side="exterior", frame=(100, 100, 1, 1))) == 0
-
-
-def test_both_sides_are_the_sum_of_each():
-    land = vorotool.read(DATA / "ne_110m_lakes.geojson")
-    inner, outer, both = (skeleton_of(land, side=side) for side in SIDES)
-    assert len(both) == len(inner) + len(outer)
-    assert np.array_equal(both.control[: len(inner)], inner.control, equal_nan=True)
-    assert sorted(both.length.tolist()) == sorted(inner.length.tolist() + outer.length.tolist())
 
 
 def test_a_parabola_is_cut_into_pieces():
@@ -128,11 +109,6 @@ def test_shapes_of_data_under_the_symmetries_of_the_square(name):
     assert len(counts) == 1
 
 
-@pytest.mark.parametrize("name", few(["ne_110m_land", "ne_50m_lakes"], 1))
-def test_natural_earth(name):
-    skeleton_of(vorotool.read(DATA / f"{name}.geojson"), side="both")
-
-
 # ---- relations ----
 
 SHAPE = np.array([[0, 0], [60, 0], [60, 30], [31, 30], [30, 50], [7, 50], [-5, 20]], dtype=float)
@@ -171,17 +147,6 @@ def test_threads_change_nothing(threads):
 
 
 # ---- the whole diagram, and gaps ----
-
-
-def test_the_whole_diagram_holds_the_skeleton():
-    shapes = shape_diagram(vorotool.read(DATA / "two-shapes.json"))
-    verify_segment_voronoi(shapes.diagram)
-    verify_exterior(shapes)
-    whole = whole_diagram(shapes)
-    assert len(whole) > len(vorotool.skeleton_exact(vorotool.read(DATA / "two-shapes.json"), side="both"))
-    assert (whole.side == -1).all()
-    x, y, w, h = whole.frame
-    assert ((whole.vertices >= [x, y]) & (whole.vertices <= [x + w, y + h])).all()
 
 
 def test_a_gap_moves_a_bisector_by_its_square_over_16_r():

@@ -1,6 +1,5 @@
 """Skeletons with a gap inside features: each is what it would be if there were no others."""
 
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -10,9 +9,8 @@ import vorotool
 from fuzz import features as fuzz
 from support.few import few
 from support.readers.written import ARCS, differing
-from vorotool.engines.skeleton import diagrams as engine
 from vorotool.engines.skeleton.diagrams import feature_elements
-from vorotool.errors import InputError, VerificationError, VorotoolWarning
+from vorotool.errors import VerificationError, VorotoolWarning
 
 EXACT = [name for name in ARCS if name not in ("polygon", "error_bound")]
 OUTER = [[0, 0], [20, 0], [20, 20], [0, 20]]
@@ -46,17 +44,6 @@ def test_batches_of_features_are_what_each_is_by_itself(family, complete):
     assert batches.features == one_by_one.features == "separate"
 
 
-def test_small_features_are_taken_in_batches(monkeypatch):
-    taken = []
-    whole = engine.elements_of_shapes
-    monkeypatch.setattr(
-        engine, "elements_of_shapes", lambda *args, **options: taken.append(1) or whole(*args, **options)
-    )
-    made = vorotool.skeleton_exact([[[x + 30 * k, y] for x, y in INNER] for k in range(500)], gap=0.25)
-    assert np.unique(made.polygon).size == 500
-    assert len(taken) == 1
-
-
 @pytest.mark.parametrize("side", ["interior", "exterior", "both"])
 @pytest.mark.parametrize("complete", [True, False])
 def test_the_checker_passes_features_over_each_other(side, complete):
@@ -73,18 +60,3 @@ def test_the_checker_refuses_what_is_between_features():
     made = vorotool.skeleton_exact([OUTER, INNER], gap=0.25, features="together")
     with pytest.raises(VerificationError, match="another feature"):
         vorotool.verify_skeleton(replace(made, features="separate"))
-
-
-def test_what_is_outside_is_of_all_features():
-    separate, drawing = (
-        vorotool.skeleton_exact([OUTER, INNER], gap=0.5, side="exterior", features=features)
-        for features in ("separate", "together")
-    )
-    assert differing(separate, drawing, EXACT) == []
-
-
-def test_the_first_short_edge_of_all_features_is_named():
-    shapes = [OUTER, [[0, 0], [9, 0], [9, 2]], [[0, 0], [9, 0], [9, 1]]]
-    message = "polygon 2, shell, edge 2 from (9.0, 0.0) to (9.0, 2.0) is 2 long, and a gap of 1 at both ends leaves "
-    with pytest.raises(InputError, match=re.escape(message) + r"nothing of it \(2 such edges\): use a gap below 0.5"):
-        vorotool.skeleton_exact(shapes, gap=1)

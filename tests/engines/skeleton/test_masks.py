@@ -135,14 +135,6 @@ def test_what_is_outside_goes_through_with_4_connectivity(gap):
             assert np.count_nonzero(made.degree[at] == 1) == 2 - 2 * count
 
 
-def test_other_polygons_are_not_joined():
-    """Two squares that touch, once as polygons and once as the outline of a mask."""
-    squares = replace(PAIR, connectivity=None)
-    made = vorotool.skeleton_exact(squares)
-    assert np.count_nonzero((made.vertices == [0.5, 0.5]).all(axis=1)) == 2
-    vorotool.verify_skeleton(made)
-
-
 def test_the_checker_finds_corners_that_are_not_joined_or_should_not_be():
     joined, apart = vorotool.skeleton_exact(PAIR), vorotool.skeleton_exact(replace(PAIR, connectivity=None))
     with pytest.raises(VerificationError, match="but not joined"):

@@ -9,7 +9,7 @@ import shapely
 from scipy import ndimage
 
 from support.few import few
-from vorotool import outlines, prune, skeleton_exact, verify_skeleton
+from vorotool import outlines, skeleton_exact, verify_skeleton
 from vorotool.errors import InputError, UsageError, VerificationError, VorotoolWarning
 
 
@@ -82,13 +82,6 @@ def test_polygons_that_are_cut(seed):
     made = quietly(skeleton_exact, cut, border=(-5, -4, 10, 10))
     verify_skeleton(made)
     assert ((made.vertices >= [-5, -4]) & (made.vertices <= [5, 6])).all()
-
-
-def test_pruning_keeps_what_leads_to_the_border():
-    made = quietly(opened, blobs(3, 60, 80, 3.0))
-    pruned = prune(made, scale=1.5)
-    kept = {tuple(place) for place in pruned.vertices[pruned.on_frame].tolist()}
-    assert {tuple(place) for place in made.vertices[made.on_frame].tolist()} <= kept
 
 
 def test_what_is_refused():

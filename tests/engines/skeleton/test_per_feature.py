@@ -76,12 +76,6 @@ def test_what_lies_inside_has_its_skeleton_and_takes_none():
     assert set(together.polygon.tolist()) == {0}
 
 
-def test_overlaps_are_neither_warned_of_nor_refused():
-    shifted = [[x + 5, y + 3] for x, y in OUTER]
-    for side in ("interior", "exterior", "both"):
-        vorotool.verify_skeleton(vorotool.skeleton_exact([OUTER, shifted], side=side, strict=True))
-
-
 def test_what_is_repaired_in_a_feature_is_counted_and_refused():
     bow = [[20, 0], [24, 4], [24, 0], [20, 4]]
     twice = [[[x, y + k] for x, y in bow] for k in (0, 10)]
@@ -89,25 +83,6 @@ def test_what_is_repaired_in_a_feature_is_counted_and_refused():
         vorotool.skeleton_exact([OUTER, INNER, *twice])
     with pytest.raises(InputError, match=r"polygon 3, shell, edge 1 .* crosses polygon 3, shell, edge 3 \(2 such"):
         vorotool.skeleton_exact([OUTER, INNER, *twice], strict=True)
-
-
-def test_what_needs_no_repair_keeps_its_rings_beside_what_does():
-    bow = [[20, 0], [24, 4], [24, 0], [20, 4]]
-    clockwise = OUTER[::-1]
-    with pytest.warns(VorotoolWarning):
-        made = vorotool.skeleton_exact([clockwise, bow, INNER])
-    assert made.polygons.ring(0).tolist() == clockwise
-    assert made.polygons.feature.tolist() == [0, 1, 1, 2]
-    vorotool.verify_skeleton(made)
-
-
-def test_a_line_in_a_polygon_is_a_wall_if_it_is_of_the_same_feature():
-    polygon, line = shapely.Polygon(OUTER), shapely.LineString([(2, 5), (8, 5)])
-    apart = vorotool.skeleton_exact([polygon, line])
-    one = vorotool.skeleton_exact(shapely.GeometryCollection([polygon, line]))
-    assert len(apart) == 4
-    assert len(one) > 4
-    assert all_differing(vorotool.skeleton_exact([polygon, line], features="together"), one) == []
 
 
 @pytest.mark.parametrize("connectivity", [4, 8])
@@ -155,32 +130,6 @@ def test_what_progress_raises_stops_the_work(monkeypatch):
 
     with pytest.raises(KeyboardInterrupt):
         feature_skeleton(polygons, threads=2, progress=stop)
-
-
-def test_an_image_of_labels_is_rebuilt():
-    outlines = vorotool.outlines(np.array([[0, 0, 2], [0, 1, 1], [2, 1, 1]]), mode="labels")
-    again = vorotool.rebuild(vorotool.skeleton_exact(outlines))
-    assert sum(shapely.Polygon(again.ring(k)).area for k in range(len(again))) == pytest.approx(6, rel=1e-12)
-
-
-HOLES = {
-    "a point": ([[[4, 5]]], 1, 1),
-    "a point three times": ([[[4, 5], [4, 5], [4, 5]]], 1, 1),
-    "a segment": ([[[4, 5], [6, 5]]], 1, 1),
-    "both": ([[[4, 5]], [[2, 3], [2, 7]]], 2, 2),
-}
-
-
-@pytest.mark.parametrize("name", HOLES)
-def test_the_skeleton_goes_around_points_and_segments(name):
-    holes, count, cycles = HOLES[name]
-    shape = {"shell": OUTER, "holes": holes}
-    for side in ("interior", "both"):
-        made = vorotool.skeleton_exact([shape], side=side, strict=True)
-        vorotool.verify_skeleton(made)
-    vorotool.verify_offsets(vorotool.offset([shape], [-0.5, 1]), distances=[-0.5, 1])
-    table = vorotool.polygon_table(vorotool.skeleton_exact([shape]))
-    assert (table["holes"].tolist(), table["cycles"].tolist()) == ([count], [cycles])
 
 
 def test_a_point_outside_its_polygon_is_left_out_with_a_word():
@@ -240,17 +189,6 @@ def test_points_and_lines_inside_another_feature_change_nothing_there(site, side
     curves = vorotool.offset([OUTER, site], distances)
     vorotool.verify_offsets(curves, distances=distances)
     assert curves.area[curves.distance < 0].tolist() == [64]
-
-
-@pytest.mark.parametrize("name", [name for name in SITES if name.startswith("a shell")])
-def test_shells_of_one_or_two_places_are_sites(name):
-    other = {"line": [[x + 20, y] for x, y in dict.fromkeys(map(tuple, SITES[name]["shell"]))]}
-    shell = {"shell": [[x + 20, y] for x, y in SITES[name]["shell"]]}
-    made, expected = (vorotool.skeleton_exact([OUTER, shape], side="exterior") for shape in (shell, other))
-    vorotool.verify_skeleton(made)
-    assert all_differing(made, expected) == []
-    for separate in ("separate", "together"):
-        assert vorotool.offset([OUTER, shell], 1, features=separate).polygon.tolist() == [0, 1]
 
 
 def test_shells_without_an_inside_are_told_where_that_is_asked_for():

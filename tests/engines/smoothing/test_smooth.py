@@ -92,15 +92,6 @@ def test_ends_stay_and_tangents_go_on(seed):
             assert ((before * behind).sum(axis=1) > 0).all()
 
 
-def test_a_corner_inside_a_branch_is_rounded_within_the_tolerance():
-    whole = vorotool.skeleton_exact([[0, 0], [40, 0], [40, 40], [36, 40], [36, 4], [0, 4]])
-    lines = vorotool.centerline(whole)
-    for tolerance in (1.0, 0.1, 0.01):
-        smoothed = vorotool.smooth(lines, tolerance)
-        vorotool.verify_smooth(smoothed)
-        assert len(smoothed.control) < 40
-
-
 def test_closed_branches_have_one_tangent_all_around():
     angle = np.linspace(0, 2 * np.pi, 64, endpoint=False)
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)

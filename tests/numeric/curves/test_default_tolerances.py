@@ -11,28 +11,12 @@ HOUSES = [shapely.box(x, 0, x + 8, 6) for x in (0, 11, 24)]
 FAR = shapely.box(4e5, 3e5, 4e5 + 8, 3e5 + 6)
 
 
-def test_discs_look_the_same_whatever_their_size():
-    shapes = [shapely.box(0, 0, 2, 2), shapely.box(1e4, 0, 2.1e4, 1e4)]
-    flat = vorotool.largest_discs(shapes).to_shapely()
-    for disc, radius in zip(flat, (1, 5000), strict=True):
-        assert disc.area == pytest.approx(np.pi * radius**2, rel=1e-3)
-        assert shapely.get_num_coordinates(disc) == 129
-
-
 @pytest.mark.parametrize("make", [lambda shapes: vorotool.offset(shapes, 1), vorotool.largest_discs])
 def test_a_far_feature_changes_no_shape(make):
     alone, together = make(HOUSES).to_shapely(), make([*HOUSES, FAR]).to_shapely()
     counts = shapely.get_num_coordinates(together)[: len(alone)]
     assert counts.tolist() == shapely.get_num_coordinates(alone).tolist()
     assert shapely.hausdorff_distance(alone, together[: len(alone)]).max() < 1e-3
-
-
-def test_cells_of_a_town_beside_a_far_house():
-    frame = (-30, -30, 5e5, 5e5)
-    alone = vorotool.voronoi(HOUSES, max_distance=20, frame=frame).to_shapely()
-    together = vorotool.voronoi([*HOUSES, FAR], max_distance=20, frame=frame).to_shapely()[:-1]
-    assert shapely.hausdorff_distance(alone, together).max() < 2e-3
-    np.testing.assert_allclose(shapely.area(alone), shapely.area(together), rtol=1e-5)
 
 
 def test_borders_and_skeletons_keep_their_distance():

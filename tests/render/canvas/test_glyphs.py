@@ -25,17 +25,3 @@ def test_the_halo_is_what_touches_the_ink(text):
 def test_all_digits_and_letters_differ():
     letters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
     assert len({picture(letter).tobytes() for letter in letters}) == len(letters)
-
-
-def test_accents_are_left_out_and_other_letters_are_question_marks():
-    np.testing.assert_array_equal(picture("é"), picture("e"))
-    np.testing.assert_array_equal(picture("湖"), picture("?"))
-    assert not picture(" ").any()
-
-
-def test_several_texts():
-    owner, cells, is_ink = text_cells(["1", "", "1"])
-    assert np.unique(owner).tolist() == [0, 2]
-    np.testing.assert_array_equal(cells[owner == 0], cells[owner == 2])
-    assert is_ink.sum() == 20
-    assert [len(part) for part in text_cells([])] == [0, 0, 0]

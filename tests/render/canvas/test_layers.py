@@ -142,35 +142,6 @@ def test_lines_are_as_thick_as_told(angle):
     assert dark == pytest.approx(80 * 4 * 3.0, rel=0.05)
 
 
-def test_discs_are_round():
-    image = picture(
-        Points("p", np.array([[5.0, 5.0], [50, 50]]), "#000000", radius=8.0), width=300, bounds=(0, 0, 100, 100)
-    )
-    dark = (1 - image[:, :, 0] / 255).sum()
-    assert dark == pytest.approx(2 * np.pi * 64, rel=0.02)
-
-
-def test_what_lies_outside_is_left_out():
-    far = np.array([[-500, 20], [700, 30], [50, -900], [60, 900.0]])
-    layers = (
-        Polygons("p", far, np.array([0, 2, 1, 3], np.int32), np.array([0, 4]), colors=["#aaaaaa"]),
-        Lines("l", far, np.array([[0, 1], [2, 3]], np.int32)),
-        Points("q", far),
-    )
-    image = picture(*layers, bounds=(0, 0, 100, 100))
-    assert image.shape == (160, 160, 3)
-    assert (image != 255).any()
-
-
-def test_both_kinds_of_pictures_are_one(tmp_path):
-    """Pixels of the PNG where the SVG has a fill, by the corners that the SVG tells."""
-    image = picture(HOLED, width=600)
-    for path in svg(HOLED).iter(f"{NS}path"):
-        outer = rings_of(path)[0]
-        center = (outer[0] * 0.9 + outer.mean(axis=0) * 0.1).astype(int)
-        assert "#" + bytes(image[center[1], center[0]].tolist()).hex() == path.attrib["fill"]
-
-
 def test_limits():
     page = Page((0, 0, 1, 1), width=1000, y_up=False)
     check_picture_size(page, 16_000_000)

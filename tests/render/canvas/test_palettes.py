@@ -5,7 +5,7 @@ import pytest
 from skimage.color import deltaE_ciede2000, rgb2lab
 
 from vorotool.errors import LimitError
-from vorotool.render.canvas.styles import CELLS, LINE, SEED, WHITE, cell_color, picture_palette
+from vorotool.render.canvas.styles import CELLS, LINE, SEED, picture_palette
 
 # normal vision, severe protanopia, deuteranopia and tritanopia, on linear RGB (Machado et al. 2009, table 1)
 DEFICIENCIES = [
@@ -36,12 +36,6 @@ def test_lines_and_seeds_stand_out(deficiency: object) -> None:
     lab = as_seen([LINE, SEED, *CELLS], deficiency)
     for dark in lab[:2]:
         assert (deltaE_ciede2000(dark[None], lab[2:]) > 25).all()
-
-
-def test_colors_do_not_repeat() -> None:
-    names = [cell_color(c) for c in range(60)]
-    assert len(set(names)) == 60
-    assert names[0] == WHITE
 
 
 @pytest.mark.parametrize(

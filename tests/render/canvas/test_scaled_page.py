@@ -61,14 +61,6 @@ def test_pages_that_nobody_has(millimeters):
         ScaledPage((0, 0, 3, 2), y_up=False, millimeters=millimeters)
 
 
-def test_ground():
-    page = ScaledPage((0, 0, 3, 2), y_up=False, millimeters=1)
-    page.style = PictureStyle(None)
-    assert b"<rect" not in svg_of([], page)
-    page.style = PictureStyle("#112233")
-    assert b'fill="#112233"/>' in svg_of([], page)
-
-
 def test_colors_and_widths_of_all_layers():
     pairs = np.array([[0, 1]], dtype=np.int32)
     control = np.array([-1], dtype=np.int32)

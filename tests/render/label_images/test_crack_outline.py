@@ -1,5 +1,4 @@
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
@@ -27,14 +26,3 @@ def test_filled_outlines_are_the_labels(labels: np.ndarray) -> None:
         np.testing.assert_array_equal(filled(labels.shape, loops), labels == label)
         for loop in loops:
             assert loop[0][1] == loop[1][1]
-
-
-def test_only_corners_are_kept() -> None:
-    assert list(crack_loops(np.full((50, 80), 2**32 - 1, np.uint32))) == [
-        (2**32 - 1, [[(0, 0), (80, 0), (80, 50), (0, 50)]])
-    ]
-
-
-@pytest.mark.parametrize("shape", [(1, 1), (1, 6), (6, 1)])
-def test_no_label_has_no_outline(shape: tuple[int, int]) -> None:
-    assert list(crack_loops(np.zeros(shape, np.uint8))) == []

@@ -6,7 +6,6 @@ import pytest
 import vorotool
 from vorotool import LimitError, UsageError
 from vorotool.render.label_images.slices import SlicePicture
-from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
@@ -57,15 +56,6 @@ def test_no_other_slice_is_there(frame, chosen, words):
         SlicePicture(frame, chosen=chosen)
 
 
-def test_points_are_drawn_in_the_slices_that_they_lie_in():
-    # the middle voxel is (0, 8, 4)
-    places = np.array([[2, 6, 4], [0, 9, 6], [-2, 8, 3], [1, 7, 5], [9, 6, 4]])
-    marks = SlicePicture(FRAME).image(volume_of(VolumeSeeds(places, np.arange(1, 6)))).seeds
-    gap = 3
-    found = sorted(zip(marks.labels.tolist(), (marks.x / 256).tolist(), (marks.y / 256).tolist(), strict=True))
-    assert found == [(1, 5, 1), (2, 7 + gap + 4, 4), (3, 1, 6 + gap + 1)]
-
-
 def test_points_between_voxels_keep_their_places():
     seeds = VolumeSeeds(np.array([[-5, 12, 9]]), np.array([1]), scale=2)  # (-2.5, 6, 4.5), between slices 4 and 5
     assert len(SlicePicture(FRAME, chosen=4).image(volume_of(seeds)).seeds) == 0
@@ -96,8 +86,3 @@ def test_pictures_are_limited():
     with pytest.raises(LimitError, match="209"):
         SlicePicture(FRAME).check(209)
     SlicePicture(FRAME).check(210)
-
-
-def test_a_volume_brings_its_sides():
-    volume = LabelVolume(np.ones((4, 3, 2), int), sides=PixelSides((3, 1, 1)))
-    assert SlicePicture(volume.frame, volume.sides.units).sizes == (12, 3, 2)

@@ -57,19 +57,6 @@ def test_cells_are_paths_that_fill_the_labels() -> None:
         np.testing.assert_array_equal(mask, int(path.attrib["id"][5:]) == LABELS)
 
 
-def test_numbers_mark_the_seeds() -> None:
-    found = groups(drawn())
-    assert sorted(text.text for text in found["labels"]) == sorted(["0", "1", "1", "12", "2", "2", "3", "3", "3"])
-    assert [(text.text, text.attrib["text-decoration"]) for text in found["seeds"]] == [
-        ("1", "underline"),
-        ("2", "underline"),
-        ("3", "underline"),
-    ]
-    assert found["seeds"].attrib["font-weight"] == "bold"
-    first = found["seeds"][0]
-    assert float(first.attrib["x"]) == pytest.approx(0.58 * 1000 / 4.16, abs=0.01)
-
-
 def test_many_pixels_are_refused() -> None:
     with pytest.raises(LimitError, match=r"2000"):
         drawn(LabelImage(np.ones((501, 2000), np.uint8)))

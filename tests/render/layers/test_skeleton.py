@@ -36,15 +36,6 @@ def test_every_parabola_is_one_quadratic_curve():
     assert paths.count("M") == len(MADE) - joined
 
 
-def test_paths_go_through_the_nodes():
-    text = svg_of(skeleton_layers(MADE, PAGE, ["skeleton"]))
-    (path,) = re.findall(r' d="([^"]*)"', text)
-    numbers = np.array([float(n) for n in re.findall(r"-?[\d.]+", path)]).reshape(-1, 2)
-    for name, places in (("nodes", MADE.vertices), ("control", MADE.control[MADE.is_parabola])):
-        for place in np.round(PAGE.place(places), 2):
-            assert (np.abs(numbers - place) < 1e-9).all(axis=1).any(), name
-
-
 def test_layers_are_groups_from_below():
     text = svg_of(skeleton_layers(MADE, PAGE, reversed(LAYERS), exact=MADE))
     assert text.count("stroke-dasharray") == 1
@@ -52,13 +43,6 @@ def test_layers_are_groups_from_below():
     assert re.findall(r'<g id="(\w+)"', svg_of(diagram_layers(MADE, PAGE, ["skeleton"]))) == ["diagram"]
     with pytest.raises(UsageError, match="cells"):
         skeleton_layers(MADE, PAGE, ["cells"])
-
-
-def test_lines_are_drawn_beside_polygons():
-    made = vorotool.skeleton_exact([{"shell": [[0, 0], [4, 0], [0, 3]]}, {"line": [[5, 0], [6, 1], [7, 0]]}])
-    layers = skeleton_layers(made, skeleton_page(made), ["polygons"])
-    assert [layer.name for layer in layers] == ["polygons", "lines"]
-    assert layers[1].pairs.tolist() == [[3, 4], [4, 5]]
 
 
 def test_png_follows_the_curve():
@@ -72,13 +56,3 @@ def test_png_follows_the_curve():
     middle = page.place(np.array([[5.0, 5.0]]))[0]
     rows = np.flatnonzero(dark[:, int(middle[0])])
     assert np.abs(rows + 0.5 - middle[1]).max() <= 1.5
-
-
-def test_chunks_of_paths_begin_anew(monkeypatch):
-    from vorotool.render.canvas import svg as layers_svg
-
-    monkeypatch.setattr(layers_svg, "PATH_ROWS", 3)
-    text = svg_of(skeleton_layers(MADE, PAGE, ["skeleton"]))
-    paths = re.findall(r' d="([^"]*)"', text)
-    assert len(paths) == -(-len(MADE) // 3)
-    assert all(path.startswith("M") for path in paths)

@@ -74,16 +74,6 @@ def test_cells_of_a_map_are_its_shapes():
     np.testing.assert_allclose([16 * 16 * found[name].area for name in found], cells.areas, rtol=2e-3)
 
 
-def test_labels_are_outlined():
-    shapes = shapes_of_labels(LABELS)
-    found = polygons_of(data_of(page_of(shapes, [1, 2, 3, 4], {"area": [3, 3, 4, 1]})))
-    counts = {str(label): int((label == LABELS).sum()) for label in (1, 2, 3, 12)}
-    assert {name: round(area.area * 16, 5) for name, area in found.items()} == counts
-    for (y, x), label in np.ndenumerate(LABELS):
-        inside = [name for name, area in found.items() if area.contains(shapely.Point((x + 0.5) / 4, (y + 0.5) / 4))]
-        assert inside == ([str(label)] if label else [])
-
-
 @pytest.mark.parametrize("y_up", [False, True])
 def test_cells_are_outlined(y_up):
     points = np.random.default_rng(3).uniform(0, 50, (30, 2))
@@ -95,14 +85,6 @@ def test_cells_are_outlined(y_up):
     site = next(k for k, cell in enumerate(cells.to_shapely()) if cell.area > 0)
     x, y = cells.to_shapely()[site].centroid.coords[0]
     assert found[str(site + 1)].contains(shapely.Point(x / 50, ((30 - y) if y_up else y) / 50))
-
-
-def test_values_of_all_kinds():
-    masked = np.ma.masked_array([1.5, 2.5], mask=[False, True])
-    columns = {"area": masked, "name": ["</script><b>", None], "size": [float("nan"), np.int64(3)]}
-    page = page_of(shapes_of_labels(np.array([[1, 2]])), [1, 2], columns)
-    assert page.count("</script>") == 1
-    assert [each["values"] for each in data_of(page)["columns"]] == [[1.5, None], ["</script><b>", None], [None, 3]]
 
 
 def test_too_many():

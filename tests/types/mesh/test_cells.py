@@ -9,19 +9,6 @@ from vorotool import Box, CellSet, InputError
 SQUARES = [[0, 0], [2, 0], [2, 2], [0, 2], [2, 0], [4, 0], [4, 2], [2, 2]]
 
 
-def test_empty_cells_have_no_polygon():
-    cells = CellSet([[1, 1], [9, 9], [3, 1], [9, 9]], SQUARES, [0, 4, 4, 8, 8], Box(0, 0, 4, 2))
-    assert cells.is_empty.tolist() == [False, True, False, True]
-    assert cells.areas.tolist() == [4.0, 0.0, 4.0, 0.0]
-    assert cells.perimeters.tolist() == [8.0, 0.0, 8.0, 0.0]
-    rings, polygons, of_cells = cells.nesting
-    assert (rings.tolist(), polygons.tolist(), of_cells.tolist()) == ([0, 4, 8], [0, 1, 2], [0, 1, 1, 2, 2])
-    shapes = cells.to_shapely()
-    assert shapely.area(shapes).tolist() == [4.0, 0.0, 4.0, 0.0]
-    assert [s.is_empty for s in shapes] == [False, True, False, True]
-    assert cells.label_array.tolist() == [1, 2, 3, 4]
-
-
 def test_polygons_with_holes_and_parts():
     hole = [[1, 1], [1, 3], [3, 3], [3, 1]]
     shell = [[0, 0], [4, 0], [4, 4], [0, 4]]

@@ -32,16 +32,6 @@ def test_lengths_beyond_the_largest_double_are_infinite():
     assert np.isinf(mesh.edge_lengths()).sum() == 2
 
 
-@pytest.mark.parametrize("name", ["uniform", "grid", "duplicates", "collinear", "small_lattice"])
-def test_hull_edges_have_one_triangle(name):
-    mesh = delaunay(draw(name, 80, 5))
-    count = dict.fromkeys(map(tuple, mesh.edges.tolist()), 0)
-    for a, b, c in mesh.triangles.tolist():
-        for end in ((a, b), (b, c), (c, a)):
-            count[tuple(sorted(end))] += 1
-    assert mesh.hull_edges.tolist() == [times < 2 for times in count.values()]
-
-
 def test_tables_speak_the_labels_of_the_input():
     points = PointSet([[0, 0], [4, 0], [4, 0], [0, 3]], labels=[70, 5, 6, 9], properties={"name": ["a", "b", "c", "d"]})
     mesh = delaunay(points)

@@ -80,25 +80,9 @@ def test_what_is_read_back_is_the_skeleton(fmt, polygons, features, tmp_path):
         np.testing.assert_array_equal(again.as_given.vertices, skeleton.as_given.vertices)
 
 
-@pytest.mark.parametrize("side", ["interior", "exterior"])
-def test_every_corner_of_radius_0_is_a_vertex_of_the_input(side):
-    skeleton = skeleton_exact(TENTHS["separate"], side=side)
-    corners = skeleton.as_given.vertices[skeleton.radius == 0]
-    assert len(corners) == {"interior": 7, "exterior": 1}[side]
-    assert set(map(tuple, corners.tolist())) <= given(TENTHS["separate"])
-    inner = skeleton.radius > 0
-    np.testing.assert_array_equal(skeleton.as_given.vertices[inner], skeleton.vertices[inner])
-
-
 def test_integers_are_their_own_given():
     skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
     assert skeleton.as_given is skeleton
-
-
-def test_tables_of_elements_have_the_vertices_of_the_input(tmp_path):
-    write(skeleton_exact([ROOM]), tmp_path / "elements.json", what="elements")
-    rows = json.loads((tmp_path / "elements.json").read_text())
-    assert {(row["x0"], row["y0"]) for row in rows} == given([ROOM])
 
 
 def test_feet_are_on_the_edges_of_the_input(tmp_path):

@@ -37,27 +37,6 @@ def test_flattened_lengths_are_the_lengths():
     assert np.abs(np.array(sums) - MADE.length).max() < 1e-6
 
 
-def test_branches():
-    table = vorotool.branch_table(MADE)
-    assert len(table["branch"]) == MADE.branch[-1] + 1
-    assert table["length"].sum() == pytest.approx(MADE.length.sum())
-    assert (table["chord"] <= table["length"] * (1 + 1e-12)).all()
-    kinds = table["kind"].tolist()
-    assert kinds.count("end") == np.count_nonzero((MADE.degree == 1) & ~MADE.on_frame)
-    assert kinds.count("frame") > 0
-    within = (table["r_min"] <= table["r_mean"]) & (table["r_mean"] <= table["r_max"])
-    assert within.all()
-
-
-def test_radii_inside_arcs_count():
-    """Two places: the bisector between them is nearest half-way."""
-    made = vorotool.skeleton_exact([{"line": [[0, 0]]}, {"line": [[6, 0]]}], side="exterior", frame=(-1, -4, 8, 8))
-    table = vorotool.branch_table(made)
-    assert (table["r_min"].tolist(), table["r_max"].tolist()) == ([3.0], [5.0])
-    mean = (4 * 5 + 9 * np.arcsinh(4 / 3)) / 2 / 4
-    assert table["r_mean"].tolist() == pytest.approx([mean], rel=1e-6)
-
-
 def test_polygons():
     table = vorotool.polygon_table(MADE)
     import shapely
@@ -97,17 +76,6 @@ def test_connected_roots_are_the_smallest():
     for label in set(labels.tolist()):
         members = np.flatnonzero(labels == label)
         assert (roots[members] == members.min()).all()
-
-
-def test_chunks_and_threads_change_nothing(monkeypatch):
-    expected = [vorotool.branch_table(replace(MADE), threads=1), vorotool.polygon_table(replace(MADE), threads=1)]
-    ends = replace(MADE).site_ends
-    monkeypatch.setattr(parallel, "CHUNK", 7)
-    for threads in (1, 2):
-        made = [make(replace(MADE), threads=threads) for make in (vorotool.branch_table, vorotool.polygon_table)]
-        for one, other in zip(made, expected, strict=True):
-            assert all(np.array_equal(one[name][:], other[name][:]) for name in other)
-        assert np.array_equal(replace(MADE).site_ends_on(threads), ends)
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3, 5, 7])
