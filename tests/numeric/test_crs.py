@@ -2,6 +2,7 @@
 
 import pytest
 
+from support.few import few
 from vorotool.numeric.crs import crs_member, crs_name, is_geographic, same_crs
 
 FORMS = [
@@ -20,7 +21,7 @@ def named(name):
 
 
 @pytest.mark.parametrize("form", FORMS)
-@pytest.mark.parametrize(("authority", "code"), [("EPSG", "3857"), ("epsg", "2056"), ("OGC", "CRS84")])
+@pytest.mark.parametrize(("authority", "code"), few([("epsg", "2056"), ("OGC", "CRS84"), ("EPSG", "3857")], 2))
 def test_one_system_in_all_forms(form, authority, code):
     text = form.format(authority, code)
     plain = f"{authority}:{code}".upper()

@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 
 import vorotool
 from support.families.values import empty_values, example_values, label_image
+from support.few import few
 from vorotool.numeric.crs import crs_member
 from vorotool.types.pixel_grid import map_grid
 
@@ -124,7 +125,7 @@ def test_tables_show_their_first_rows():
     assert Cells(vorotool.Table({"<a>": ["&b", None]})._repr_html_()).rows == [["<a>"], ["&b"], [""]]
 
 
-@pytest.mark.parametrize("name", PICTURED)
+@pytest.mark.parametrize("name", few(PICTURED, 8))
 def test_plots_cover_the_data(name):
     value = VALUES[name]
     ax = axes_of(value)
@@ -181,7 +182,7 @@ def test_degrees_are_as_long_as_they_are_in_the_middle():
     assert axes_of(pole).get_aspect() == 1
 
 
-@pytest.mark.parametrize("name", [name for name, value in empty_values().items() if hasattr(value, "plot")])
+@pytest.mark.parametrize("name", few((name for name, value in empty_values().items() if hasattr(value, "plot")), 4))
 def test_what_is_empty_is_drawn(name):
     ax = axes_of(empty_values()[name])
     ax.figure.savefig(io.BytesIO(), format="png", dpi=30)

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+from support.few import few
 from vorotool import _core
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", few(range(20)))
 def test_arcs_by_ends(seed):
     random = np.random.default_rng(seed)
     vertices = int(random.integers(1, 12))
@@ -15,7 +16,7 @@ def test_arcs_by_ends(seed):
     assert _core.graphs.arcs_by_ends(arcs, vertices).tolist() == expected.tolist()
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", few(range(20)))
 def test_next_half_edges(seed):
     random = np.random.default_rng(seed)
     vertices, count = int(random.integers(1, 12)), int(random.integers(1, 60))

@@ -171,7 +171,7 @@ def test_quoted_fields_may_hold_anything():
     assert _core.text.line_of_row(text, ",", 0, 3) == 0
 
 
-@settings(deadline=None)
+@settings(deadline=None, max_examples=8)
 @given(st.lists(st.lists(st.text(), min_size=3, max_size=3), min_size=1, max_size=5))
 def test_quoted_text_reads_as_the_csv_module_reads_it(rows):
     out = io.StringIO()

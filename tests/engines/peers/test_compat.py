@@ -11,6 +11,7 @@ from skimage import measure, morphology, segmentation
 from skimage.data import binary_blobs
 
 import vorotool
+from support.few import few
 from vorotool import compat
 from vorotool.engines import peers
 
@@ -70,7 +71,7 @@ def test_results_are_written_into_arrays(shape):
 
 
 @pytest.mark.parametrize("ndim", [1, 2, 3])
-@pytest.mark.parametrize("distance", [0, 1, 1.5, 2, 3, 5])
+@pytest.mark.parametrize("distance", few([1.5, 3, 0, 1, 2, 5], 2))
 @pytest.mark.parametrize("spacing", [1, 2, "each"])
 def test_labels_grow_as_those_of_scikit_image(ndim, distance, spacing):
     blobs = binary_blobs(length=32, blob_size_fraction=0.1, n_dim=max(ndim, 2), rng=7)

@@ -16,6 +16,7 @@ from support.families.segment_families import (
     renumbered,
     symmetries,
 )
+from support.few import few
 from support.oracles import boost_oracle
 from support.oracles.segment_oracle import differences, voronoi_diagram
 from vorotool import _core
@@ -103,7 +104,7 @@ def test_brute_force_agrees_on_graphs_of_any_kind(name, seed):
         assert_right(points, segments)
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("name", few(FAMILIES, 8))
 def test_the_checker_passes_under_the_symmetries_of_the_square(name):
     points, segments = draw(name, 90, 1)
     vertices = set()
@@ -114,7 +115,7 @@ def test_the_checker_passes_under_the_symmetries_of_the_square(name):
     assert len(vertices) == 1
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("name", few(FAMILIES, 8))
 def test_numbers_of_sites_change_nothing_else(name):
     points, segments = draw(name, 80, 5)
     diagram = segment_voronoi(points, segments)
@@ -160,7 +161,7 @@ def test_threads_change_nothing(name):
         assert np.array_equal(getattr(one, array), getattr(three, array))
 
 
-@pytest.mark.parametrize("name", [name for name in FAMILIES if name not in JOINED])
+@pytest.mark.parametrize("name", few(name for name in FAMILIES if name not in JOINED))
 def test_visited_vertices_grow_as_log_n(name):
     """Every doubling adds at most 4. Teeth see all the others: in a plain spatial order the work is quadratic."""
     graphs = [draw(name, n, 2) for n in (256, 1_024, 4_096)]

@@ -71,7 +71,7 @@ def test_labels_each_by_itself(seed):
         assert sorted(own) == pytest.approx(sorted(alone.length), rel=1e-12)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", few(range(20)))
 def test_polygons_that_are_cut(seed):
     rng = np.random.default_rng(seed)
     angle = np.sort(rng.random(12)) * 2 * np.pi

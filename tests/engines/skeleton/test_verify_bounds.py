@@ -69,7 +69,7 @@ def changed(skeleton, name, at, value):
     return replace(skeleton, **{name: column})
 
 
-@pytest.mark.parametrize("features", ["separate", "together"])
+@pytest.mark.parametrize("features", few(["separate", "together"], 1))
 @pytest.mark.parametrize("options", OPTIONS, ids=str)
 @pytest.mark.parametrize("name", SHAPES)
 def test_changed_ones_are_refused(name, options, features):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
+from support.few import few
 from vorotool import seeds_from_volume
 from vorotool.engines.tessellation.cleaned_masks import CleanedSlices, Cleaning
 from vorotool.engines.tessellation.raster_objects import HeldParts, PartwiseObjects
@@ -35,10 +36,11 @@ def cleaned(mask, cleaning, connectivity):
     return kept, made.sum() - mask.sum(), (areas[1:] < cleaning.min_area).sum(), count
 
 
-@pytest.mark.parametrize("step", [1, 5, 100])
+@pytest.mark.parametrize("step", few([5, 1, 100], 1))
 @pytest.mark.parametrize("connectivity", [6, 26])
 @pytest.mark.parametrize(
-    "cleaning", [Cleaning(0, True), Cleaning(0, 1), Cleaning(4), Cleaning(9, 2), Cleaning(5, True), Cleaning(10**30, 3)]
+    "cleaning",
+    [Cleaning(5, True), Cleaning(9, 2), Cleaning(0, 1), Cleaning(10**30, 3)],
 )
 @pytest.mark.parametrize("mask", MASKS)
 def test_volumes_are_cleaned_as_by_scipy(mask, cleaning, connectivity, step):

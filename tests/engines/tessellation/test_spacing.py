@@ -45,7 +45,7 @@ def seeds_of(random, count, frame, scale, reach):
 
 @pytest.mark.parametrize("sides", SIDES)
 @pytest.mark.parametrize("scale", [1, 4, 256])
-@pytest.mark.parametrize("seed", few(range(6), 3))
+@pytest.mark.parametrize("seed", few(range(6), 1))
 def test_every_pixel_has_the_smallest_label_of_its_nearest_seeds(sides, scale, seed):
     random = np.random.default_rng([seed, scale, sides.x])
     frame = Frame(-3, 5, int(random.integers(1, 40)), int(random.integers(1, 40)))

@@ -36,7 +36,7 @@ def sweep_of(x, y, labels, frame, scale=1, **options):
 # ---- against brute force ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", few(range(12), 4))
+@pytest.mark.parametrize("seed", few(range(12), 2))
 def test_labels_are_those_of_brute_force(simd, seed):
     rng = np.random.default_rng(seed)
     for case in range(40):

@@ -111,7 +111,7 @@ def random_body(rng, depth=0):
     return "".join(made)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", few(range(60), 15))
 def test_random_drawings_as_svgelements_has_them(seed):
     rng = random.Random(seed)
     body = '<defs><path id="a" d="M0 0C9 9 20 -9 30 5L3 9z"/></defs>' + random_body(rng)
@@ -143,7 +143,7 @@ def winding(rings, place):
 
 
 @pytest.mark.parametrize("rule", ["nonzero", "evenodd"])
-@pytest.mark.parametrize("seed", few(range(40), 8))
+@pytest.mark.parametrize("seed", few(range(40), 3))
 def test_rules_of_fills_by_windings(seed, rule):
     rng = np.random.default_rng(seed)
     rings = []

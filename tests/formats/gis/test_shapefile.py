@@ -8,6 +8,7 @@ import pytest
 import shapely
 
 import vorotool
+from support.few import few
 from support.processes.leftovers import contents
 from vorotool.convert.polygons import as_polygons
 from vorotool.errors import OutputError
@@ -73,7 +74,7 @@ def test_what_gdal_cannot_write_is_an_output_error(older, monkeypatch):
 
 @pytest.mark.parametrize("count", [0, 2])
 @pytest.mark.parametrize("part", PARTS)
-@pytest.mark.parametrize("size", [0, -1, 20])
+@pytest.mark.parametrize("size", few([20, -1, 0], 1))
 def test_a_part_that_is_cut_off_is_not_taken(older, monkeypatch, part, size, count):
     import pyogrio
 

@@ -10,6 +10,7 @@ from PIL import Image
 
 import vorotool
 from support.families.tiff_files import LONG, SHORT, grey, tiff_file
+from support.few import few
 from support.readers.sources import bands_of
 from vorotool.errors import InputError, LimitError
 
@@ -127,7 +128,7 @@ def test_bits_in_reverse(tmp_path):
         accepted(tmp_path, tiff_file(tags, [strip.translate(reverse)]), expected)
 
 
-@pytest.mark.parametrize("dtype", ["u1", "u2", "i4", "u8", "f4", "f8"])
+@pytest.mark.parametrize("dtype", few(["u2", "f4", "u1", "i4", "u8", "f8"], 2))
 @pytest.mark.parametrize("byteorder", ["<", ">"])
 @pytest.mark.parametrize("tile", [None, (16, 32)])
 def test_predictors(tmp_path, dtype, byteorder, tile):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.few import few
 from support.processes.peak_memory import watched
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.images import tiff_reader
@@ -51,7 +52,7 @@ def written(tmp_path, data):
 
 @pytest.mark.parametrize("order", "<>")
 @pytest.mark.parametrize("forms", [CLASSIC, BIG], ids=["classic", "big"])
-@pytest.mark.parametrize(("count", "back"), [(1, 0), (2, 0), (4, 0), (4, 2), (150, 149), (300, 120)])
+@pytest.mark.parametrize(("count", "back"), few([(1, 0), (4, 2), (300, 120), (2, 0), (4, 0), (150, 149)], 3))
 def test_pages_in_a_circle(tmp_path, order, forms, count, back):
     path = written(tmp_path, chain(pages(count), [*range(1, count), back], order, forms))
     for read in (vorotool.read, lambda path: vorotool.read(path, page=0), open_volume_and_look):

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from support.few import few
 from support.processes.leftovers import contents
 from vorotool.errors import OutputError
 from vorotool.formats.io import commit as commits
@@ -103,7 +104,7 @@ def refuse(*_):
     raise OSError(errno.EPERM, "no such links here")
 
 
-@pytest.mark.parametrize("kind", [KeyboardInterrupt, OSError])
+@pytest.mark.parametrize("kind", few([OSError, KeyboardInterrupt], 1))
 @pytest.mark.parametrize("links", [True, False])
 @pytest.mark.parametrize("after", [True, False])
 @pytest.mark.parametrize("at", range(8))
@@ -177,7 +178,7 @@ def test_permissions_are_those_of_the_older_files_after_a_failure_too(folder, mo
     assert ((folder / "a.shp").stat().st_ino, (folder / "a.shp").stat().st_mode & 0o777) == (number, 0o604)
 
 
-@pytest.mark.parametrize("at", range(4))
+@pytest.mark.parametrize("at", few((1, 3, 0, 2), 2))
 def test_after_a_kill_between_two_renames_each_is_old_or_new(folder, at):
     before = contents(folder)
     script = (

@@ -10,6 +10,7 @@ import pytest
 import shapely
 
 from support.families.point_families import draw
+from support.few import few
 from support.readers.sources import read_as
 from support.readers.written import streamed, written
 from vorotool import PointSet, voronoi_cells
@@ -107,7 +108,7 @@ def test_parts_share_their_properties():
     ]
 
 
-@pytest.mark.parametrize("fmt", streamed(PRODUCTS["delaunay"]["cells"]))
+@pytest.mark.parametrize("fmt", few(streamed(PRODUCTS["delaunay"]["cells"]), 3))
 def test_threads_and_slices_change_nothing(fmt):
     by_library = fmt in ("gpkg", "fgb", "parquet", "dxf")  # on one thread
     cells = voronoi_cells(draw("uniform", 300 if by_library else 40_000, 1))

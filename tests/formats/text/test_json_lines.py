@@ -6,6 +6,7 @@ import pytest
 
 import vorotool
 from support.families.point_families import draw
+from support.few import few
 from support.readers.written import written
 from vorotool.products.registry import parts_of
 
@@ -52,7 +53,7 @@ def test_an_object_a_line(value, product):
     assert found == expected != []
 
 
-@pytest.mark.parametrize("threads", [1, 3])
+@pytest.mark.parametrize("threads", few([3, 1], 1))
 def test_many_slices(threads):
     mesh = vorotool.delaunay(draw("uniform", 12_000, 7))
     *lines, _ = lines_of(mesh, threads=threads)

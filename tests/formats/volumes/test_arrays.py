@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.few import few
 from vorotool.errors import InputError, OutputError, UsageError
 from vorotool.formats.volumes.opening import open_volume, read_volume
 from vorotool.formats.zarr.store import check_store
@@ -38,7 +39,7 @@ def check(path, expected):
     return source
 
 
-@pytest.mark.parametrize("dtype", [bool, np.uint8, ">u2", np.int32, ">f8", np.float32, np.uint64])
+@pytest.mark.parametrize("dtype", few([bool, ">u2", np.uint64, np.uint8, np.int32, ">f8", np.float32], 3))
 @pytest.mark.parametrize("order", ["C", "F"])
 def test_npy(tmp_path, dtype, order):
     values = VALUES > 100 if dtype is bool else VALUES.astype(dtype)
@@ -94,7 +95,7 @@ def test_a_pipe(tmp_path):
 
 @pytest.mark.parametrize("dtype", [bool, np.uint8, np.int16, np.uint64, np.float32])
 @pytest.mark.parametrize("version", [2, 3])
-@pytest.mark.parametrize("leading", [(), (1, 1)])
+@pytest.mark.parametrize("leading", [(1, 1), pytest.param((), marks=pytest.mark.more)])
 def test_zarr(tmp_path, dtype, version, leading):
     values = VALUES > 100 if dtype is bool else VALUES.astype(dtype)
     chunks = (*leading, 4, 16, 20)
@@ -118,7 +119,7 @@ def pyramid(path, values, version="0.5", *, axes="tczyx", scale=(1, 1, 1.5, 0.25
 
 
 @pytest.mark.parametrize("version", ["0.4", "0.5"])
-@pytest.mark.parametrize("axes", ["zyx", "czyx", "tczyx"])
+@pytest.mark.parametrize("axes", few(["tczyx", "zyx", "czyx"], 1))
 def test_ome_zarr(tmp_path, version, axes):
     values = VALUES.astype(np.uint16).reshape((1,) * (len(axes) - 3) + VALUES.shape)
     group = pyramid(tmp_path / "a.zarr", values, version, axes=axes)
