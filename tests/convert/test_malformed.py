@@ -16,22 +16,6 @@ def closed_file():
         return file
 
 
-@pytest.mark.parametrize(
-    "value",
-    [
-        {"type": "Point", "coordinates": ["a", "b"]},
-        {"type": "Polygon", "coordinates": [[[0, 0], [1, 1]]]},
-        {"type": "LineString", "coordinates": [1, 2]},
-        "\ud800",
-        ["POINT (0 0)", "POINT (\udfff 1)"],
-        closed_file(),
-    ],
-    ids=["texts", "ring of two", "numbers", "surrogate", "surrogates", "closed file"],
-)
-@pytest.mark.parametrize("function", ["voronoi", "delaunay", "skeleton_exact", "largest_empty_discs", "tessellate"])
-def test_geometry(function, value):
-    with pytest.raises((VorotoolError, VorotoolWarning)):  # warnings are errors in tests
-        getattr(vorotool, function)(value)
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,17 @@ def geometry(kind, coordinates):
     return {"type": kind, "coordinates": coordinates}
 
 
+GEOMETRY = {
+    "Point": [5, "ab", [], [[1, 2]], [None, 1]],
+    "MultiPoint": [[1, 2], [[]], 5],
+    "Polygon": [[1, 2], [[1, 2]], [[[1, 2], [3]]], [], [[]], [[[[1, 2]]]], [None]],
+    "MultiPolygon": [[[1]], [1], 5],
+    "LineString": [[1, 2], [], ["a"]],
+}
+
+
 ODD = [
+    *(geometry(kind, each) for kind, listed in GEOMETRY.items() for each in listed),
     ...,
     int,
     len,
@@ -50,27 +60,6 @@ ODD = [
     {"type": "Feature", "geometry": 5},
     {"type": "FeatureCollection", "features": "ab"},
     {"type": "FeatureCollection", "features": {"a": 1}},
-    geometry("Point", 5),
-    geometry("Point", "ab"),
-    geometry("Point", []),
-    geometry("Point", [[1, 2]]),
-    geometry("Point", [None, 1]),
-    geometry("MultiPoint", [1, 2]),
-    geometry("MultiPoint", [[]]),
-    geometry("MultiPoint", 5),
-    geometry("Polygon", [1, 2]),
-    geometry("Polygon", [[1, 2]]),
-    geometry("Polygon", [[[1, 2], [3]]]),
-    geometry("Polygon", []),
-    geometry("Polygon", [[]]),
-    geometry("Polygon", [[[[1, 2]]]]),
-    geometry("Polygon", [None]),
-    geometry("MultiPolygon", [[1]]),
-    geometry("MultiPolygon", [1]),
-    geometry("MultiPolygon", 5),
-    geometry("LineString", [1, 2]),
-    geometry("LineString", []),
-    geometry("LineString", ["a"]),
     {"type": "GeometryCollection", "geometries": 5},
     {"type": "GeometryCollection", "geometries": [5, None]},
     {"type": "GeometryCollection"},

@@ -1,4 +1,8 @@
-"""Skeletons that are led on to their ends lose no branch: discs with stems, and letters: `--cases 800 --seed 1`."""
+"""Ends of skeletons and centerlines: `--cases 1000 --seed 1`.
+
+Skeletons of discs with stems and of letters lose no branch when they are extended; centerlines of strips of 5 to 2,000
+vertices end where their axes do.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +15,8 @@ import shapely
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import run_families
 from support.families.stems import disc_with_stems, letter, lines_of, lost, mask_of
-from vorotool import VerificationError, extend_ends, outlines, prune, skeleton_exact, verify_extended
+from support.families.strips import Strip, strip
+from vorotool import VerificationError, centerline, extend_ends, outlines, prune, skeleton_exact, verify_extended
 
 SIZES = (24, 60, 150)
 
@@ -26,8 +31,15 @@ def letters(random):
     return letter(random, SIZES[int(random.integers(3))])[1], []
 
 
-def failure(case: tuple, random: np.random.Generator) -> str | None:
-    """What is missing of a polygon or of its mask, if anything."""
+def strips(random):
+    """Draw a strip with a known axis; some drawings are none."""
+    return strip(random)
+
+
+def failure(case: tuple | Strip | None, random: np.random.Generator) -> str | None:
+    """What is missing of a polygon or of its mask, or wrong with the ends of a strip, if anything."""
+    if not isinstance(case, tuple):
+        return case and strip_failure(case)
     shape, stems = case
     mask, corner = mask_of(shape)
     for name, polygons, origin in (("polygon", shape, 0.0), ("mask", outlines(mask), corner)):
@@ -48,5 +60,16 @@ def failure(case: tuple, random: np.random.Generator) -> str | None:
     return None
 
 
+def strip_failure(made: Strip) -> str | None:
+    """What is wrong with the ends of a strip, if anything."""
+    whole = skeleton_exact(made.ring)
+    for name, skeleton in (("whole", whole), ("pruned", prune(whole, scale=1.3))):
+        ends = centerline(skeleton).ends[0]
+        off = max(np.hypot(*(ends - end).T).min() for end in made.axis[[0, -1]]) / made.width
+        if not off < 0.01:
+            return f"{name}: an end is {off:.3f} widths off"
+    return None
+
+
 if __name__ == "__main__":
-    sys.exit(run_families([discs, letters], failure, 800))
+    sys.exit(run_families([discs, letters, strips], failure, 1000))

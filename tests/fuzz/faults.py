@@ -20,7 +20,7 @@ from collections import Counter
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz import faulty_batches, faulty_places
+from fuzz import faulty
 from fuzz.write_events import Steps, announce, install
 from fuzz.writers import ENDS, WRITERS, ended, import_modules, leftovers, outputs, run, write_inputs
 from support.processes.heard_signals import hear_signals
@@ -174,16 +174,16 @@ def stages(arguments, scratch, counts):
     """The four kinds."""
     names = arguments.writers.split(",") if arguments.writers else list(WRITERS)
     known = Known(scratch / "known", names) if arguments.kills or arguments.places else None
-    pairs = faulty_batches.Pairs(scratch / "pairs") if arguments.pairs else None
+    pairs = faulty.Pairs(scratch / "pairs") if arguments.pairs else None
 
     def killed(chance):
         return kill(known, chance.choice(names), chance, counts)
 
     def placed(chance):
-        return faulty_places.trial(known, chance.choice(names), chance, counts)
+        return faulty.place_trial(known, chance.choice(names), chance, counts)
 
     def batched(chance):
-        return faulty_batches.trial(Path(tempfile.mkdtemp(dir=scratch)), chance, counts)
+        return faulty.trial(Path(tempfile.mkdtemp(dir=scratch)), chance, counts)
 
     return [
         Stage("kills", arguments.kills, killed, lambda: counts["kills that left a temporary"]),

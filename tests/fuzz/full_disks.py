@@ -16,7 +16,7 @@ import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.faulty_places import can_mount, mount
+from fuzz.faulty import can_mount, mount
 from fuzz.writers import ended, import_modules, leftovers, outputs, run, write_inputs
 from support.processes.heard_signals import hear_signals
 from vorotool.products.formats import FORMATS
