@@ -12,6 +12,7 @@ import shapely
 
 import vorotool
 from support.few import few
+from vorotool import VorotoolError
 
 FUNCTIONS = sorted(name for name in vorotool.__all__ if inspect.isfunction(getattr(vorotool, name)))
 
@@ -189,3 +190,33 @@ def test_odd_arguments(name, part, known, tmp_path, monkeypatch):
             if failed is not None and not isinstance(failed, vorotool.VorotoolError):
                 strange[f"{parameter.name} = {what}"] = repr(failed)[:200]
     assert not strange, "\n".join(f"{key}: {text}" for key, text in strange.items())
+
+
+def closed_file():
+    with pathlib.Path(__file__).open(encoding="utf-8") as file:
+        return file
+
+
+@pytest.mark.parametrize(
+    "by", [5, [[1]] * 3, [{"name": "a"}] * 3, float("nan"), np.array(3.5), object(), closed_file()]
+)
+def test_by(by):
+    with pytest.raises(VorotoolError, match="by"):
+        vorotool.voronoi(RING, by=by)
+
+
+def test_by_a_path_into_objects():
+    features = [
+        {
+            "type": "Feature",
+            "geometry": {"type": "Point", "coordinates": [x, 0]},
+            "properties": {"classification": {"name": name}},
+        }
+        for x, name in enumerate("aba")
+    ]
+    document = {"type": "FeatureCollection", "features": features}
+    assert vorotool.voronoi(document, by="classification.name").ids == ["a", "b"]
+    with pytest.raises(VorotoolError, match=r"classification\.name|column\.name"):
+        vorotool.voronoi(document, by="classification")
+    with pytest.raises(VorotoolError, match=r"classification\.color"):
+        vorotool.voronoi(document, by="classification.color")

@@ -1,6 +1,8 @@
 """Names of coordinate reference systems: one system, however its name is written."""
 
 import pytest
+from pyproj.database import query_crs_info
+from pyproj.enums import PJType
 
 from support.few import few
 from vorotool.numeric.crs import crs_member, crs_name, is_geographic, same_crs
@@ -53,3 +55,19 @@ def test_what_is_in_no_form_is_itself_alone():
 def test_longitude_and_latitude(code):
     assert is_geographic(crs_member(f"EPSG:{code}"))
     assert not is_geographic(f"EPSG:{code}0")
+
+
+GEOGRAPHIC = {PJType.GEOGRAPHIC_2D_CRS, PJType.GEOGRAPHIC_3D_CRS}
+
+
+def test_all_codes_are_known_for_what_they_are():
+    known = query_crs_info(auth_name="EPSG", allow_deprecated=True)
+    assert len(known) > 5000
+    # codes that came after the table was made are in a newer registry only
+    newest = max(int(each.code) for each in known if is_geographic(f"EPSG:{each.code}"))
+    wrong = [
+        each.code
+        for each in known
+        if is_geographic(f"EPSG:{each.code}") != (each.type in GEOGRAPHIC) and int(each.code) <= newest
+    ]
+    assert len(wrong) <= 5, wrong

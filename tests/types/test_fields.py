@@ -1,6 +1,7 @@
 """Values declare their fields: these are checked and read-only, and arrays of the caller stay as they are."""
 
 from dataclasses import fields, replace
+from fractions import Fraction
 from importlib import import_module
 
 import numpy as np
@@ -8,10 +9,12 @@ import pytest
 import shapely
 
 import vorotool
-from vorotool import InputError
+from vorotool import InputError, UsageError
 from vorotool.numeric.equality import is_equal
 from vorotool.types import fields as f
 from vorotool.types.fields import Meaning, Record, declared, record, with_y_axis
+from vorotool.types.scaling import scaled, scaled_table
+from vorotool.types.table import Table
 from vorotool.types.values import Value
 
 ROOM = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5], [4, 4], [0, 4]]
@@ -129,3 +132,35 @@ def test_an_axis_is_that_of_all_values_in_one():
     assert [shape.y_axis for shape in with_y_axis(found, "down").shapes] == ["down", "down"]
     cells = vorotool.voronoi([[0, 0], [4, 1]], enclosures=[shapely.LineString([(0, 3), (9, 3)])])
     assert with_y_axis(cells, "down").enclosures.y_axis == with_y_axis(cells, "down").y_axis == "down"
+
+
+THIRD = Fraction(1, 3)
+
+
+def test_ties_are_decided_as_before():
+    """A third of a lattice is no lattice: what was cocircular stays so."""
+    lattice = np.array([[x, y] for x in range(5) for y in range(5)], dtype=float)
+    mesh = vorotool.delaunay(lattice)
+    found = scaled(mesh, THIRD)
+    assert found.triangles is mesh.triangles
+    assert np.array_equal(found.points, lattice / 3)
+
+
+def test_skeletons_with_frame():
+    skeleton = vorotool.skeleton_exact([[0, 0], [9, 0], [9, 9], [5, 3], [0, 9]], side="both", frame=(-3, -3, 15, 15))
+    found = scaled(skeleton, THIRD)
+    assert np.allclose(found.frame, np.array(skeleton.frame) / 3, rtol=1e-15)
+    assert np.array_equal(found.on_frame, skeleton.on_frame)
+    assert np.allclose(found.length, skeleton.length / 3, rtol=1e-15)
+    assert np.array_equal(np.isnan(found.control), np.isnan(skeleton.control))
+
+
+def test_missing_fields_stay_missing():
+    table = scaled_table(Table({"x": np.ma.array([3.0, 0], mask=[False, True]), "area": [9, 18]}), THIRD)
+    assert table["x"].tolist() == [1.0, None]
+    assert table["area"].tolist() == [1.0, 2.0]
+
+
+def test_what_has_no_size():
+    with pytest.raises(UsageError, match="a list cannot be scaled"):
+        scaled([1, 2], THIRD)

@@ -1,11 +1,14 @@
-"""Where the names of regions are written, compared with a distance transform of each region."""
+"""Names and colors of regions, compared with a distance transform and with neighborhoods."""
 
 import numpy as np
 import pytest
 from scipy import ndimage
 
+import vorotool
 from vorotool import tessellate
 from vorotool.engines.label_images.label_places import label_places, name_places
+from vorotool.engines.label_images.object_colors import object_colors
+from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.label_image import LabelImage
@@ -58,3 +61,26 @@ def test_objects_are_named_where_they_are():
     assert places[[0, 2]].tolist() == [[6, 4], [30, 30]]
     points = tessellate([[5, 5], [30, 20]], shape=(30, 40))
     assert name_places(points)[1].tolist() == label_places(points)[1].tolist()
+
+
+def scattered(seed, largest=2**32 - 1):
+    rng = np.random.default_rng(seed)
+    image = np.zeros((60, 70), np.uint32)
+    for label in rng.integers(1, largest, 25):
+        x, y, w, h = rng.integers(0, 60), rng.integers(0, 50), rng.integers(1, 9), rng.integers(1, 9)
+        image[y : y + h, x : x + w] = label
+    return image
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_neighbors_differ_across_the_background(seed):
+    image = scattered(seed)
+    labels, colors = object_colors(LabelImage(image))
+    assert labels.tolist() == np.unique(image)[1:].tolist()
+    of = dict(zip(labels.tolist(), colors.tolist(), strict=True))
+    influence = vorotool.tessellate(vorotool.seeds_from_raster(image, mode="labels"))
+    measures = measure_regions(influence)
+    pairs = measures.labels[measures.borders]
+    assert len(pairs)
+    assert all(of[a] != of[b] for a, b in pairs.tolist())
+    assert len(set(colors.tolist())) > 1

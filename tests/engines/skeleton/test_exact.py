@@ -1,6 +1,7 @@
 """Skeletons: known shapes, random ones through the checker, and what must not change them."""
 
 import warnings
+from dataclasses import replace
 from math import sqrt
 from pathlib import Path
 
@@ -10,12 +11,13 @@ import pytest
 import vorotool
 from support.families.skeleton_shapes import FAMILIES, under_symmetries
 from support.few import few
+from vorotool.engines.offsets.verify_offsets import verify_offsets
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
 from vorotool.engines.skeleton.exact import shape_diagram
 from vorotool.engines.skeleton.exact import skeleton_of as skeleton_of_shapes
 from vorotool.engines.skeleton.shortened_edges import element_diagram, exact_for, gap_deviation
 from vorotool.engines.skeleton.verify_skeleton import verify_exterior
-from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.errors import InputError, UsageError, VerificationError, VorotoolWarning
 from vorotool.types.box import default_frame
 from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR
 
@@ -211,3 +213,30 @@ def test_a_corner_of_nearly_180_degrees_is_joined_too():
         corners = made.vertices[made.radius == 0]
         assert sorted(map(tuple, corners.tolist())) == sorted(map(tuple, shape))
     assert len(skeleton_of([[0, 0], [9, 0], [9, 9], [0, 9]], gap=1, side="exterior")) == 0
+
+
+WITH_FAR_HOLES = {"shell": [[0, 0], [80, 0], [72, 60], [0, 56]], "holes": [[[20, 20], [20, 44], [50, 2**32]]]}
+
+
+def quietly(make, *arguments, **options):
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):  # the hole is cut off
+        return make([WITH_FAR_HOLES], *arguments, **options)
+
+
+@pytest.mark.parametrize("features", ["separate", "together"])
+@pytest.mark.parametrize("side", ["interior", "both"])
+@pytest.mark.parametrize("gap", [0, 1])
+def test_skeletons_are_right(features, side, gap):
+    skeleton = quietly(vorotool.skeleton_exact, features=features, side=side, gap=gap)
+    vorotool.verify_skeleton(skeleton)
+    radius = skeleton.radius.copy()
+    radius[radius.argmax()] += 2.0**-15 if gap == 0 else 8.0  # 64 times what 2^31 is rounded by; two steps
+    with pytest.raises(VerificationError):
+        vorotool.verify_skeleton(replace(skeleton, radius=radius))
+
+
+@pytest.mark.parametrize("features", ["separate", "together"])
+@pytest.mark.parametrize("distances", [[-1], [1, -1]])
+def test_offsets_are_right(features, distances):
+    offsets = quietly(vorotool.offset, distances, features=features)
+    verify_offsets(offsets, distances=distances)

@@ -1,8 +1,9 @@
-"""Layers, their page, and both kinds of pictures of them."""
+"""Layers, their page, palettes and glyphs, and both kinds of pictures."""
 
 from __future__ import annotations
 
 import io
+import itertools
 import re
 import xml.etree.ElementTree as ET
 
@@ -10,12 +11,16 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from scipy import ndimage
+from skimage.color import deltaE_ciede2000, rgb2lab
 
 from vorotool.errors import LimitError
 from vorotool.formats.images.png_writer import write_png
 from vorotool.render.canvas import svg as layers_svg
+from vorotool.render.canvas.glyphs import text_cells
 from vorotool.render.canvas.layers import Lines, Page, Points, Polygons, Texts, bounds_of
 from vorotool.render.canvas.png import check_picture_size, layer_bands
+from vorotool.render.canvas.styles import CELLS, LINE, SEED, picture_palette
 from vorotool.render.canvas.svg import write_layers_svg
 
 NS = "{http://www.w3.org/2000/svg}"
@@ -159,3 +164,70 @@ def test_bands_make_a_png():
     out = io.BytesIO()
     write_png(out, layer_bands([HOLED], page), (page.height, page.width), rgb=True)
     np.testing.assert_array_equal(np.asarray(Image.open(out)), picture(HOLED, width=333, bounds=(0, 0, 16, 8)))
+
+
+def glyph_picture(text):
+    owner, cells, is_ink = text_cells([text])
+    assert not owner.any()
+    made = np.zeros((15, 6 * len(text) + 15), np.uint8)
+    x, y = (cells + np.array([made.shape[1] // 2, 7])).T
+    made[y, x] = np.where(is_ink, 2, 1)
+    return made
+
+
+@pytest.mark.parametrize("text", ["0", "8", "17", "lake 5", "ÄÖ", "~"])
+def test_the_halo_is_what_touches_the_ink(text):
+    made = glyph_picture(text)
+    np.testing.assert_array_equal(made > 0, ndimage.binary_dilation(made == 2, np.ones((3, 3))))
+
+
+def test_all_digits_and_letters_differ():
+    letters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+    assert len({glyph_picture(letter).tobytes() for letter in letters}) == len(letters)
+
+
+# normal vision, severe protanopia, deuteranopia and tritanopia, on linear RGB (Machado et al. 2009, table 1)
+DEFICIENCIES = [
+    np.eye(3),
+    [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+    [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+    [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+]
+
+
+def as_seen(names: list[str], deficiency: object) -> np.ndarray:
+    rgb = np.array([list(bytes.fromhex(name[1:])) for name in names]) / 255
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    seen = np.clip(linear @ np.transpose(deficiency), 0, 1)
+    return rgb2lab(np.where(seen <= 0.0031308, seen * 12.92, 1.055 * seen ** (1 / 2.4) - 0.055))
+
+
+@pytest.mark.parametrize(("count", "least"), [(4, 12.0), (8, 10.0), (12, 8.0)])
+@pytest.mark.parametrize("deficiency", DEFICIENCIES)
+def test_cells_are_distinct_in_any_color_vision(count: int, least: float, deficiency: object) -> None:
+    lab = as_seen(list(CELLS[:count]), deficiency)
+    for a, b in itertools.combinations(range(count), 2):
+        assert deltaE_ciede2000(lab[a], lab[b]) > least, (CELLS[a], CELLS[b])
+
+
+@pytest.mark.parametrize("deficiency", DEFICIENCIES)
+def test_lines_and_seeds_stand_out(deficiency: object) -> None:
+    lab = as_seen([LINE, SEED, *CELLS], deficiency)
+    for dark in lab[:2]:
+        assert (deltaE_ciede2000(dark[None], lab[2:]) > 25).all()
+
+
+@pytest.mark.parametrize(
+    ("classes", "entries", "bit_depth"), [(0, 15, 4), (12, 15, 4), (13, 16, 4), (14, 17, 8), (253, 256, 8)]
+)
+def test_palette_fits_its_bits(classes: int, entries: int, bit_depth: int) -> None:
+    palette = picture_palette(classes)
+    assert palette.colors.shape == (entries, 3)
+    assert palette.bit_depth == bit_depth
+    assert palette.colors[[0, palette.line]].tolist() == [[255] * 3, [0] * 3]
+    assert palette.seed == entries - 1
+
+
+def test_too_many_classes() -> None:
+    with pytest.raises(LimitError, match="254 color classes"):
+        picture_palette(254)

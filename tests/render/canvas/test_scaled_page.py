@@ -1,6 +1,7 @@
 """Pictures to scale, read back with their sizes, and in the colors and widths that are chosen."""
 
 import io
+import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from vorotool.errors import UsageError
 from vorotool.formats.drawing.svg_reader import read_svg
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.render.canvas.layers import Arcs, Curves, Lines, Points, Polygons, Texts
+from vorotool.render.canvas.layers import Arcs, Curves, Lines, Page, Points, Polygons, Texts
 from vorotool.render.canvas.scaled_page import ScaledPage, styled_layers
 from vorotool.render.canvas.styles import WHITE, PictureStyle
 from vorotool.render.canvas.svg import write_layers_svg
@@ -83,3 +84,17 @@ def test_colors_and_widths_of_all_layers():
     assert made[3].colors == ["#111111", "#222222"]
     assert [layer.width for layer in made if hasattr(layer, "width")] == [7.0] * 5
     assert styled_layers(layers, PictureStyle()) == layers
+
+
+CONTROLS = [*map(chr, range(0x20)), "\ud800", "\udfff", "\ufffe", "\uffff", "]]>", "&<>\"'"]
+
+
+@pytest.mark.parametrize("text", CONTROLS, ids=lambda text: "-".join(f"{ord(each):04x}" for each in text))
+def test_every_character_gives_xml(text):
+    page = Page((0, 0, 9, 9), width=100, y_up=False)
+    out = io.BytesIO()
+    write_layers_svg(out, [Texts("labels", np.array([[1.0, 1.0]]), [f"v{text}v"])], page)
+    root = ET.fromstring(out.getvalue().decode())
+    (found,) = [each.text for each in root.iter("{http://www.w3.org/2000/svg}text")]
+    kept = text if text.isprintable() or text in "\t\n\r" else "\ufffd"
+    assert found == f"v{kept}v".replace("\r", "\n")

@@ -8,7 +8,9 @@ import shapely
 from tests.support.families.site_families import mixed_sites
 
 from vorotool import UsageError, voronoi
+from vorotool.types.voronoi import site_shapes
 from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
+from vorotool.types.voronoi.site_shapes import site_distances
 
 WALL_AND_TREE = [shapely.LineString([(0, 0), (8, 0)]), shapely.Point(4, 2)]
 
@@ -88,3 +90,25 @@ def test_as_a_value(cells):
     assert [len(polygons) for polygons in (cells.rings_of(0), cells.rings_of(1))] == [1, 1]
     with pytest.raises(UsageError, match="tolerance"):
         cells.to_shapely(flatten=0)
+
+
+@pytest.mark.parametrize("most", [1, 1 << 20])
+def test_distances_are_those_of_shapely(most, monkeypatch):
+    monkeypatch.setattr(site_shapes, "_MANY", most)
+    for seed in range(12):
+        random = np.random.default_rng(seed)
+        sites = mixed_sites(random, 8)
+        by = random.integers(4, size=8)
+        by[:4] = range(4)
+        joined = [shapely.union_all([sites[k] for k in np.flatnonzero(by == each)]) for each in range(4)]
+        pairs = np.stack(np.triu_indices(4, 1), axis=1)
+        expected = shapely.distance(*np.array(joined)[pairs].T)
+        np.testing.assert_allclose(site_distances(voronoi(sites, by=by), pairs), expected, atol=1e-12)
+
+
+def test_neighbors_have_the_distance_between_them():
+    sites = [shapely.box(0, 0, 2, 2), shapely.box(2, 0, 4, 2), shapely.box(7, 0, 9, 2), shapely.Point(8, 1)]
+    rows = voronoi(sites).neighbors
+    assert rows["label_a"].tolist() == [1, 2]
+    assert rows["distance"].tolist() == [0, 3]
+    assert voronoi([shapely.Point(0, 0)]).neighbors["distance"].tolist() == []

@@ -1,7 +1,4 @@
-"""Arrays that begin at any byte, as those of a message do: the engines take them, and make of them what they are.
-
-What is wrong with reading such values where they are, the sanitized build reports (`make sanitize`).
-"""
+"""Arrays of users: unaligned ones are taken, and ones that change meanwhile end no engine in a crash."""
 
 from dataclasses import fields, replace
 
@@ -9,6 +6,8 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.few import few
+from support.processes.ended import ended_python
 
 RANDOM = np.random.default_rng(7)
 POINTS = RANDOM.random((300, 2))
@@ -73,3 +72,58 @@ def test_results_that_are_read_again():
     skeleton = vorotool.skeleton_exact([RING])
     vorotool.verify_skeleton(with_unaligned_fields(skeleton))
     same(vorotool.prune(with_unaligned_fields(skeleton), angle=1.0), vorotool.prune(skeleton, angle=1.0))
+
+
+MUTATED = """
+import threading
+import numpy as np
+import vorotool
+random = np.random.default_rng(5)
+{made}
+going = True
+def change():
+    while going:
+        given[...] = {value}
+thread = threading.Thread(target=change)
+thread.start()
+try:
+    for _ in range(8):
+        {work}
+finally:
+    going = False
+    thread.join()
+print("done")
+"""
+MANY_POINTS = {"made": "given = random.random((20000, 2))", "value": "random.random(given.shape)"}
+MANY_LABELS = {
+    "made": "given = random.integers(0, 3, (600, 600)).astype(np.uint8)",
+    "value": "random.integers(0, 3, given.shape, dtype=np.uint8)",
+}
+SEEDS = {
+    "made": "given = random.integers(0, 500, (2, 20000)); labels = np.arange(1, 20001, dtype=np.uint32)",
+    "value": "random.integers(-9000, 9000, given.shape)",
+}
+
+
+@pytest.mark.parametrize(
+    ("parts", "work"),
+    few(
+        [
+            (MANY_POINTS, "vorotool.verify_triangulation(vorotool.delaunay(given))"),
+            (MANY_LABELS, "vorotool.outlines(given, mode='labels')"),
+            (SEEDS, "vorotool.tessellate(vorotool.SeedSet(given[0], given[1], labels), shape=(500, 500))"),
+            (MANY_POINTS, "vorotool.alpha_complex(given)"),
+            (MANY_POINTS, "vorotool.voronoi_cells(vorotool.delaunay(vorotool.PointSet(given)))"),
+            (MANY_POINTS, "vorotool.tessellate(given * 200, shape=(200, 200))"),
+            (MANY_POINTS, "vorotool.skeleton_exact(given[:200])"),
+            (MANY_POINTS, "vorotool.planar_graph(given[:300])"),
+            (MANY_LABELS, "vorotool.region_table(vorotool.LabelImage(given))"),
+            (MANY_LABELS, "vorotool.seeds_from_raster(given, mode='components')"),
+        ],
+        3,
+    ),
+)
+def test_an_engine_ends_whatever_becomes_of_its_input(parts, work):
+    program = MUTATED.format(work=work, **parts)
+    done = ended_python("-W", "ignore", "-X", "faulthandler", "-c", program)
+    assert done.stdout == "done\n", done.stderr[-2000:]
