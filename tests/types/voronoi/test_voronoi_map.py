@@ -8,9 +8,9 @@ import shapely
 from tests.support.families.site_families import mixed_sites
 
 from vorotool import UsageError, voronoi
-from vorotool.types.voronoi import site_shapes
+from vorotool.types.voronoi import tables
 from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
-from vorotool.types.voronoi.site_shapes import site_distances
+from vorotool.types.voronoi.tables import site_distances
 
 WALL_AND_TREE = [shapely.LineString([(0, 0), (8, 0)]), shapely.Point(4, 2)]
 
@@ -94,7 +94,7 @@ def test_as_a_value(cells):
 
 @pytest.mark.parametrize("most", [1, 1 << 20])
 def test_distances_are_those_of_shapely(most, monkeypatch):
-    monkeypatch.setattr(site_shapes, "_MANY", most)
+    monkeypatch.setattr(tables, "_MANY", most)
     for seed in range(12):
         random = np.random.default_rng(seed)
         sites = mixed_sites(random, 8)
