@@ -1,6 +1,5 @@
 """What goes wrong with inputs, and what is said: exit codes 3 to 5, limits and signals (a test each)."""
 
-import json
 import resource
 import signal
 import struct
@@ -98,31 +97,6 @@ def test_pickled_npy_is_never_unpickled(run, folder):
     assert "object" in done.err or "pickle" in done.err
 
 
-def test_a_photograph_is_not_taken_for_labels(run, folder):
-    from PIL import Image
-
-    noise = np.random.default_rng(0).integers(0, 256, (80, 90), dtype=np.uint8)
-    Image.fromarray(noise).save(folder / "photo.png")
-    done = run("tessellate", "photo.png", "-o", "out.png")
-    assert done.code == 3
-    assert "--threshold" in done.err
-    assert run("tessellate", "photo.png", "-o", "out.png", "--threshold", "otsu").code == 0
-    assert run("tessellate", "photo.png", "-o", "out.png", "--threshold", "250").code == 0
-    Image.fromarray(np.stack([noise, noise.T[:80, :80].repeat(2, 1)[:, :90], noise], axis=2)).save(folder / "rgb.png")
-    done = run("tessellate", "rgb.png", "-o", "out.png")
-    assert done.code == 3
-    assert "--threshold" in done.err
-    assert run("tessellate", "rgb.png", "-o", "out.png", "--threshold", "otsu").code == 0
-
-
-def test_missing_input(run):
-    assert "name of the input is empty" in run("tessellate", "", "-o", "a.png").err
-    done = run("tessellate", "nowhere.csv", "-o", "a.png")
-    assert done.code == 3
-    assert "nowhere.csv" in done.err
-    assert run("tessellate", ".", "-o", "a.png").code == 2
-
-
 def test_limits_are_known_before_memory_is_taken(run, folder):
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     done = run("tessellate", "dots.csv", "--size", "60000x60000", "--what", "table")
@@ -195,37 +169,11 @@ def test_an_interrupt_ends_quietly_where_exceptions_are_swallowed(number, code):
     assert child.returncode == code
 
 
-def test_version(run):
-    done = run("--version")
-    assert done.code == 0
-    assert "vorotool" in done.out
-
-
-@pytest.mark.parametrize("kind", ["npy", "tif", "zarr"])
+@pytest.mark.parametrize("kind", ["npy", "zarr"])
 def test_labels_that_do_not_fit_the_type_are_a_limit(run, folder, kind):
     (folder / "many.csv").write_text("".join(f"{i},0\n" for i in range(300)))
     done = run("tessellate", "many.csv", "-o", f"a.{kind}", "--dtype", "uint8")
     assert (done.code, "--dtype" in done.err) == (5, True)
-
-
-@pytest.mark.parametrize(
-    ("command", "threshold"),
-    [("tessellate", 9), ("delaunay", 9), ("alphashape", 9), ("skeleton-exact", 9), ("skeleton-approx --step 1", 9)],
-)
-def test_the_threshold_is_said_and_counted(run, folder, command, threshold):
-    values = np.array([[9, 3, 3, 9, 3], [3, 200, 200, 200, 9], [3, 200, 210, 200, 9], [3, 9, 220, 9, 200]], np.uint8)
-    np.save(folder / "grey.npy", values)
-    common = (*command.split(), "grey.npy", "--what", "table", "--stats", "s.json", "-o", "a.json")
-    common = tuple(word for word in common if command != "alphashape" or word not in ("--what", "table"))
-    done = run(*common, "--threshold", "otsu")
-    assert done.code in (0, 3)
-    assert f"threshold {threshold}" in done.err
-    if done.code == 0:
-        assert json.loads((folder / "s.json").read_text())["threshold"] == threshold
-    done = run(*common, "--threshold", "4.5")
-    assert "Otsu" not in done.err
-    if done.code == 0:
-        assert json.loads((folder / "s.json").read_text())["threshold"] == 4.5
 
 
 def test_a_failure_leaves_standard_output_as_it_is(run, folder, monkeypatch):

@@ -39,6 +39,8 @@ USAGE = {
     "completion csh": "'bash', 'zsh', 'fish'",
     "sample dot": "'dot'",
     "--color": "--color",
+    "delauney dots.csv": "'delauney'",
+    "skeleton_exact dots.csv": "did you mean skeleton-exact",
     # ---- what another kind of input has
     "tessellate mask.pbm -o a.png --columns 1,2": "but the input is an image",
     "delaunay mask.pbm --method digital --size 9x9": "--size",

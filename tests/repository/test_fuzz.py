@@ -82,6 +82,7 @@ def test_no_kind_of_faults_is_left_out():
     assert done.stdout == "wrong: batches: none was run\n1 failures\n"
 
 
+@pytest.mark.slow
 def test_other_machines_are_compared_at_once(script_here):
     code, out, complaints = script_here("machines.py", "--seconds", "0", "--few", "3")
     assert (code, complaints) == (0, "")
@@ -89,9 +90,9 @@ def test_other_machines_are_compared_at_once(script_here):
 
 
 def test_all_that_failed_is_told():
-    passed = ended_python(FUZZ / "together.py", "--minutes", "0.005", "--only", "planar_graph.py", "rotation.py")
+    passed = ended_python(FUZZ / "together.py", "--minutes", "0.005", "--only", "planar_graph.py")
     assert (passed.returncode, passed.stderr) == (0, "")
-    assert passed.stdout.splitlines()[-1] == "2 scripts in 0.005 minutes, 0 of them failed"
+    assert passed.stdout.splitlines()[-1] == "1 scripts in 0.005 minutes, 0 of them failed"
     failed = ended_python(FUZZ / "together.py", "--minutes", "0", "--only", "planar_graph.py")
     assert (failed.returncode, failed.stderr) == (1, "")
     assert "planar_graph.py      FAILED" in failed.stdout

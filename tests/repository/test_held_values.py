@@ -134,16 +134,6 @@ POLYGON_FUNCTIONS = {
 }
 
 
-@pytest.mark.parametrize(
-    ("function", "form"),
-    some(POLYGON_FUNCTIONS, POLYGON_FORMS, {"planar_graph", "clip"}, ["MultiPolygon", "GeoSeries", "PolygonSet"]),
-)
-def test_polygons(function, form):
-    call, _, read = POLYGON_FUNCTIONS[function]
-    expected = read(call([HOUSE, YARD]))
-    assert np.array_equal(read(call(POLYGON_FORMS[form])), expected)
-
-
 NO_POLYGONS = {
     "None": None,
     "number": 5,
@@ -297,19 +287,6 @@ def test_narrow_arrays_of_integers_are_points_unless_they_are_said_to_be_images(
         assert _shown(made) == _shown(same)
     with pytest.raises(UsageError, match="invalid image 2: expected True, False or None"):
         function(narrow, image=2)
-
-
-def test_a_narrow_mask_is_an_image():
-    mask = np.array([[1, 0], [0, 0], [0, 1]], dtype=bool)
-    assert v.tessellate(mask).labels.shape == (3, 2)
-    with pytest.raises(InputError, match=r"^invalid seeds: .*give shape=\(D, H, W\) as well; seeds\[:, :2\]"):
-        v.tessellate(mask.repeat(2, axis=1)[:, :3].astype(int))
-
-
-def test_polygons_as_seeds_say_what_to_do():
-    for source in (PARCELS, PARCELS.to_frame("outline"), [HOUSE], HOUSE.wkt, v.outlines(LABELS)):
-        with pytest.raises(InputError, match=r"^invalid seeds: .*polygons .*rasterized\(polygons, frame\)"):
-            v.tessellate(source)
 
 
 # ---- frames, index, imports ---------------------------------------------------------------------------

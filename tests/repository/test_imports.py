@@ -32,8 +32,8 @@ def test_neither_help_nor_completion_loads_a_heavy_module():
     assert "plain,table" in third
 
 
-UNUSED = {"zarr", "numcodecs", "dask", "distributed", "networkx", "pandas", "geopandas", "pyarrow", "matplotlib"}
-UNUSED |= {"imageio", "svgelements", "ezdxf"}  # which are for inputs of other kinds
+UNUSED = {"zarr", "numcodecs", "dask", "distributed", "networkx", "pandas", "geopandas", "pyarrow", "pyogrio", "pyproj"}
+UNUSED |= {"imageio", "svgelements", "ezdxf", "matplotlib"}  # which are for inputs of other kinds
 UNUSED |= {"vorotool.batch"}  # for many inputs
 
 

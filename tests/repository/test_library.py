@@ -40,12 +40,6 @@ def test_options(options, message):
         vorotool.tessellate(POINTS, **{"shape": SHAPE, **options})
 
 
-@pytest.mark.parametrize("kind", [np.float32, np.float64, np.int64, int])
-def test_numbers_of_any_kind_limit_the_distance(kind):
-    found = vorotool.tessellate(POINTS, shape=SHAPE, max_distance=kind(2)).labels
-    np.testing.assert_array_equal(found, vorotool.tessellate(POINTS, shape=SHAPE, max_distance=2.0).labels)
-
-
 def test_empty_points_are_left_out_with_a_warning():
     with pytest.warns(vorotool.VorotoolWarning, match="feature at index 1 has no geometry"):
         made = vorotool.tessellate([shapely.Point(1, 1), shapely.Point()], shape=(2, 2))
@@ -65,13 +59,6 @@ def test_empty_points_are_left_out_with_a_warning():
 def test_geometry_that_is_no_point(geometry, message):
     with pytest.raises(InputError, match=message):
         vorotool.tessellate(geometry, shape=SHAPE)
-
-
-def test_points_of_shapely():
-    expected = vorotool.tessellate(POINTS, shape=SHAPE).labels
-    for points in (shapely.MultiPoint(POINTS), [shapely.MultiPoint(POINTS)], [shapely.Point(p) for p in POINTS]):
-        np.testing.assert_array_equal(vorotool.tessellate(points, shape=SHAPE).labels, expected)
-    assert (vorotool.tessellate(shapely.Point(1, 1), shape=SHAPE).labels == 1).all()
 
 
 def test_arrays_are_taken_for_images():
@@ -113,11 +100,6 @@ def test_arrays_are_taken_for_images():
 def test_seeds_that_are_no_integers(x, labels, message):
     with pytest.raises(InputError, match=message):
         vorotool.SeedSet(x, [1, 2], labels)
-
-
-def test_whole_floats_are_integers():
-    seeds = vorotool.SeedSet([1.0, -2.0], np.array([1, 2], np.uint8), [3.0, 2.0**32 - 1])
-    assert (seeds.x.tolist(), seeds.labels.tolist()) == ([1, -2], [3, 2**32 - 1])
 
 
 def test_points_that_are_none():

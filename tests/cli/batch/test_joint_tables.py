@@ -29,16 +29,12 @@ def read(path):
     return pandas.read_csv(path, sep="\t" if path.suffix == ".tsv" else ",", dtype=str)
 
 
-@pytest.mark.parametrize("ending", ["csv", "tsv", "json"])
 @pytest.mark.parametrize(
-    ("command", "what", "rows"),
+    ("command", "what", "rows", "ending"),
     [
-        ("tessellate", "table", [2, 0, 1, 3]),
-        ("tessellate", "neighbors", [1, 0, 0, 2]),
-        ("delaunay", "statistics", [7, 7, 7, 7]),
-        ("delaunay", "edges", [1, 0, 0, 3]),
-        ("skeleton-exact", "branches", [2, 0, 1, 3]),
-        ("voronoi", "neighbors", [1, 0, 0, 2]),
+        ("tessellate", "neighbors", [1, 0, 0, 2], "csv"),
+        ("delaunay", "statistics", [7, 7, 7, 7], "tsv"),
+        ("skeleton-exact", "branches", [2, 0, 1, 3], "json"),
     ],
 )
 def test_rows_of_any_result_are_collected(run, plates, tmp_path, command, what, rows, ending):
@@ -83,36 +79,3 @@ def test_inputs_that_fail_have_a_row(run, plates, tmp_path):
     assert found["status"] == "failed"
     assert pandas.isna(found["count"])
     assert "torn.png" in found["error"]
-
-
-def test_one_input(run, plates, tmp_path):
-    source = plates / "P1/A01_1.png"
-    options = ("--table", tmp_path / "t.csv", "--table-inputs", tmp_path / "i.csv", "--fields", FIELDS, "-q")
-    run("tessellate", source, "--what", "neighbors", *options)
-    assert read(tmp_path / "t.csv")["well"].tolist() == ["A01"]
-    assert read(tmp_path / "i.csv")[["input", "count"]].to_numpy().tolist() == [[str(source), "1"]]
-
-
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        (("--table", "t.csv", "--fields", "(?P<a>"), "'(?P<a>'"),
-        (("--table", "t.csv", "--fields", "abc"), "?P<name>"),
-        (("--out-dir", "out", "--fields", "(?P<a>b)"), "--fields"),
-        (("--table", "t.csv", "--what", "table,neighbors"), "--what table,neighbors"),
-        (("--table", "t.csv", "--what", "labels"), "labels"),
-        (("--table", "t.csv", "--table-inputs", "i.png"), "i.png"),
-        (("--table", "t.csv", "--table-inputs", "t.csv"), "t.csv"),
-    ],
-)
-def test_refusals(run, plates, options, said):
-    for source in (plates, plates / "P1/A01_1.png"):
-        done = run("tessellate", source, *options)
-        assert done.code == 2, (done.code, done.err)
-        assert said in done.err
-
-
-def test_names_that_do_not_match_are_noted(run, plates, tmp_path):
-    done = run("tessellate", plates, "--table", tmp_path / "t.csv", "--fields", FIELDS)
-    assert "1 of 4" in done.err
-    assert "odd.png" in done.err

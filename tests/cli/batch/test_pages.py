@@ -45,16 +45,7 @@ def test_packed_stacks_have_pages(run, stack):
     assert (np.load(stack / "out/moving-p001.npy") == np.load(stack / "out/stack-p001.npy")).all()
 
 
-def test_a_layer_beside_a_stack_has_no_pages(run, stack):
-    run("sample", "streets.geojson", "-o", "streets.geojson")
-    assert run("voronoi", "streets.geojson", "-o", "map.gpkg", "-q").code == 0
-    options = ("--page", "all", "--out-dir", "out", "-f", "geojson", "-q")
-    done = run("skeleton-exact", "stack.tif", "map.gpkg:cells", *options)
-    assert done.code == 0, done.err
-    assert (stack / "out/map.cells.geojson").exists()
-
-
-COMMANDS = ["delaunay --seeds pixels", "skeleton-exact", "draw", "alphashape --seeds pixels -r 9"]
+COMMANDS = ["delaunay --seeds pixels", "draw"]
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -64,21 +55,6 @@ def test_other_commands(run, stack, command):
     assert len(list((stack / "out").glob("stack-p00?.svg"))) == 3
     assert run(*command.split(), "stack.tif", "--page", "1", "-o", "one.svg", "-q").code == 0
     assert (stack / "one.svg").read_bytes() == (stack / "out/stack-p001.svg").read_bytes()
-
-
-def test_folders_hold_all_kinds(run, stack):
-    folder = stack / "in"
-    folder.mkdir()
-    (stack / "stack.tif").rename(folder / "stack.tif")
-    images = [Image.fromarray(page) for page in PAGES[:2]]
-    images[0].save(folder / "moving.gif", save_all=True, append_images=images[1:])
-    images[0].save(folder / "still.png")
-    (folder / "dots.csv").write_text("x,y\n2,1\n7,5\n1,6\n")
-    done = run("tessellate", "in", "--page", "all", "--out-dir", "out", "-f", "npy", "-q")
-    assert done.code == 0, done.err
-    names = sorted(path.stem for path in (stack / "out").glob("*.npy"))
-    assert names == ["dots", "moving-p000", "moving-p001", *(f"stack-p00{k}" for k in range(3)), "still-p000"]
-    assert (np.load(stack / "out/moving-p001.npy") == np.load(stack / "out/stack-p001.npy")).all()
 
 
 def test_plans_and_what_was_done_before(run, stack):
@@ -111,27 +87,6 @@ def test_a_page_that_fails(run, stack):
     (stack / "cut.tif").write_bytes((stack / "stack.tif").read_bytes()[:100])
     done = run("tessellate", "cut.tif", "--page", "all", "--out-dir", "out", "--keep-going")
     assert (done.code, "error: cut.tif" in done.err) == (6, True)
-
-
-@pytest.mark.parametrize(
-    ("options", "code", "words"),
-    [
-        ("stack.tif --page all -o a.png", 2, "name a folder for all with --out-dir"),
-        ("stack.tif --page all", 2, "name a folder for their outputs with --out-dir"),
-        ("stack.tif --page -1 -o a.png", 2, "'-1'"),
-        ("stack.tif --page x -o a.png", 2, "'x'"),
-        (
-            "stack.tif -o a.png",
-            3,
-            "stack.tif has 3 pages: choose one with --page 0 to --page 2, or --page all, or read them as a volume with "
-            "tessellate --volume",
-        ),
-        ("- --page all --out-dir out", 2, "- is standard input"),
-    ],
-)
-def test_what_is_refused(run, stack, options, code, words):
-    done = run("tessellate", *options.split())
-    assert (done.code, words in done.err) == (code, True), done.err
 
 
 @pytest.mark.slow

@@ -1,23 +1,18 @@
 """All that takes long reports in one way, and a terminal shows it by the names of the phases."""
 
-import ast
 import json
 from pathlib import Path
 
 import pytest
 
-import vorotool
 from vorotool.cli.run import progress_bar
 from vorotool.jobs.run_log import Run
 
-PACKAGE = Path(vorotool.__file__).parent
 DATA = Path(__file__).parents[3] / "data"
 RUNS = [
     ("tessellate", DATA / "dots.csv", "--what", "table"),
-    ("delaunay", DATA / "dots.csv", "--what", "cells"),
     ("delaunay", DATA / "dots.csv", "--method", "digital"),
     ("alphashape", DATA / "dots.csv"),
-    ("skeleton-exact", DATA / "two-shapes.json", "--prune", "angle=60"),
     ("skeleton-exact", DATA / "two-shapes.json", "--side", "both", "--what", "centerline"),
     ("skeleton-exact", DATA / "two-shapes.json", "--what", "offset", "-d", "3"),
     ("skeleton-approx", DATA / "two-shapes.json", "--step", "4"),
@@ -40,13 +35,3 @@ def test_a_bar_shows_the_fraction_that_is_done(capfd):
         show(0.25)
         show(1)
     assert "sweep" in capfd.readouterr().err
-
-
-@pytest.mark.parametrize("room", ["geometry", "engines", "formats", "render", "batch", "jobs", "cli"])
-def test_there_is_one_type_of_progress(room):
-    for path in (PACKAGE / room).rglob("*.py"):
-        text = path.read_text(encoding="utf-8")
-        for node in ast.walk(ast.parse(text)) if "progress" in text or "Callable[[float]" in text else ():
-            if isinstance(node, ast.arg) and node.arg == "progress" and node.annotation is not None:
-                assert ast.unparse(node.annotation) == "Progress", f"{path}, line {node.lineno}"
-            assert "Callable[[float]" not in (ast.unparse(node) if isinstance(node, ast.Subscript) else "")

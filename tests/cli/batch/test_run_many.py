@@ -78,24 +78,6 @@ def check_that_many_give_what_each_gives(run, inputs, command):
     assert sum(record.get("status") == "done" for record in records(inputs / f"many/{command}.manifest.jsonl")) == 3
 
 
-def test_one_table_of_all(run, inputs):
-    whole = run("tessellate", "points", "--table", "-", "-q")
-    assert whole.code == 0, whole.err
-    expected = ""
-    for path in ("points/p0.csv", "points/p2.csv", "points/sub/p1.csv"):
-        head, *rows = run("tessellate", path, "--what", "table", "-q").out.splitlines(keepends=True)
-        expected += "".join(f"{path},{row}" for row in rows)
-    assert whole.out == f"input,{head}{expected}"
-    done = run("tessellate", "points", "--table", "all.csv", "--out-dir", "out", "-j", "2", "-q", "--stats", "s.json")
-    assert done.code == 0, done.err
-    assert (inputs / "all.csv").read_text() == whole.out
-    stats = json.loads((inputs / "s.json").read_text())
-    assert (stats["inputs"], stats["done"], stats["kept"], stats["failed"], stats["failures"]) == (3, 3, 0, 0, [])
-    assert stats["totals"]["seeds"] == 12
-    assert {"read", "tessellate", "write labels", "write table"} <= set(stats["seconds"])
-    assert [path.name for path in inputs.iterdir() if path.name.startswith(".")] == []
-
-
 @pytest.mark.slow
 def test_a_table_after_resuming(run, inputs):
     rows = run("delaunay", "points", "--table", "-", "-f", "json", "-q").out
@@ -165,50 +147,6 @@ def test_failures_are_told(run, inputs):
     ]
 
 
-def test_warnings_name_the_input(run, inputs):
-    (inputs / "points/p0.csv").write_text("x,y\n0.3,1\n5,5\n")
-    done = run("tessellate", "points", "--out-dir", "out", "--stats", "s.json")
-    assert done.code == 0
-    (warning,) = [line for line in done.err.splitlines() if line.startswith("warning: ")]
-    assert warning.startswith("warning: points/p0.csv: 1 of 2 seeds moved")
-    assert json.loads((inputs / "s.json").read_text())["warnings"] == [warning.removeprefix("warning: ")]
-    assert "warnings" in next(
-        record for record in records(inputs / "out/tessellate.manifest.jsonl") if record.get("input") == "points/p0.csv"
-    )
-
-
-def test_the_plan_is_printed(run, inputs):
-    (inputs / "list").write_text("points/p2.csv\nshapes/s0.json\n")
-    done = run("draw", "points", "--files-from", "list", "--out-dir", "out", "--dry-run", "-f", "svg")
-    assert done.code == 3  # draw reads no points
-    done = run("delaunay", "points", "--files-from", "list", "--out-dir", "out", "--dry-run")
-    assert done.code == 2
-    assert "points/p2.csv" in done.err
-    done = run("delaunay", "shapes", "--files-from", "list", "--out-dir", "out", "--dry-run", "--what", "edges,table")
-    assert done.code == 2  # s0.json twice
-    (inputs / "list").write_bytes(b"points/p2.csv\0")
-    done = run(
-        "delaunay", "shapes", "--files-from", "list", "-0", "--out-dir", "o", "--dry-run", "--what", "edges,table"
-    )
-    assert [json.loads(line) for line in done.out.splitlines()] == [
-        {"input": source, "status": "planned", "outputs": [f"o/{stem}.edges.csv", f"o/{stem}.table.csv"]}
-        for source, stem in [
-            *(("shapes/s0.json", "s0"), ("shapes/s2.json", "s2"), ("shapes/sub/s1.json", "sub/s1")),
-            ("points/p2.csv", "p2"),
-        ]
-    ]
-    assert sorted(path.name for path in inputs.iterdir()) == ["list", "points", "shapes"]
-
-
-def test_shards_make_the_whole(run, inputs):
-    assert run("delaunay", "points", "--out-dir", "whole", "-q").code == 0
-    for part in (1, 2):
-        assert run("delaunay", "points", "--out-dir", "parts", "-q", "--shard", f"{part}/2").code == 0
-    assert files(inputs / "whole") == files(inputs / "parts")
-    done = run("delaunay", "points", "--out-dir", "parts", "--resume")
-    assert {line.split(": ")[1] for line in done.err.splitlines()} == {"kept"}
-
-
 def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
     shared = ("delaunay", "points", "--table", "all.csv", "--stats", "stats.json")
     for part in (1, 2):
@@ -229,53 +167,6 @@ def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
     assert (inputs / "part.1-of-2.csv").read_text().splitlines() == tables[0]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "code", "words"),
-    [
-        ("points", 2, "points stands for several inputs: name a folder for their outputs with --out-dir"),
-        ("points/p0.csv points/p2.csv -o out.png", 2, "2 inputs, but -o names one output"),
-        ("points/p0.csv --page all -o out.png", 2, "--page all"),
-        ("--files-from old.csv -o out.png", 2, "--files-from old.csv"),
-        ("points/p0.csv --resume -o out.png", 2, "--resume"),
-        ("points/p0.csv -0 -o out.png", 2, "--null needs --files-from"),
-        ("points/p0.csv --table points/p0.csv -o out.png", 2, "--table points/p0.csv"),
-        ("points/p0.csv --table out.csv --what table -o out.csv", 2, "--table out.csv"),
-        ("points/p0.csv --table s.csv --stats s.csv -o out.png", 2, "--table s.csv"),
-        ("points/p0.csv --table old.csv -o out.png --no-clobber", 4, "old.csv"),
-        ("points/p0.csv --table all.png -o out.png", 2, "all.png"),
-        ("points/p0.csv --cluster local", 2, "--cluster"),
-        ("points - --out-dir out", 2, "- is standard input"),
-        ("points --out-dir out --what color --overlay -", 2, "--overlay -"),
-        ("points --out-dir out --shard 3/2", 2, "'3/2': expected I/N"),
-        ("points --out-dir out -j 2 --cluster tcp://127.0.0.1:1", 2, "-j sets worker processes"),
-        ("points --table all.csv --resume", 2, "--resume needs --out-dir"),
-        ("points --table all.png", 2, "written as CSV, TSV or JSON"),
-        ("points --table - --stats -", 2, "--stats -"),
-        ("points --table out/p0.csv --what table --out-dir out", 2, "--table out/p0.csv"),
-        ("points --out-dir out --stats points/p0.csv", 2, "--stats points/p0.csv"),
-        ("points --what table --out-dir points", 2, "points/p0.csv is also the input points/p0.csv"),
-        ("points points/p0.csv --out-dir out", 2, "points/p0.csv"),
-        ("--files-from missing --out-dir out", 3, "the list missing cannot be read"),
-        ("--files-from /dev/null --out-dir out", 2, "no input given"),
-        ("--files-from old.csv -0 --out-dir out", 3, "old.csv"),
-        ("points --out-dir=", 2, "'': not a name: name a folder, or . for this one"),
-        ("points/*.png --out-dir out", 3, "points/*.png"),
-        ("nothing --out-dir out", 3, "nothing holds no file in a supported format (avif, bmp, csv, "),
-        ("points --out-dir points/p0.csv", 4, "points/p0.csv"),
-        ("points --table no/such/all.csv", 4, "no/such/all.csv"),
-        ("points --out-dir out --stats no/such/s.json", 4, "no/such/s.json"),
-    ],
-)
-def test_what_does_not_go(run, inputs, arguments, code, words):
-    (inputs / "nothing").mkdir()
-    (inputs / "old.csv").write_text("old\nlines\n")
-    before = files(inputs)
-    done = run("tessellate", *arguments.split())
-    assert done.code == code, done.err
-    assert words in done.err
-    assert files(inputs) == before
-
-
 def test_no_clobber_lets_a_resumed_batch_write_its_table_and_statistics_anew(run, inputs):
     options = ("delaunay", "points", "--out-dir", "out", "--table", "t.csv", "--table-inputs", "i.csv", "--stats", "s")
     for more in ((), ("--resume",)):
@@ -283,17 +174,6 @@ def test_no_clobber_lets_a_resumed_batch_write_its_table_and_statistics_anew(run
         assert done.code == 0, done.err
     assert json.loads((inputs / "s").read_text())["kept"] == 3
     assert run(*options, "--no-clobber", "-q").code == 4
-
-
-@pytest.mark.parametrize("options", [["--out-dir", "out"], ["--table", "t.csv"]])
-def test_an_input_that_is_named_twice_is_refused(run, inputs, options):
-    done = run("delaunay", "points", "points/p0.csv", *options)
-    assert (done.code, "points/p0.csv" in done.err) == (2, True), done.err
-
-
-def test_an_empty_name_is_refused(run, inputs):
-    done = run("delaunay", "", "points/p0.csv", "--out-dir", "out")
-    assert (done.code, "empty" in done.err) == (2, True), done.err
 
 
 def test_limits_change_nothing_that_was_done(run, inputs):
@@ -312,16 +192,6 @@ def test_what_another_version_did_is_done_again(run, inputs, monkeypatch):
         monkeypatch.setattr("vorotool.batch.plan.__version__", version)
         done = run(*options)
         assert {line.split(": ")[1] for line in done.err.splitlines()} == {"done"}
-
-
-def test_an_existing_output_is_a_failure_of_its_input(run, inputs):
-    (inputs / "out").mkdir()
-    (inputs / "out/p0.csv").write_text("old")
-    done = run("delaunay", "points", "--out-dir", "out", "--no-clobber", "--keep-going", "-q")
-    assert done.code == 6
-    assert "out/p0.csv already exists" in done.err
-    assert (inputs / "out/p0.csv").read_text() == "old"
-    assert set(files(inputs / "out")) == {"p0.csv", "p2.csv", "sub/p1.csv"}
 
 
 def test_a_terminal_shows_a_bar(inputs):

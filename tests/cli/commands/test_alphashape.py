@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import shapely
 from PIL import Image
 
 import vorotool
@@ -17,26 +16,6 @@ import vorotool
 DATA = Path(__file__).parents[3] / "data"
 DOTS = DATA / "dots.csv"
 FAMILY = vorotool.alpha_complex(vorotool.read(DOTS))
-SHAPE = vorotool.alpha_shape(FAMILY, r=60)
-
-
-def polygons_of(path):
-    features = json.loads(path.read_text())["features"]
-    return features, [shapely.geometry.shape(feature["geometry"]) for feature in features]
-
-
-def test_points_and_table(run, folder):
-    (folder / "named.csv").write_text("x,y,name\n0,0,a\n4,0,b\n0,3,c\n9,9,d\n0,0,e\n")
-    done = run("alphashape", "named.csv", "-r", 2.5, "--columns", "x,y", "--what", "points", "-q")
-    assert done.out.splitlines() == [
-        "label,x,y,class,region,name",
-        *["1,0,0,boundary,1,a", "2,4,0,boundary,1,b", "3,0,3,boundary,1,c", "4,9,9,isolated,,d", "5,0,0,boundary,1,e"],
-    ]
-    done = run("alphashape", "named.csv", "-r", 2.5, "--columns", "x,y", "--what", "table", "-q")
-    assert done.out.splitlines() == [
-        "region,area,perimeter,holes,points,triangles,bbox_x,bbox_y,bbox_w,bbox_h",
-        "1,6,12,0,3,1,0,0,4,3",
-    ]
 
 
 def test_auto_is_the_default_and_tells_r(run, folder):
@@ -65,29 +44,6 @@ def test_r_and_alpha_are_read_exactly(run, folder):
     exact = repr(0.1) + "000000000000000056"
     assert Fraction(exact) > Fraction(0.1)
     assert len(run("alphashape", "pair.csv", "-r", exact).out.splitlines()) == 2
-
-
-def test_the_printed_rule(run, folder):
-    (folder / "four.csv").write_text("x,y\n0,0\n4,0\n2,1\n2,-5\n")
-    right = run("alphashape", "four.csv", "-r", "2.25")
-    printed = run("alphashape", "four.csv", "-r", "2.25", "--rule", "printed")
-    wrong = set(printed.out.splitlines()) - set(right.out.splitlines())
-    assert wrong == {"1,2,0,0,4,0,4,2,2.9,singular"}
-
-
-def test_the_arcs_of_the_picture_bulge_as_the_hull_does(run, folder):
-    """The flattened picture in PNG and the arcs of GeoJSON have the same area."""
-    run("alphashape", DOTS, "-r", 60, "--what", "hull", "--layers", "hull", "-o", "hull.png", "--width", 1200)
-    run("alphashape", DOTS, "-r", 60, "--what", "hull", "-o", "hull.geojson")
-    _, parts = polygons_of(folder / "hull.geojson")
-    area = sum(part.area for part in parts)
-    assert area < SHAPE.area
-    with Image.open(folder / "hull.png") as image:
-        pixels = np.asarray(image.convert("RGB"))
-    filled = (pixels != 255).any(axis=2).sum()
-    low, high = SHAPE.points.min(axis=0), SHAPE.points.max(axis=0)
-    scale = 1200 / ((high - low)[0] + 0.04 * (high - low).max())
-    assert filled / scale**2 == pytest.approx(area, rel=0.03)
 
 
 def test_images_by_both_pipelines(run, folder):

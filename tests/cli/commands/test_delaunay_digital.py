@@ -3,7 +3,6 @@
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import vorotool
@@ -66,16 +65,6 @@ def test_objects_cannot_be_repaired(run):
     assert done.out == run("delaunay", DATA / "blobs.png").out
 
 
-def test_centroids_between_the_lattice(run, folder):
-    labels = np.zeros((20, 20), np.uint8)
-    labels[3, 3:5] = labels[4, 3] = 1  # thirds of pixels: the region's seed moves, the site does not
-    labels[15, 4], labels[8, 16] = 2, 3
-    np.save(folder / "a.npy", labels)
-    done = run("delaunay", "a.npy", "--method", "digital-valid", "--seeds", "centroids", "--what", "table")
-    assert "1 of 3 seeds moved to the nearest 2^-" in done.err
-    assert done.out == run("delaunay", "a.npy", "--what", "table").out
-
-
 def test_a_failed_certificate_is_said(run, monkeypatch):
     monkeypatch.setattr(engine._core.delaunay, "find_fault", lambda *_: "a side is wrong")
     done = run("delaunay", DOTS, *FRAME, "--method", "digital-valid", "--stats", "stats.json")
@@ -85,15 +74,6 @@ def test_a_failed_certificate_is_said(run, monkeypatch):
     stats = json.loads(Path("stats.json").read_text())
     assert stats["repair"]["route"] == "rebuilt"
     assert len(stats["warnings"]) == 1
-
-
-def test_seeds_that_cannot_be_repaired_are_inserted(run, folder):
-    """Far outside the frame there is nothing to read off it."""
-    np.save(folder / "a.npy", np.random.default_rng(1).random((40, 2)) * 100)
-    done = run("delaunay", "a.npy", "--window", "300,300,9,9", "--method", "digital-valid")
-    assert done.code == 0
-    assert len(pairs(done.out)) > 80
-    assert "moved to the nearest 2^-" in done.err
 
 
 def test_compare(run):

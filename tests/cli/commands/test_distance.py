@@ -3,9 +3,7 @@
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
-from PIL import Image
 
 import vorotool
 
@@ -41,15 +39,6 @@ def test_what_is_chosen(run, two):
     assert len(Path("both.hausdorff.csv").read_text().splitlines()) == 4
 
 
-def test_filled_and_outlines(run, folder):
-    (folder / "square.wkt").write_text("POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))")
-    (folder / "ring.wkt").write_text("POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (1 1, 8 1, 8 8, 1 8, 1 1))")
-    filled = run("distance", "square.wkt", "ring.wkt", "--verify").rows
-    assert [float(row["distance"]) for row in filled] == [3.5, 3.5, 0, 0]
-    outlines = run("distance", "square.wkt", "ring.wkt", "--boundary", "--verify").rows
-    assert [float(row["distance"]) for row in outlines] == [1, 0, 1, 0]
-
-
 def test_standard_input_is_one_of_them(run, two):
     expected = run("distance", *two).out
     for names, text in ((["-", "b.wkt"], A), (["a.wkt", "-"], B)):
@@ -58,16 +47,6 @@ def test_standard_input_is_one_of_them(run, two):
     done = run("distance", "-", "-")
     assert done.code == 2
     assert "same stream" in done.err
-
-
-def test_points_and_images(run, folder):
-    (folder / "p.csv").write_text("x,y\n0,0\n3,4\n")
-    mask = np.zeros((8, 8), np.uint8)
-    mask[2:4, 2:4] = 255
-    Image.fromarray(mask).save(folder / "m.png")
-    rows = run("distance", "p.csv", "m.png", "--verify").rows
-    assert float(rows[-1]["distance"]) == 0.5  # from (3, 4) to the outline at y = 3.5
-    assert run("distance", "p.csv", "p.csv").rows[0]["distance"] == "0"
 
 
 def test_two_systems(run, folder):

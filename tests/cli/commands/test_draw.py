@@ -20,16 +20,6 @@ def test_the_picture_is_that_of_tessellate(run, folder):
     assert (folder / "a.png").read_bytes() == (folder / "b.png").read_bytes()
 
 
-def test_svg_and_layers(run, folder):
-    np.save(folder / "labels.npy", np.array([[1, 1, 2], [3, 3, 2]], dtype=np.uint16))
-    done = run("draw", "labels.npy", "-f", "svg")
-    assert done.code == 0
-    assert "</svg>" in done.out
-    assert run("draw", "labels.npy", "--layers", "diagram", "-o", "lines.png").code == 0
-    lines = np.asarray(Image.open(folder / "lines.png").convert("L"))
-    assert (lines == 0).tolist() == [[True, True, False], [False, False, True]]
-
-
 def test_sparse_labels_have_the_colors_of_dense_ones(run, folder):
     dense = np.kron(np.arange(12, dtype=np.uint32).reshape(3, 4), np.ones((20, 30), np.uint32))
     np.save(folder / "dense.npy", dense)
@@ -77,23 +67,6 @@ def test_results_are_drawn_as_by_the_command_that_makes_them(run, folder, option
     (folder / "made.json").write_text((folder / "made.json").read_text()[:-50])
     done = run("draw", "made.json", "-o", "a.svg")
     assert (done.code, "made.json" in done.err) == (3, True)
-
-
-@pytest.mark.parametrize(
-    ("options", "fmt", "groups"),
-    [
-        (["--what", "shape"], "json", ["shape"]),
-        (["--what", "centerline"], "geojson", ["shape", "lines"]),
-        (["--what", "transects", "--every", "20"], "wkt", ["shape", "lines"]),
-    ],
-)
-def test_polygons_and_lines_are_drawn(run, folder, options, fmt, groups):
-    assert run("skeleton-exact", SHAPES, *options, "-o", f"made.{fmt}").code == 0
-    done = run("draw", f"made.{fmt}", "-f", "svg")
-    assert (done.code, done.err) == (0, "")
-    assert groups_of(done.out) == groups
-    assert run("draw", f"made.{fmt}", "-o", "a.png", "--width", 200).code == 0
-    assert len(np.unique(np.asarray(Image.open(folder / "a.png")).reshape(-1, 3), axis=0)) > 2
 
 
 def test_an_array_of_two_columns_is_an_image(run, folder):

@@ -62,22 +62,6 @@ def test_every_output_of_an_empty_shape_is_written(run, fields, name, reason, op
     assert (fields / "shape").stat().st_size > 0 or "wkt" in options  # which has nothing to say
 
 
-def test_points_of_an_empty_shape_are_isolated(run, fields):
-    done = run("alphashape", "two.npy", "--what", "points")
-    assert [row["class"] for row in done.rows] == ["isolated", "isolated"]
-    done = run("alphashape", "one.npy", "-r", 5, "--what", "general", "-f", "wkt", "--verify")
-    assert (done.code, done.out) == (0, "POINT (4.5 4)\n")
-    done = run("alphashape", "two.npy", "-r", "inf")  # an r that is given is heard
-    assert (done.code, done.err, len(done.out.splitlines())) == (0, "", 2)
-
-
-def test_an_empty_shape_is_drawn(run, fields):
-    run("alphashape", "two.npy", "-f", "geojson", "-o", "shape.geojson")
-    for name in ("shape.svg", "shape.png"):
-        done = run("draw", "shape.geojson", "-o", name)
-        assert (done.code, done.err.count("warning: ")) == (0, 1)
-
-
 @pytest.mark.parametrize(
     ("command", "value", "invert"),
     [

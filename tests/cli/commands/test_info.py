@@ -3,7 +3,6 @@
 import json
 import os
 import threading
-from pathlib import Path
 
 import imageio.v3 as iio
 import numpy as np
@@ -66,20 +65,6 @@ def test_polygons_are_as_many_and_where_shapely_finds_them(run, info, tmp_path, 
     rings = int((shapely.get_num_interior_rings(polygons) + 1).sum())
     if name != "great-lakes.geojson":  # whose rings repeat vertices, which are left out
         assert told["vertices"] == int(shapely.get_num_coordinates(parts).sum()) - rings
-
-
-def test_types_of_properties(info, tmp_path):
-    rows = [
-        {"a": 1, "b": 0.5, "c": "x", "d": None, "e": True, "f": 1, "g": [1]},
-        {"a": 2, "b": 2, "c": None, "d": None, "e": False, "f": "one", "g": {}},
-    ]
-    features = [
-        {"type": "Feature", "properties": row, "geometry": {"type": "Point", "coordinates": [k, k]}}
-        for k, row in enumerate(rows)
-    ]
-    (tmp_path / "a.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
-    types = {"a": "integer", "b": "number", "c": "text", "d": "empty", "e": "truth", "f": "mixed", "g": "other"}
-    assert info("a.geojson")[0]["columns"] == types
 
 
 def test_masks_and_label_images(info, tmp_path):
@@ -198,12 +183,6 @@ def test_text_is_for_people(run, tmp_path):
     )
 
 
-def test_standard_input(run):
-    done = run("info", "-", "--json", data=b"POINT (1 2)")
-    assert (json.loads(done.out)["input"], json.loads(done.out)["points"], done.err) == ("-", 1, "")
-    assert run("info", "-", data=b"POINT (1 2)").out.startswith("standard input\n  format     wkt\n")
-
-
 def test_a_pipe_with_a_name(run, tmp_path):
     os.mkfifo(tmp_path / "pipe")
     writer = threading.Thread(target=(tmp_path / "pipe").write_bytes, args=(b"P1 3 2 1 0 0 0 0 1",))
@@ -211,15 +190,6 @@ def test_a_pipe_with_a_name(run, tmp_path):
     done = run("info", "pipe")
     writer.join()
     assert "kind       mask\n" in done.out
-
-
-def test_a_name_that_is_no_text(run, process, tmp_path):
-    name = os.fsencode(tmp_path) + b"/\xff.csv"
-    Path(os.fsdecode(name)).write_bytes(b"x,y\n1,2\n")
-    done = process("info", os.fsdecode(name))
-    out, _ = done.communicate()
-    assert out.startswith(name + b"\n")
-    assert json.loads(run("info", os.fsdecode(name), "--json").out)["points"] == 1
 
 
 def test_folders_and_patterns(info, folder):

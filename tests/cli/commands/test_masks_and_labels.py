@@ -55,24 +55,6 @@ def test_a_batch_of_fields_goes_on_without_foreground(run, fields):
     assert run("tessellate", *names, "--out-dir", "strict", "-f", "npy", "--strict", "--keep-going").code == 6
 
 
-@pytest.mark.parametrize("what", ["table", "neighbors"])
-def test_tables_without_foreground_have_the_header_of_others(run, fields, what):
-    empty, other = (run("tessellate", name, "--what", what, "--verify") for name in ("empty.npy", "one.npy"))
-    assert (empty.code, empty.err) == (0, f"{NO_FOREGROUND}\n")
-    assert empty.out == other.out.splitlines(keepends=True)[0]
-
-
-@pytest.mark.parametrize(
-    ("name", "method"),
-    [("labels.npy", "exact"), ("labels.tif", "propagation"), ("labels.svg", "exact"), ("diagram.png", "exact")],
-)
-def test_images_and_pictures_without_foreground(run, fields, name, method):
-    what = name.partition(".")[0]
-    done = run("tessellate", "empty.npy", "--what", what, "-o", name, "--method", method, "--verify")
-    assert (done.code, done.err) == (0, f"{NO_FOREGROUND}\n")
-    assert (fields / name).stat().st_size > 0
-
-
 @pytest.mark.parametrize("what", ["distance", "distance2", "labels,distance"])
 def test_distances_to_nothing_do_not_exist(run, fields, what):
     done = run("tessellate", "empty.npy", "--what", what, "--out-dir", "out", "-f", "npy")

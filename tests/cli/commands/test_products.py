@@ -29,8 +29,8 @@ OF_IMAGES = {("skeleton-exact", "thickness")}
 def test_every_format_is_written(run, folder, command, what):
     more = NEEDED.get(what, []) if command == "skeleton-exact" else []
     for fmt in formats_of(command)[what]:
-        if (command, what, fmt) in OF_SEVERAL_KINDS:
-            continue
+        if (command, what, fmt) in OF_SEVERAL_KINDS or what not in (first_with(command, fmt), last_with(command, fmt)):
+            continue  # the library writes all of them: products/test_writing.py
         named, chosen = folder / f"a{FORMATS[fmt].endings[0]}", folder / "b"
         is_scaled = fmt in (*ANIMATIONS, "png") and command != "tessellate" and (command, what) not in OF_IMAGES
         picture = ["--width", 90] if is_scaled else []
@@ -48,6 +48,11 @@ def test_every_format_is_written(run, folder, command, what):
 def first_with(command, fmt):
     """Return the product for which the format is named by `-f`, too: the first that is written in it."""
     return next(what for what, own in formats_of(command).items() if fmt in own)
+
+
+def last_with(command, fmt):
+    """Return the last product that is written in a format."""
+    return next(what for what, own in reversed(formats_of(command).items()) if fmt in own)
 
 
 OF_SEVERAL_KINDS = {("alphashape", "general", "shp"), ("alphashape", "hull", "shp")}
@@ -74,10 +79,9 @@ def test_layers_are_those_that_are_drawn():
 @pytest.mark.parametrize(
     ("command", "what", "extension"),
     [
-        *(("tessellate", "labels", "png"), ("tessellate", "labels", "tif"), ("tessellate", "color", "png")),
-        *(("tessellate", "table", "csv"), ("delaunay", "edges", "csv"), ("delaunay", "edges", "npz")),
-        *(("delaunay", "triangles", "geojson"), ("delaunay", "triangles", "png"), ("alphashape", "curves", "csv")),
-        *(("alphashape", "hull", "geojson"), ("alphashape", "edges", "csv"), ("skeleton-exact", "skeleton", "json")),
+        *(("tessellate", "labels", "png"), ("tessellate", "labels", "tif"), ("tessellate", "table", "csv")),
+        *(("delaunay", "edges", "npz"), ("delaunay", "triangles", "png"), ("alphashape", "hull", "geojson")),
+        ("skeleton-exact", "skeleton", "json"),
     ],
 )
 def test_the_same_bytes_for_any_threads(run, folder, command, what, extension):
@@ -86,8 +90,8 @@ def test_the_same_bytes_for_any_threads(run, folder, command, what, extension):
     np.save(folder / "many.npy", points.astype(float))
     source = DATA / "ne_110m_land.geojson" if command == "skeleton-exact" else "many.npy"
     width = ("--width", 300) if (command, extension) == ("delaunay", "png") else ()  # some bands of rows
-    for threads in (1, 2, 3):
+    for threads in (1, 3):
         made = ("-o", f"{threads}.{extension}", "--threads", threads, *width)
         assert run(command, source, "-q", "--what", what, *made).code == 0
-    one, two, three = ((folder / f"{k}.{extension}").read_bytes() for k in (1, 2, 3))
-    assert one == two == three
+    one, three = ((folder / f"{k}.{extension}").read_bytes() for k in (1, 3))
+    assert one == three

@@ -3,29 +3,12 @@
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from support.processes.leftovers import leftovers
 from support.readers.written import rows_of
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES = DATA / "two-shapes.json"
-
-
-def test_statistics_do_not_depend_on_threads(run, folder):
-    """So many segments that two threads insert them at once, and meet."""
-    angle = np.linspace(0, 2 * np.pi, 24_000, endpoint=False)
-    radius = 10**6 * (2 + np.cos(7 * angle) + np.where(np.arange(len(angle)) % 2, 0.01, 0))
-    ring = np.rint(np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)).astype(int)
-    (folder / "a.json").write_text(json.dumps(ring.tolist()))
-    stats = []
-    for threads in ("1", "2"):
-        done = run("skeleton-exact", "a.json", "--threads", threads, "--stats", "s.json", "-f", "npz", "-o", "b.npz")
-        assert done.code == 0
-        stats.append(json.loads((folder / "s.json").read_text()))
-        del stats[-1]["seconds"], stats[-1]["threads"]
-    assert stats[0] == stats[1]
 
 
 def test_repairs_are_told(run, folder):
@@ -39,26 +22,6 @@ def test_repairs_are_told(run, folder):
     refused = run("skeleton-exact", "a.json", "--strict")
     assert refused.code == 3
     assert "polygon 1" in refused.err
-
-
-BAD = {
-    "nan": (b"[[0, 0], [1e999, 0], [0, 1]]", 3, "a.json"),
-    "points": (b'{"type": "Point", "coordinates": [0, 0]}', 3, "point"),
-    "table": (b'[{"polygon": 0, "area": 2}]', 3, "a.json holds a table, whose rows have polygon, area, not polygons"),
-    "offsets": (b'{"type": "vorotool.offsets", "polygons": []}', 3, "write them as GeoJSON (--what offset -f geojson)"),
-}
-
-
-@pytest.mark.parametrize("name", BAD)
-def test_bad_input(run, folder, name):
-    data, code, words = BAD[name]
-    (folder / "a.json").write_bytes(data)
-    done = run("skeleton-exact", "a.json", "-o", "b.svg")
-    assert done.code == code
-    assert done.err.startswith("error: ")
-    assert words in done.err
-    assert not (folder / "b.svg").exists()
-    assert leftovers(folder) == []
 
 
 def test_the_polygons_of_a_skeleton_are_read_again(run):

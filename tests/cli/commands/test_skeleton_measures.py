@@ -15,13 +15,6 @@ SHAPES, CELLS = DATA / "two-shapes.json", DATA / "cells.png"
 COMMANDS = {"skeleton-exact": [], "skeleton-approx": ["--tolerance", "0.1"]}
 
 
-def test_nothing_is_left(run):
-    done = run("skeleton-exact", SHAPES, "--what", "offset", "-d", "-1,-1000", "-f", "wkt", "--verify")
-    assert done.code == 0
-    assert "-1000" in done.err
-    assert len(done.out.splitlines()) == 2
-
-
 @pytest.mark.parametrize("command", COMMANDS)
 def test_the_shape_again(run, command):
     done = run(command, SHAPES, *COMMANDS[command], "--what", "shape", "-f", "geojson", "--verify")
@@ -73,15 +66,6 @@ def test_transects_along_centerlines(run, folder, command):
         assert max(along) == pytest.approx(line.length, abs=7.1)
     many = run(command, SHAPES, "--what", "points", *options, "-f", "csv").rows
     assert {row["label"] for row in many} == {"1", "2"}
-
-
-def test_transects_are_lines(run):
-    done = run("skeleton-exact", SHAPES, "--what", "transects", "--every", "9", "-f", "geojson")
-    features = json.loads(done.out)["features"]
-    border = shapely.union_all(shapely.boundary(shapely.from_wkt(wkt_of(run, vorotool.read(SHAPES)))))
-    ends = [place for feature in features for place in feature["geometry"]["coordinates"]]
-    assert max(border.distance(shapely.points(ends))) < 1e-9
-    assert {feature["id"] for feature in features} == {"branch", "key"}
 
 
 def test_graphml_is_read_by_networkx(run, folder):

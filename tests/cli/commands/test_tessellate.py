@@ -37,13 +37,6 @@ def test_labels(run, folder, extension):
         assert found.dtype in (np.uint16, np.int32)
 
 
-def test_diagram_in_bands_is_that_of_the_whole(run, folder, monkeypatch):
-    run("tessellate", "dots.csv", "--size", "40x50", "--what", "diagram", "-o", "whole.npy")
-    monkeypatch.setattr("vorotool.engines.tessellation.frames.BAND_PIXELS", 40 * 7)
-    run("tessellate", "dots.csv", "--size", "40x50", "--what", "diagram", "-o", "bands.npy")
-    assert (folder / "bands.npy").read_bytes() == (folder / "whole.npy").read_bytes()
-
-
 @pytest.mark.parametrize("extension", ["tif", "npy"])
 def test_distances(run, folder, extension):
     squares = nearest_squares(X, Y, (0, 0, 8, 7))
@@ -85,33 +78,6 @@ def test_components_of_a_mask(run, folder):
     assert [row["object_area"] for row in json.loads(done.out)] == [28]
 
 
-def test_neighbors(run, folder):
-    done = run("tessellate", "dots.csv", "--what", "neighbors")  # either spelling
-    header, *rows = (line.split(",") for line in done.out.splitlines())
-    assert header == ["label_a", "label_b", "border_length", "centroid_distance"]
-    for a, b, length, _ in rows:
-        sides = sum(
-            int(((p == int(a)) & (q == int(b))).sum() + ((p == int(b)) & (q == int(a))).sum())
-            for p, q in ((LABELS[1:], LABELS[:-1]), (LABELS[:, 1:], LABELS[:, :-1]))
-        )
-        assert sides == int(length) > 0
-
-
-def test_pictures(run, folder):
-    assert run("tessellate", "dots.csv", "--what", "color", "-o", "cells.png", "--layers", "cells").code == 0
-    image = Image.open(folder / "cells.png")
-    assert image.mode == "P"
-    classes = np.asarray(image)
-    for k in (1, 2, 3):
-        assert len(np.unique(classes[k == LABELS])) == 1
-    for p, q in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
-        assert ((classes[p] != classes[q]) == (LABELS[p] != LABELS[q])).all()
-    done = run("tessellate", "dots.csv", "-f", "svg")
-    assert done.out.startswith("<svg") or done.out.startswith("<?xml")
-    assert '<g id="cells"' in done.out
-    assert '<g id="labels"' in done.out
-
-
 def test_several_results_are_named(run, folder):
     run("tessellate", "dots.csv", "--what", "labels,table,color", "-o", "result")
     assert {p.name for p in folder.glob("result*")} == {"result.labels.png", "result.table.csv", "result.color.png"}
@@ -149,17 +115,6 @@ def test_window_and_distance(run, folder):
     done = run("tessellate", "dots.csv", "--window", "-2,-1,9,5", "--max-distance", "2.5", "-f", "text")
     right = nearest_labels(X, Y, [1, 2, 3], (-2, -1, 9, 5), most_squared=6.25)
     np.testing.assert_array_equal(np.loadtxt(io.StringIO(done.out), dtype=int), right)
-
-
-def test_labels_of_a_column_are_kept(run, folder):
-    (folder / "own.csv").write_text("x,y,label\n2,1,70\n7,5,4\n1,6,70000\n")
-    done = run("tessellate", "own.csv", "-f", "text")
-    right = np.choose(LABELS - 1, [70, 4, 70000])
-    np.testing.assert_array_equal(np.loadtxt(io.StringIO(done.out), dtype=int), right)
-    done = run("tessellate", "own.csv", "-o", "own.png")
-    assert done.code == 5
-    assert "16-bit PNG" in done.err
-    assert run("tessellate", "own.csv", "-o", "own.tif").code == 0
 
 
 @pytest.mark.parametrize(

@@ -30,12 +30,6 @@ def test_files_hold_floats(run, folder, expected):
     assert np.array_equal(made, expected.astype(np.float32))
 
 
-def test_labels_are_taken_one_by_one(run, folder):
-    assert run("skeleton-exact", CELLS, "--what", "thickness", "-o", "a.npy", "--verify").code == 0
-    made = np.load(folder / "a.npy")
-    assert np.array_equal(made, vorotool.local_thickness(np.asarray(Image.open(CELLS))).astype(np.float32))
-
-
 def test_values_are_in_the_unit_and_summarized(run, folder, expected):
     thickness(run, "-o", "a.npy", "--pixel-size", "0.5um", "--stats", "s.json")
     np.testing.assert_allclose(np.load(folder / "a.npy"), expected / 2, rtol=1e-7)
@@ -43,17 +37,6 @@ def test_values_are_in_the_unit_and_summarized(run, folder, expected):
     summary = [found[f"thickness_{name}"] for name in ("mean", "sd", "largest")]
     np.testing.assert_allclose(summary, [inner.mean(), inner.std(), inner.max()], rtol=1e-12)
     assert (found["pixels"], found["unit"]) == (len(inner), "um")
-
-
-def test_rectangular_pixels(run, folder):
-    thickness(run, "-o", "a.npy", "--spacing", "0.2,0.5", "--verify")
-    wide = vorotool.local_thickness(np.asarray(Image.open(BLOBS)), spacing=(0.5, 0.2))
-    assert np.array_equal(np.load(folder / "a.npy"), wide.astype(np.float32))
-
-
-@pytest.mark.parametrize("more", [["--outline", "contour"], ["--connectivity", "4"], ["--simplify", "0.75"]])
-def test_other_outlines_are_verified(run, more):
-    thickness(run, "-o", "a.tif", "--verify", *more)
 
 
 def test_maps_keep_their_place(run, folder, expected):
@@ -74,19 +57,6 @@ def test_a_picture_has_a_color_for_each_thickness(run, folder, expected):
     assert made[expected == expected.max()][0].tolist() == [253, 231, 37]
     light = made[expected > 0].sum(axis=1)
     assert (np.diff(light[np.argsort(expected[expected > 0], kind="stable")]) >= -12).all()
-
-
-def test_a_legend_is_a_bar_of_the_colors(run, folder):
-    thickness(run, "-o", "a.png", "--background", "none")
-    assert np.asarray(Image.open(folder / "a.png").convert("RGBA"))[0, 0, 3] == 0
-    thickness(run, "-o", "a.png", "--background", "black")
-    thickness(run, "-o", "b.png", "--background", "black", "--legend", "--scale-bar", "--pixel-size", "2um")
-    bare, made = (np.asarray(Image.open(folder / name).convert("RGB")).astype(int) for name in ("a.png", "b.png"))
-    assert bare[0, 0].tolist() == [0, 0, 0]
-    changed = (bare != made).any(axis=2)
-    assert changed[:80, 200:].any()  # the bar
-    assert changed[150:, :100].any()  # the scale
-    assert not changed[80:120, :200].any()
 
 
 def test_an_image_without_foreground(run, folder):

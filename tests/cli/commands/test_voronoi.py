@@ -104,14 +104,6 @@ def test_each_kind_of_text(run, folder, name, text, count):
     assert (done.code, len(done.rows)) == (0, count), done.err
 
 
-def test_points_are_read_by_columns(run, folder):
-    (folder / "p.csv").write_text("a,b,no,name\n2,1,40,x\n7,5,30,y\n")
-    rows = run("voronoi", "p.csv", "--columns", "a,b,no", "--what", "table", "-q").rows
-    assert [(row["id"], row["name"]) for row in rows] == [("40", "x"), ("30", "y")]
-    np.save(folder / "p.npy", np.array([[2.0, 1], [7, 5], [1, 6]]))
-    assert len(run("voronoi", "p.npy", "--what", "table").rows) == 3
-
-
 def test_maps_and_skeletons_are_read_for_what_they_are_made_of(run, folder, mixed):
     assert run("voronoi", mixed, "-q", "--by", "kind", "-o", "a.json").code == 0
     assert run("voronoi", mixed, "-q", "--by", "kind", "-o", "a.npz").code == 0
@@ -250,29 +242,7 @@ def test_cuts_of_images_on_maps_are_on_the_map(run, folder, labels):
     assert max(float(row["max_distance"]) for row in limited.rows) == pytest.approx(3)
 
 
-def test_lines_are_as_near_to_curves_as_asked(run, mixed):
-    coarse, fine = (
-        sum(shapely.get_num_coordinates(shapes_of(run("voronoi", mixed, "-q", "--flatten", size).out)))
-        for size in ("5", "0.001")
-    )
-    assert coarse < fine
-    rough = [shape for shape in shapes_of(run("voronoi", mixed, "-q", "--flatten", "5").out) if shape is not None]
-    assert shapely.coverage_is_valid(rough)
-    assert run("voronoi", mixed, "-q", "--flatten", "5", "-f", "csv").code == 0
-
-
 # ---- what is written ---------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", ["a.gpkg", "a.parquet"])
-def test_files_of_maps_hold_the_cells(run, mixed, folder, right, name):
-    assert run("voronoi", mixed, "-q", "-o", name).code == 0
-    read = geopandas.read_parquet(name) if name.endswith("parquet") else geopandas.read_file(name)
-    assert read.crs.to_epsg() == 2056
-    assert read["code"].astype(str).tolist() == COLUMNS["code"]
-    assert [shape is None for shape in read.geometry] == shapely.is_empty(right.to_shapely()).tolist()
-    np.testing.assert_allclose(read["area"], right.areas)
-    np.testing.assert_allclose(read.geometry.area.fillna(0), shapely.area(right.to_shapely()))
 
 
 def test_a_map_is_drawn_again(run, mixed, folder):
@@ -285,13 +255,6 @@ def test_a_map_is_drawn_again(run, mixed, folder):
     assert (done.code, "007" in (folder / "c.svg").read_text()) == (0, True)
     done = run("draw", "a.json", "-o", "c.svg", "--layers", "triangles")
     assert done.code == 2
-
-
-def test_columns_are_left_out(run, mixed):
-    features = json.loads(run("voronoi", mixed, "-q", "--no-properties").out)["features"]
-    assert [set(each["properties"]) for each in features] == 6 * [{"label", "area", "perimeter"}]
-    done = run("voronoi", mixed, "-q", "--what", "table", "--precision", "3")
-    assert max(len(row["area"]) for row in done.rows) <= 4
 
 
 # ---- few sites ---------------------------------------------------------------------------------------
@@ -315,20 +278,6 @@ def test_repairs_are_refused_when_asked(run, folder):
     assert (done.code, "1 repeated vertex" in done.err) == (0, True)
     done = run("voronoi", "twice.wkt", "--strict")
     assert (done.code, "leave out --strict" in done.err) == (3, True)
-
-
-def test_files_are_told_of(run, mixed):
-    told = json.loads(run("info", mixed, "--json").out)
-    assert (told["kind"], told["features"], told["commands"]) == (
-        "points, lines and polygons",
-        6,
-        ["voronoi", "distance"],
-    )
-    assert (told["points"], told["lines"], told["polygons"]) == (4, 1, 3)
-    assert run("voronoi", mixed, "-q", "-o", "a.json").code == 0
-    told = json.loads(run("info", "a.json", "--json").out)
-    assert (told["kind"], told["cells"]) == ("Voronoi map", 6)
-    assert told["commands"] == ["voronoi", "skeleton-approx", "skeleton-exact", "distance", "draw"]
 
 
 @pytest.mark.parametrize(("what", "frame"), [("cells", "0,0,2,2"), ("edges", "8,8,1,2"), ("discs", "0,0,2,2")])

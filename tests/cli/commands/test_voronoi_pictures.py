@@ -23,29 +23,6 @@ def labels(folder):
     return folder / "labels.png"
 
 
-def test_svg_is_that_of_the_library(run, folder):
-    done = run("voronoi", LAKES, "-o", "a.svg", "--layers", "cells,edges,labels", "--max-distance", "2")
-    assert done.code == 0
-    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
-        cells = vorotool.voronoi(vorotool.read(LAKES), max_distance=2)
-    vorotool.write(cells, folder / "b.svg", layers=["cells", "edges", "labels"])
-    text = (folder / "a.svg").read_text()
-    assert text == (folder / "b.svg").read_text()
-    assert re.search(r"A[\d.]+ [\d.]+ 0 0 ", text)
-
-
-def test_names_legend_and_colors(run, folder):
-    looks = ("--label-by", "name", "--legend", "--scale-bar", "--color", "objects=red", "--background", "none")
-    assert run("voronoi", LAKES, "-o", "a.svg", *looks).code == 0
-    text = (folder / "a.svg").read_text()
-    assert all(f">{name}</text>" in text for name in ("Lake Huron", "objects", "cells"))
-    assert '<g id="objects" fill="none" stroke="#ff0000"' in text
-    assert run("voronoi", LAKES, "-o", "a.png", "--width", "200", *looks).code == 0
-    assert iio.imread(folder / "a.png").shape[1:] == (200, 4)
-    done = run("voronoi", LAKES, "-o", "a.svg", "--color", "walls=red")
-    assert (done.code, "the picture has cells, edges, objects, labels" in done.err) == (2, True)
-
-
 def test_borders_over_an_image(run, labels, folder):
     done = run("voronoi", labels, "--what", "edges", "--overlay", labels, "-o", "a.png", "--layers", "edges")
     assert done.code == 0
@@ -68,15 +45,3 @@ def test_a_page_names_cells(run, folder, options):
     assert columns["own_area"] == pytest.approx(scale**2 * cells.own_areas)
     assert columns["max_distance"] == pytest.approx(scale * cells.reaches, abs=1e-9)
     assert columns["name"] == ["Lake Michigan", "Lake Superior", "Lake Huron"]
-
-
-def test_tables_have_the_measures(run, labels):
-    rows = run("voronoi", labels, "--what", "table").rows
-    assert list(rows[0]) == ["label", "id", "area", "perimeter", "neighbors", "own_area", "max_distance", "components"]
-    assert [float(row["own_area"]) for row in rows] == np.bincount(LABELS.ravel())[1:].tolist()
-    rows = run("voronoi", labels, "--what", "neighbors", "--pixel-size", "2").rows
-    assert list(rows[0]) == ["label_a", "label_b", "border_length", "distance"]
-    assert [float(row["distance"]) for row in rows] == [
-        12,
-        0,
-    ]  # 1 and 3 meet at a corner; 2 and 3 only beyond the image

@@ -8,7 +8,6 @@ import pytest
 from PIL import Image, ImageSequence
 
 import vorotool
-from vorotool.jobs.results import MOST_PIXELS
 
 SHAPES = "[[[0, 0], [40, 0], [40, 30], [0, 30]], [[50, 0], [60, 0], [55, 9]]]"
 
@@ -56,13 +55,6 @@ def test_cells_grow(run, folder, fmt):
         np.testing.assert_array_equal(frame, np.where((reached | is_seed)[..., None], whole, 255))
 
 
-def test_cells_grow_up_to_a_distance(run, folder):
-    style = ["--size", "60x60", "--what", "color", "--max-distance", "6.5", "--line-width", "cells=0"]
-    assert run("tessellate", "dots.csv", *style, "-o", "out.gif", "--frames", "3").code == 0
-    assert run("tessellate", "dots.csv", *style, "-o", "last.png").code == 0
-    np.testing.assert_array_equal(frames_of("out.gif")[-1] == 255, pixels("last.png") == 255)
-
-
 def test_shapes_grow(run, folder):
     style = ["--what", "polygons", "--width", "200"]
     assert run("alphashape", "dots.csv", "-r", "12", *style, "-o", "out.apng", "--frames", "6").code == 0
@@ -71,22 +63,6 @@ def test_shapes_grow(run, folder):
         r = str(float(Fraction(12) * (number + 1) / 6))
         assert run("alphashape", "dots.csv", "-r", r, *style, "-o", "one.png", "-q").code == 0
         np.testing.assert_array_equal(found[number], pixels("one.png"))
-
-
-def test_offsets_grow(run, folder):
-    command = ["skeleton-exact", "shapes.json", "--what", "offset", "--width", "200"]
-    done = run(*command, "-d", "-8,4", "--animate", "-o", "out.png", "--frames", "4", "--line-width", "offset=1")
-    assert done.code == 0, done.err
-    found = frames_of("out.png")
-    assert len(found) == 4
-    assert run(*command, "-d", "-8,4", "-o", "last.png", "--line-width", "offset=1").code == 0
-    np.testing.assert_array_equal(found[-1], pixels("last.png"))
-    for number, frame in enumerate(found):  # a brute-force check of one curve: the left side moves out
-        distance = 4 * (number + 1) / 4
-        scale = 200 / ((60 + 8) * 1.04)
-        column = (0.02 * 68 + 4 - distance) * scale
-        row = frame[frame.shape[0] // 2].astype(int)
-        assert abs(int(np.flatnonzero(np.abs(row - 255).sum(axis=1) > 60)[0]) - column) <= 1.5
 
 
 def test_what_animate_stands_for(run, folder):
@@ -107,37 +83,6 @@ def test_many_colors_share_a_palette(run, folder):
     assert run("tessellate", "dots.csv", *style, "-o", "out.gif", "--frames", "2").code == 0
     difference = np.abs(frames_of("out.gif")[0].astype(int) - pixels("photo.png"))
     assert difference.mean() < 40  # 256 colors for 3600
-
-
-def test_time_of_frames(run, folder):
-    style = ["--size", "30x30", "--what", "color", "--frames", "3", "--fps", "2"]
-    assert run("tessellate", "dots.csv", *style, "-o", "out.gif").code == 0
-    with Image.open("out.gif") as image:
-        assert (image.info["duration"], image.info["loop"]) == (500, 0)
-
-
-REFUSED = [
-    (["tessellate", "dots.csv", "--what", "color", "--animate", "-o", "a.svg"], 2, "--animate"),
-    (["tessellate", "dots.csv", "--what", "color", "--frames", "3", "-o", "a.png"], 2, "--frames"),
-    (["tessellate", "dots.csv", "--what", "color", "--fps", "3", "-o", "a.png"], 2, "--fps"),
-    (["tessellate", "dots.csv", "--what", "color", "--frames", "1", "-o", "a.gif"], 2, "1 is not in the range"),
-    (["tessellate", "dots.csv", "--what", "labels", "-o", "a.gif"], 2, "labels cannot be written as gif"),
-    (
-        ["tessellate", "dots.csv", "--what", "color", "--method", "propagation", "-o", "a.gif"],
-        2,
-        "an animation cannot be combined with --method propagation",
-    ),
-    (["alphashape", "dots.csv", "-r", "9", "--method", "digital", "-o", "a.gif"], 2, "--method"),
-    (["skeleton-exact", "shapes.json", "-o", "a.gif"], 2, "skeleton cannot be written as gif: use --what offset"),
-    (["tessellate", "dots.csv", "--what", "color", "--size", "6000x6000", "-o", "a.gif"], 5, f"{MOST_PIXELS}"),
-]
-
-
-@pytest.mark.parametrize(("command", "code", "message"), REFUSED)
-def test_what_is_refused(run, folder, command, code, message):
-    done = run(*command)
-    assert (done.code, message in done.err) == (code, True), done.err
-    assert not list(folder.glob("a.*"))
 
 
 def test_the_library_has_none(folder):

@@ -61,17 +61,6 @@ def test_every_page_is_ascii():
         assert text.isascii(), [line for line in text.splitlines() if not line.isascii()]
 
 
-def test_many_products_are_named_by_the_long_page_only():
-    assert "table" not in said("skeleton-exact", "-h")
-    assert "table" in said("skeleton-exact", "--help")
-
-
-def test_types_show_as_they_are_written():
-    text = said("tessellate", "--help")
-    assert "--size WxH" in text
-    assert "--threshold T|otsu" in text
-
-
 @pytest.mark.parametrize(
     "arguments",
     [["--method", "Exact"], ["--what", "LABELS"], ["-f", "PNG"], ["--dtype", "UInt16", "-f", "tiff"]],

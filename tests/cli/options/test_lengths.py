@@ -55,8 +55,6 @@ def test_a_unit_of_its_own_is_as_good_as_any(run, inputs):
 FRAMED = [
     "voronoi in.json -o {}.csv --frame",
     "delaunay in.csv --what cells -o {}.csv --frame",
-    "skeleton-exact in.json --side both -o {}.json --frame",
-    "skeleton-approx in.json --step 1 --what diagram -o {}.json --frame",
 ]
 
 
@@ -68,13 +66,6 @@ def test_a_frame_is_its_numbers(run, inputs, command):
         assert run(*words, frame, "--pixel-size", "0.5um", "-q").code == 0
     kind = words[words.index("-o") + 1].rpartition(".")[2]
     assert (inputs / f"unit.{kind}").read_bytes() == (inputs / f"plain.{kind}").read_bytes()
-
-
-def test_ends_of_a_centerline_are_their_numbers(run, inputs):
-    command = ["skeleton-exact", "in.json", "--what", "centerline", "--pixel-size", "0.5um", "-f", "csv", "-q"]
-    done = [run(*command, "--from", begin, "--to", end) for begin, end in (("1,1um", "4um,0um"), ("2,2", "8,0"))]
-    assert done[0].code == 0, done[0].err
-    assert done[0].out == done[1].out
 
 
 def test_places_on_a_map_are_in_pixels(run, tmp_path):

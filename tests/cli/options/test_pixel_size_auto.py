@@ -46,30 +46,6 @@ def test_what_a_file_carries_is_what_a_user_would_type(run, tmp_path, kind, side
     assert f"{stats['pixel_size']:g} {stats['unit']}" == words
 
 
-COMMANDS = [
-    "delaunay --what table",
-    "alphashape --seeds pixels --auto --what table",
-    "skeleton-exact --what table",
-    "skeleton-approx --step 1 --what table",
-]
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_every_command(run, tmp_path, command):
-    write(tmp_path / "in.tif", "ome")
-    auto = run(*command.split(), "in.tif", "-f", "csv", "-q", "--pixel-size", "auto")
-    assert auto.code == 0
-    assert auto.out == run(*command.split(), "in.tif", "-f", "csv", "-q", "--pixel-size", "0.325µm").out
-
-
-def test_areas_of_objects(run, tmp_path):
-    """42 and 120 pixels of 0.25 µm: their areas are known without any program."""
-    write(tmp_path / "in.tif", "ome", (0.25, 0.25))
-    rows = run("tessellate", "in.tif", "--what", "table", "-q", "--pixel-size", "auto").rows
-    assert [float(row["object_area"]) for row in rows] == [42 / 16, 120 / 16]
-    assert sum(float(row["area"]) for row in rows) == MASK.size / 16
-
-
 @pytest.mark.parametrize(
     ("kind", "sides", "unit", "words"),
     [
@@ -93,19 +69,10 @@ def test_files_without_a_size(run, tmp_path, kind, sides, unit, words):
     assert ("--spacing" in plain.err) == (sides[0] != sides[1])
 
 
-def test_what_has_no_pixels_has_no_size_of_them(run, folder):
-    for options in (["tessellate", "dots.csv", "--what", "table"], ["delaunay", "dots.csv"]):
-        done = run(*options, "--pixel-size", "auto")
-        assert done.code == 2
-        assert "--pixel-size" in done.err
-    done = run("tessellate", "mask.pbm", "-o", "a.tif", "--pixel-size", "auto")
-    assert (done.code, "--pixel-size" in done.err) == (2, True)
-    done = run("tessellate", "mask.pbm", "--what", "table", "--pixel-size", "auto")
-    assert (done.code, "states no pixel size" in done.err) == (3, True)
-
-
-@pytest.mark.parametrize("what", ["labels", "diagram", "distance"])
-@pytest.mark.parametrize(("kind", "sides", "unit", "words"), FILES)
+@pytest.mark.parametrize(
+    ("kind", "sides", "unit", "words", "what"),
+    [(*each, what) for each, what in zip(FILES, 2 * ("labels", "diagram", "distance"), strict=True)],
+)
 def test_outputs_carry_sizes_on(run, tmp_path, kind, sides, unit, words, what):
     write(tmp_path / "in.tif", kind, sides, unit)
     assert run("tessellate", "in.tif", "-o", "out.tif", "--what", what, "-q").code == 0
@@ -131,39 +98,3 @@ def test_ome_xml_that_is_hostile(run, tmp_path):
         done = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
         assert (done.code, "states no pixel size" in done.err) == (3, True), body
         assert run("tessellate", "in.tif", "-o", "out.png").code == 0
-
-
-def test_streams(run, tmp_path):
-    """What comes through a pipe carries its size, too."""
-    data = write(tmp_path / "in.tif", "imagej", unit="um").read_bytes()
-    command = ("tessellate", "-", "--what", "table", "--pixel-size")
-    auto, typed = (run(*command, size, data=data) for size in ("auto", "0.325µm"))
-    assert (auto.code, auto.out) == (0, typed.out)
-    assert auto.out.count("um") > 0
-
-
-def test_many_inputs_in_one_table(run, tmp_path):
-    folder = tmp_path / "in"
-    folder.mkdir()
-    write(folder / "a.tif", "imagej", unit="um")
-    write(folder / "b.tif", "ome")
-    done = run("tessellate", "in", "--table", "all.csv", "--pixel-size", "auto", "-q")
-    assert done.code == 0
-    assert len((tmp_path / "all.csv").read_text().splitlines()) == 5
-    write(folder / "c.tif", "ome", (0.3, 0.3), "nm")
-    done = run("tessellate", "in", "--table", "all.csv", "--pixel-size", "auto", "-q")
-    assert done.code == 3
-    assert "lengths in µm (in/a.tif) and in nm (in/c.tif)" in done.err
-    assert run("tessellate", "in", "--table", "all.csv", "--pixel-size", "2um", "-q").code == 0
-
-
-def test_the_library_carries_sizes(tmp_path):
-    import vorotool
-
-    write(tmp_path / "in.tif", "ome")
-    raster = vorotool.read(tmp_path / "in.tif")
-    assert raster.grid.size_text() == "0.325 µm"
-    image = vorotool.tessellate(raster, spacing=1)
-    assert image.grid == raster.grid
-    vorotool.write(image, tmp_path / "out.tif")
-    assert vorotool.read(tmp_path / "out.tif").grid == raster.grid

@@ -32,7 +32,7 @@ def shapes(path):
     return shapely.from_geojson([json.dumps(each["geometry"]) for each in features])
 
 
-@pytest.mark.parametrize("options", [[], ["--prune", "none"], ["--prune", "length=0.3um"], ["--outline", "contour"]])
+@pytest.mark.parametrize("options", [["--prune", "length=0.3um"], ["--outline", "contour"]])
 def test_exact_skeletons_are_those_of_outlines_in_the_unit(run, masks, options):
     args = ["--spacing", "0.5,0.325um", "--verify", *options]
     assert run("skeleton-exact", "mask.png", "-o", "a.geojson", *args).code == 0
@@ -69,14 +69,6 @@ def test_offsets_are_at_distances_in_the_unit(run, masks, distance):
     assert first.bounds == pytest.approx((3.5 * 0.5 + 0.3, 2.5 * 0.325 + 0.3, 10.5 * 0.5 - 0.3, 8.5 * 0.325 - 0.3))
 
 
-def test_simplification_moves_outlines_by_lengths_in_the_unit(run, masks):
-    stairs = np.tril(np.ones((30, 30), np.uint8)) * 255
-    Image.fromarray(np.pad(stairs, 2)).save(masks / "stairs.png")
-    rows = run("skeleton-exact", "stairs.png", "--what", "table", "--spacing", "0.5,0.5", "--simplify", "0.4").rows
-    plain = run("skeleton-exact", "stairs.png", "--what", "table", "--simplify", "0.8").rows
-    assert float(rows[0]["perimeter"]) == pytest.approx(float(plain[0]["perimeter"]) / 2)
-
-
 def test_voronoi_maps(run, masks):
     args = ["--spacing", "0.5,0.325um", "--frame", "0,0,16,8", "--max-distance", "1.5", "--verify"]
     rows = run("voronoi", "mask.png", "--what", "table", *args).rows
@@ -96,49 +88,6 @@ def test_triangulations_are_of_places_in_the_unit(run, masks, method):
     ]
     assert [float(row["length"]) for row in rows] == pytest.approx((mesh.edge_lengths() / 40).tolist())
     assert {row["unit"] for row in rows} == {"um"}
-
-
-@pytest.mark.parametrize("name", ["dots.csv", "mask.png"])
-def test_the_paper_rule(run, masks, name):
-    rows = run("delaunay", name, "--method", "digital", "--spacing", "0.5,0.325um", "--verify", "-f", "csv").rows
-    source = MASK if name == "mask.png" else np.loadtxt(masks / name, delimiter=",", skiprows=1)
-    found = vorotool.digital_triangulation(source, spacing=(0.325, 0.5))
-    assert len(rows) == len(found.edges) > 0
-    assert [float(row["length"]) for row in rows] == found.edge_lengths().tolist()
-
-
-def test_cells_of_centroids(run, masks):
-    row = run("delaunay", "mask.png", "--what", "table", "--spacing", "0.5,0.325um", "--verify").rows[0]
-    assert (float(row["x"]), float(row["y"])) == (7 * 0.5, 5.5 * 0.325)
-
-
-@pytest.mark.parametrize("command", ["skeleton-exact", "voronoi", "delaunay --seeds pixels"])
-@pytest.mark.parametrize("fmt", ["svg", "png"])
-def test_pictures_have_the_aspect(run, masks, command, fmt):
-    args = [*command.split(), "mask.png", "--spacing", "0.5,1um", "-o", f"a.{fmt}", "--scale-bar", "--width", "300"]
-    assert run(*args).code == 0
-    if fmt == "png":
-        with Image.open(masks / "a.png") as picture:
-            width, height = picture.size
-        assert height / width == pytest.approx(24 / 16, abs=0.01)
-    done = run(*args, "--overlay", "mask.png")
-    assert (done.code, "--overlay" in done.err) == (2, True)
-
-
-REFUSED = [
-    ("skeleton-exact mask.png", "1,2,3", "--spacing"),
-    ("delaunay mask.png", "1,2,3", "--spacing"),
-    ("voronoi mask.png", "1,2,3", "--spacing"),
-    ("voronoi dots.csv", "1,2", "--spacing"),
-    ("delaunay dots.csv --what compare", "1,2", "--what"),
-    ("skeleton-exact mask.png --pixel-size 3", "1,2", "--pixel-size"),
-]
-
-
-@pytest.mark.parametrize(("command", "spacing", "message"), REFUSED)
-def test_what_does_not_go_together_is_refused(run, masks, command, spacing, message):
-    done = run(*command.split(), "--spacing", spacing, "-o", "a.csv" if command.startswith("d") else "a.svg")
-    assert (done.code, message in done.err) == (2, True)
 
 
 def test_places_are_in_the_unit(run, masks):

@@ -13,6 +13,7 @@ import numcodecs.blosc
 import pytest
 
 from support.families.tiff_files import grey, tiff_file
+from support.few import slow
 from support.processes.peak_memory import watched
 
 HUGE = 2**30
@@ -188,7 +189,7 @@ main()
 """
 
 
-@pytest.mark.parametrize("kind", ["deflate", "lzw"])
+@pytest.mark.parametrize("kind", ["deflate", slow("lzw")])
 def test_a_signal_ends_decoding(tmp_path, kind):
     """Of an image whose strip takes a second or more to decode: it is not decoded to its end."""
     rows = 2**15

@@ -3,7 +3,6 @@
 import json
 
 import geopandas
-import imageio.v3 as imageio
 import numpy as np
 import pandas
 import pytest
@@ -47,8 +46,7 @@ def columns_of(path):
     return {name: frame[name].tolist() for name in frame}
 
 
-@pytest.mark.parametrize("names", ORDERS, ids=",".join)
-@pytest.mark.parametrize("kind", ["csv", "npz", "frame", "features"])
+@pytest.mark.parametrize(("names", "kind"), list(zip(ORDERS, ["csv", "npz", "features", "frame"], strict=True)))
 def test_labels_are_found_wherever_they_stand(names, kind, tmp_path):
     frame = pandas.DataFrame({name: column(name) for name in names})
     if kind == "csv":
@@ -80,13 +78,6 @@ def test_other_values_are_a_property(labels, tmp_path):
     assert found.properties["label"] == labels
 
 
-def test_labels_that_the_user_names_are_refused_if_they_are_none(run, tmp_path):
-    (tmp_path / "in.csv").write_text(text(ORDERS[0], ["a", "b", "c"]))
-    done = run("delaunay", tmp_path / "in.csv", "--columns", "x,y,label")
-    assert done.code == 3
-    assert "'a'" in done.err
-
-
 def test_repeated_labels_share_a_region_and_are_a_property_of_triangulations(run, tmp_path):
     (tmp_path / "in.csv").write_text(text(ORDERS[1], [7, 7, 8]))
     made = run("tessellate", tmp_path / "in.csv", "--size", "8x8", "--what", "table", "-f", "csv")
@@ -107,14 +98,6 @@ def test_repeated_labels_share_a_region_and_are_a_property_of_triangulations(run
     mesh = vorotool.delaunay(vorotool.read(tmp_path / "in.csv"))
     assert mesh.labels is None
     assert mesh.properties["label"] == [7, 7, 8]
-
-
-def test_tables_of_ours_are_read_with_their_labels(run, tmp_path):
-    (tmp_path / "in.csv").write_text(text(ORDERS[0]))
-    done = run("delaunay", tmp_path / "in.csv", "--what", "table", "-o", tmp_path / "table.csv")
-    assert done.code == 0
-    again = run("delaunay", tmp_path / "table.csv", "--what", "edges", "-f", "csv")
-    assert [(row["label_a"], row["label_b"]) for row in again.rows] == [("101", "103"), ("101", "102"), ("102", "103")]
 
 
 def test_the_column_that_sites_are_joined_by_stays(run, tmp_path):
@@ -146,7 +129,7 @@ OF_PARTS = ["table", "skeleton", "branches", "elements", "points", "parts", "dis
     [
         (what, fmt)
         for what in OF_PARTS
-        for fmt in ("csv", "json", "geojson", "npz")
+        for fmt in (("csv", "json", "geojson", "npz") if what == "parts" else ("csv",))
         if fmt in registry.PRODUCTS["skeleton-exact"][what].formats
         and (what, fmt) not in {("skeleton", "json"), ("skeleton", "npz")}  # have no rows
     ],
@@ -167,17 +150,6 @@ def test_rows_made_of_polygons_refer_to_features_by_label(run, tmp_path, what, f
         assert "polygon" not in found
 
 
-def test_labels_of_images_are_those_of_results(run, tmp_path):
-    image = np.zeros((30, 60), np.uint8)
-    image[5:15, 5:20], image[5:15, 30:50] = 7, 3
-    imageio.imwrite(tmp_path / "in.png", image)
-    for command, what in (("skeleton-exact", "table"), ("skeleton-exact", "branches"), ("voronoi", "table")):
-        made = run(command, tmp_path / "in.png", "--what", what, "-f", "csv", "-q")
-        assert {(row["label"], row["id"]) for row in made.rows} == {("3", "3"), ("7", "7")}
-    made = run("voronoi", tmp_path / "in.png", "--what", "neighbors", "-f", "csv", "-q")
-    assert [(row["label_a"], row["label_b"]) for row in made.rows] == [("3", "7")]
-
-
 def test_neighbours_of_cells_refer_to_the_labels_of_the_input(run, tmp_path):
     (tmp_path / "in.geojson").write_text(json.dumps(FEATURES))
     for what in ("neighbors", "edges"):
@@ -188,7 +160,7 @@ def test_neighbours_of_cells_refer_to_the_labels_of_the_input(run, tmp_path):
     assert "voro_label" not in table.rows[0]
 
 
-READ_BACK = ["csv", "tsv", "json", "geojson", "npz", "gpkg", "fgb", "parquet", "jsonl"]
+READ_BACK = ["csv", "json", "geojson", "npz", "gpkg"]
 
 
 @pytest.fixture

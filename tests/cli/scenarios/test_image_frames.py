@@ -38,21 +38,6 @@ def test_territories_of_an_image_fill_it(run, mask, command):
     assert sum(cell.area for cell in cells) == pytest.approx(WIDTH * HEIGHT, rel=1e-12)
 
 
-@pytest.mark.parametrize("command", ["voronoi", "delaunay"])
-def test_areas_in_the_table_sum_to_the_image(run, mask, command):
-    rows = run(command, mask, "--what", "table").rows
-    assert sum(float(row["area"]) for row in rows) == pytest.approx(WIDTH * HEIGHT, rel=1e-12)
-    rows = run(command, mask, "--what", "table", "--pixel-size", "0.5um").rows
-    assert sum(float(row["area"]) for row in rows) == pytest.approx(WIDTH * HEIGHT / 4, rel=1e-12)
-
-
-@pytest.mark.parametrize("command", ["voronoi", "delaunay"])
-def test_a_world_file_places_the_image_and_its_frame(run, mask, command):
-    mask.with_suffix(".pgw").write_text("10\n0\n0\n-10\n2600005\n1199995\n")
-    done = run(command, mask, "--what", "cells", "-f", "geojson")
-    assert shapely.union_all(shapes(done.out)).equals(shapely.box(2600000, 1199910, 2600120, 1200000))
-
-
 def test_an_image_in_a_reference_system_has_its_bounds(run, tmp_path):
     rasterio = pytest.importorskip("rasterio")
     where = rasterio.Affine(30, 0, 500000, 0, -30, 4600000)
@@ -69,7 +54,7 @@ def test_an_image_in_a_reference_system_has_its_bounds(run, tmp_path):
         )
 
 
-@pytest.mark.parametrize("command", [("skeleton-exact",), ("skeleton-approx", "--step", "0.25")])
+@pytest.mark.parametrize("command", [("skeleton-approx", "--step", "0.25")])
 def test_exteriors_end_at_the_image(run, mask, command):
     done = run(*command, mask, "--side", "exterior", "-f", "geojson")
     assert shapely.union_all(shapes(done.out)).bounds == PIXELS.bounds
@@ -82,25 +67,6 @@ def test_a_clip_beyond_the_image_does_not_extend_it(run, mask, tmp_path, command
     (tmp_path / "clip.wkt").write_text("POLYGON ((3 -20, 30 -20, 30 4, 3 4, 3 -20))")
     done = run(command, mask, "--what", "cells", "-f", "geojson", "--clip", "clip.wkt")
     assert shapely.union_all(shapes(done.out)).equals(shapely.box(3, -0.5, WIDTH - 0.5, 4))
-
-
-@pytest.mark.parametrize("command", ["voronoi", "delaunay"])
-def test_a_frame_that_is_given_holds(run, mask, command):
-    done = run(command, mask, "--what", "cells", "-f", "geojson", "--frame=-2,-2,20,20")
-    assert shapely.union_all(shapes(done.out)).bounds == (-2, -2, 18, 18)
-
-
-def test_enclosures_beyond_the_image_do_not_extend_it(run, mask, tmp_path):
-    (tmp_path / "line.wkt").write_text("LINESTRING (4 -30, 4 30)")
-    done = run("voronoi", mask, "-f", "geojson", "--enclosures", "line.wkt")
-    assert shapely.union_all(shapes(done.out)).bounds == PIXELS.bounds
-
-
-def test_pixels_with_sides_have_their_frame(run, mask):
-    done = run("delaunay", mask, "--what", "cells", "-f", "geojson", "--spacing", "0.5,2um")
-    assert shapely.union_all(shapes(done.out)).bounds == (-0.25, -1, WIDTH / 2 - 0.25, 2 * HEIGHT - 1)
-    done = run("voronoi", mask, "-f", "geojson", "--spacing", "0.5,2um")
-    assert shapely.union_all(shapes(done.out)).bounds == (-0.25, -1, WIDTH / 2 - 0.25, 2 * HEIGHT - 1)
 
 
 def test_the_library_frames_images_as_the_command_line_does():

@@ -2,7 +2,6 @@
 
 import re
 import xml.etree.ElementTree as ET
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,10 +10,9 @@ from skimage.draw import disk
 from skimage.segmentation import find_boundaries
 
 import vorotool
-from vorotool.render.canvas.styles import CELLS, SEED
+from vorotool.render.canvas.styles import SEED
 
 NS = "{http://www.w3.org/2000/svg}"
-PALETTE = {tuple(ImageColor.getrgb(name)) for name in CELLS}
 WHITE, VIOLET = (255, 255, 255), ImageColor.getrgb(SEED)
 
 
@@ -61,14 +59,6 @@ def test_cells_have_borders_of_a_pixel(run, nuclei):
     assert not is_color(pixels("b.png"), WHITE).any()
 
 
-def test_small_cells_have_none(run, tmp_path):
-    rng = np.random.default_rng(5)
-    np.savetxt(tmp_path / "dots.csv", rng.permutation(1600)[:200, None] // [[40, 1]] % 40, fmt="%d", delimiter=",")
-    done = run("tessellate", "dots.csv", "--size", "40x40", "--what", "color", "--layers", "cells", "-o", "out.png")
-    assert done.code == 0, done.err
-    assert not is_color(pixels(), WHITE).any()
-
-
 @pytest.mark.parametrize("seeds", ["labels", "components"])
 def test_objects_are_outlines(run, nuclei, seeds):
     done = run("tessellate", "labels.png", "--what", "color", "--seeds", seeds, "-o", "out.png")
@@ -99,19 +89,6 @@ def test_one_path_an_object(run, nuclei):
         assert [min(across), max(across)] == pytest.approx(expected, abs=0.02)
 
 
-def test_pixels_as_seeds_stay_discs(run, nuclei):
-    done = run("tessellate", "labels.png", "-f", "svg", "--layers", "seeds", "--seeds", "centroids")
-    assert done.out.count("<circle") == 8
-
-
-def test_neighbors_that_touch_differ(run, nuclei):
-    assert run("draw", "labels.png", "-o", "out.png").code == 0
-    image = pixels()
-    colors = {tuple(image[y, x]) for y, x in ((33, 18), (33, 29))}
-    assert len(colors) == 2
-    assert colors <= PALETTE
-
-
 @pytest.mark.parametrize("command", [["draw", "labels.png"], ["tessellate", "labels.png", "--what", "color"]])
 def test_looks_of_png(run, nuclei, command):
     style = ["--color", "cells=navy", "--line-width", "cells=3", "--background", "#102030"]
@@ -126,57 +103,6 @@ def test_looks_of_png(run, nuclei, command):
         grown[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2] = True
     np.testing.assert_array_equal(wide, grown)
     np.testing.assert_array_equal(is_color(image, (0x10, 0x20, 0x30)), (nuclei == 0) & ~wide & (command[0] == "draw"))
-
-
-def test_nothing_beneath(run, nuclei):
-    assert run("draw", "labels.png", "--background", "none", "-o", "out.png").code == 0
-    np.testing.assert_array_equal(pixels(mode="RGBA")[:, :, 3] == 0, nuclei == 0)
-    assert run("draw", "labels.png", "--background", "none", "-o", "out.svg").code == 0
-    assert "<rect" not in Path("out.svg").read_text()
-    shapes = run("skeleton-exact", "labels.png", "--seeds", "labels", "--background", "none", "-o", "out.png", "-q")
-    assert shapes.code == 0, shapes.err
-    alpha = pixels(mode="RGBA")[:, :, 3]
-    assert alpha[0, 0] == 0
-    assert {0, 255} < set(np.unique(alpha).tolist())
-
-
-def test_looks_of_svg(run, nuclei):
-    style = ["--color", "cells=red", "--color", "seeds=lime", "--line-width", "seeds=2.5", "--line-width", "cells=0"]
-    done = run("tessellate", "labels.png", "-f", "svg", "--layers", "cells,seeds", "--background", "black", *style)
-    groups = {group.get("id"): group for group in ET.fromstring(done.out).iter(f"{NS}g")}
-    assert groups["cells"].get("stroke") is None
-    assert (groups["seeds"].get("stroke"), groups["seeds"].get("stroke-width")) == ("#00ff00", "2.5")
-    assert '<rect width="1000"' in done.out
-    assert 'fill="#000000"' in done.out
-
-
-@pytest.mark.parametrize("ground", [0, 255])
-@pytest.mark.parametrize("what", [["--what", "diagram", "--layers", "diagram,seeds"], ["--what", "color"]])
-def test_lines_show_on_any_ground(run, nuclei, ground, what):
-    """Each line has white or dark pixels beside it, whatever the image is."""
-    Image.new("L", (80, 60), ground).save("ground.png")
-    done = run("tessellate", "labels.png", *what, "--overlay", "ground.png", "-o", "out.png")
-    assert done.code == 0, done.err
-    image = pixels()
-    dark = is_color(image, VIOLET) | is_color(image, (0, 0, 0)) & (ground > 0)
-    white = is_color(image, WHITE)
-    for y, x in np.argwhere(is_color(image, VIOLET)):
-        around = (slice(max(y - 1, 0), y + 2), slice(max(x - 1, 0), x + 2))
-        assert white[around].any()
-        assert dark[around].any()
-
-
-def test_the_library_draws_alike(run, nuclei):
-    image = vorotool.tessellate(vorotool.seeds_from_raster(nuclei))
-    looks = {"color": {"seeds": "red", "cells": "#00f"}, "line_width": {"seeds": 2}, "background": "none"}
-    given = ["--color", "seeds=red", "--color", "cells=#00f", "--line-width", "seeds=2", "--background", "none"]
-    for name in ("out.svg", "out.png"):
-        vorotool.write(image, f"library-{name}", what="color", **looks)
-        assert run("tessellate", "labels.png", "--what", "color", *given, "-o", name).code == 0
-        assert Path(name).read_bytes() == Path(f"library-{name}").read_bytes()
-    mesh = vorotool.delaunay([[0, 0], [4, 0], [0, 3]])
-    vorotool.write(mesh, "mesh.svg", color={"edges": "teal"}, line_width={"edges": 0.5}, background="none")
-    assert 'stroke="#008080" stroke-width="0.5"' in Path("mesh.svg").read_text()
 
 
 @pytest.mark.parametrize(

@@ -33,7 +33,6 @@ def towns(folder):
     "arguments",
     [
         ["voronoi", "{lakes}", "--clip", "{area}", "--enclosures", "{area}", "-f", "wkt"],
-        ["delaunay", "{odd/dots}", "--clip", "{area}", "--what", "cells", "-f", "wkt"],
         ["distance", "{lakes}", "{odd/dots}"],
         ["draw", "{lakes}", "-o", "{out}.svg"],
     ],
@@ -149,24 +148,6 @@ def test_several_results_are_layers_of_one_geopackage(run, towns):
     assert run("voronoi", "x.gpkg:cells", "--what", "table", "-o", "v.csv").code == 0
 
 
-def test_layers_of_nothing(run, folder):
-    (folder / "none.geojson").write_text('{"type": "FeatureCollection", "features": []}')
-    done = run("skeleton-exact", "none.geojson", "--what", "branches,centerline,table", "-o", "x.gpkg")
-    assert done.code == 0, done.err
-    assert len(pyogrio.list_layers(folder / "x.gpkg")) == 3
-
-
-def test_layers_that_a_run_does_not_write_are_kept(run, towns):
-    before = (towns / "m.gpkg").read_bytes()
-    typed = ("delaunay", "odddots.geojson", "--what", "edges,cells", "-o", "m.gpkg")
-    done = run(*typed)
-    assert (done.code, "lakes, area, odd/dots" in done.err) == (4, True)
-    assert run(*typed, "--overwrite", "--no-clobber").code == 4
-    assert (towns / "m.gpkg").read_bytes() == before
-    assert run(*typed, "--overwrite").code == 0
-    assert [name for name, _ in pyogrio.list_layers(towns / "m.gpkg")] == ["edges", "cells"]
-
-
 @pytest.mark.parametrize("fault", ["error", "index"])
 def test_all_layers_are_written_or_none(run, towns, monkeypatch, fault):
     (towns / "x.gpkg").write_text("older")
@@ -187,28 +168,10 @@ def test_all_layers_are_written_or_none(run, towns, monkeypatch, fault):
     assert not list(towns.glob(".*"))
 
 
-def test_results_that_a_geopackage_cannot_hold_are_files(run, folder):
-    run("sample", "cells.png", "-o", "c.png")
-    assert run("tessellate", "c.png", "--what", "labels,table,neighbors", "-o", "x.gpkg").code == 0
-    assert run("tessellate", "c.png", "--what", "labels,table", "-o", "x.tif").code == 0
-    assert {path.name for path in folder.glob("x*")} == {"x.gpkg", "x.labels.png", "x.labels.tif", "x.table.csv"}
-    assert [name for name, _ in pyogrio.list_layers(folder / "x.gpkg")] == ["table", "neighbors"]
-
-
-def test_what_is_said_of_a_file_is_said_once(run, folder):
-    run("sample", "cells.png", "-o", "c.png")
-    done = run("skeleton-exact", "c.png", "--what", "skeleton,branches", "-o", "x.gpkg")
-    assert done.err.count("y goes down in x.gpkg") == 1
-    done = run("skeleton-exact", "c.png", "--what", "skeleton,branches", "-o", "x.gpkg", "--dry-run")
-    assert json.loads(done.out)["outputs"] == ["x.gpkg"]
-
-
 @pytest.mark.parametrize(
     ("command", "formats", "names"),
     [
         ("tessellate dots.csv --what labels,table,neighbors", "tiff,csv", "x.labels.tif x.neighbors.csv x.table.csv"),
-        ("tessellate dots.csv --what labels,table", "json,npy", "x.labels.npy x.table.json"),
-        ("delaunay dots.csv --what edges,cells", "csv,geojson", "x.cells.geojson x.edges.csv"),
         ("delaunay dots.csv --what edges,triangles,table", "edge", "x.edges.edge x.table.node x.triangles.ele"),
         ("delaunay dots.csv --what edges,cells", "CSV, .geojson", "x.cells.geojson x.edges.csv"),
     ],
@@ -219,20 +182,3 @@ def test_each_result_has_the_format_that_is_usual_for_it(run, folder, command, f
     assert sorted(path.name for path in folder.glob("x.*")) == names.split()
     assert run(*command.split(), "-f", formats, "--out-dir", "all").code == 0
     assert sorted(path.name for path in (folder / "all").iterdir()) == names.replace("x.", "dots.").split()
-
-
-@pytest.mark.parametrize(
-    ("what", "formats", "word"),
-    [
-        ("labels,table", "png,tiff,csv", "tiff"),
-        ("labels", "tiff,csv", "csv"),
-        ("labels,table", "tiff", "table"),
-        ("labels,table", "tiff,,csv", "''"),
-        ("labels,table", "tiff,banana", "banana"),
-    ],
-)
-def test_formats_that_no_result_has_are_refused(run, folder, what, formats, word):
-    run("sample", "dots.csv", "-o", "dots.csv")
-    done = run("tessellate", "dots.csv", "--what", what, "-f", formats, "-o", "x")
-    assert (done.code, word in done.err) == (2, True)
-    assert not list(folder.glob("x*"))

@@ -1,7 +1,5 @@
 """OME-Zarr in all commands: labels in and out, sizes of pixels, bands, batches."""
 
-import json
-
 import numpy as np
 import pytest
 import tifffile
@@ -46,26 +44,3 @@ def test_sizes_go_all_the_way(run, store):
         assert 'PhysicalSizeX="0.325"' in file.ome_metadata
     done = run("skeleton-exact", "a.ome.zarr", "--what", "table", "-f", "csv")
     assert "a.ome.zarr" in done.err
-
-
-def test_plain_stores_are_as_they_were(run, store):
-    run("tessellate", "in.ome.tif", "-o", "a.zarr", "-q")
-    assert zarr.open(store / "a.zarr", mode="r").shape == MASK.shape
-    assert not json.loads((store / "a.zarr/zarr.json").read_text()).get("attributes")
-
-
-def test_bands_and_batches(run, store, monkeypatch):
-    import vorotool.jobs.tessellation as streamed
-
-    run("tessellate", "in.ome.tif", "-o", "a.ome.zarr", "--max-distance", "0", "-q")
-    run("tessellate", "a.ome.zarr", "-o", "held.tif", "-q")
-    monkeypatch.setattr(streamed, "LARGE", 100)
-    run("tessellate", "a.ome.zarr", "-o", "rows.tif", "-q")
-    assert (store / "held.tif").read_bytes() == (store / "rows.tif").read_bytes()
-    (store / "in").mkdir()
-    (store / "a.ome.zarr").rename(store / "in/a.ome.zarr")
-    (store / "in.ome.tif").rename(store / "in/b.ome.tif")
-    done = run("tessellate", "in", "--out-dir", "out", "-f", "zarr", "-q")
-    assert done.code == 0, done.err
-    one, other = (zarr.open_group(store / f"out/{name}.ome.zarr", mode="r")["0"][...] for name in "ab")
-    np.testing.assert_array_equal(one, other)

@@ -116,9 +116,7 @@ EMPTY_RESULTS = {
     ("command", "name"),
     [
         *(("delaunay -f geojson", name) for name in EMPTY_FILES),
-        # a header of coordinates announces points
-        *(("skeleton-exact --what shape -f wkt", name) for name in EMPTY_FILES if name != "h.csv"),
-        *((command, name) for command in EMPTY_RESULTS for name in ("e", "null.geojson")),
+        *((command, "e") for command in EMPTY_RESULTS),
     ],
 )
 def test_a_file_with_nothing_in_it_is_a_warning(run, tmp_path, command, name):
@@ -134,7 +132,7 @@ def test_a_file_with_nothing_in_it_is_a_warning(run, tmp_path, command, name):
     assert "--strict" in done.err
 
 
-@pytest.mark.parametrize("name", [name for name in EMPTY_FILES if name != "h.csv"])
+@pytest.mark.parametrize("name", ["e.wkt", "null.geojson"])
 def test_the_picture_of_an_empty_file_is_empty(run, tmp_path, name):
     (tmp_path / name).write_bytes(EMPTY_FILES[name])
     done = run("draw", name, "-o", "a.svg")
@@ -144,7 +142,7 @@ def test_the_picture_of_an_empty_file_is_empty(run, tmp_path, name):
     assert done.code == 0
 
 
-@pytest.mark.parametrize("command", ["draw -o a.png", "delaunay", "skeleton-exact", "voronoi", "info"])
+@pytest.mark.parametrize("command", ["draw -o a.png", "voronoi", "info"])
 def test_an_empty_layer_is_as_an_empty_file(run, tmp_path, command):
     nothing = geopandas.GeoDataFrame({"n": []}, geometry=geopandas.GeoSeries([], crs=2056))
     nothing.to_file(tmp_path / "a.gpkg", layer="none")
@@ -183,16 +181,6 @@ def test_a_map_of_nothing_lies_where_its_window_is(run, tmp_path):
     )
     with rasterio.open(tmp_path / "a.tif") as file:
         assert (file.shape, tuple(file.bounds), file.read().any()) == ((2, 3), (100, 200, 115, 210), False)
-
-
-def test_a_batch_goes_on_behind_an_empty_file(run, tmp_path):
-    (tmp_path / "e.csv").write_bytes(b"")
-    (tmp_path / "a.csv").write_bytes(POINTS)
-    done = run("alphashape", "e.csv", "a.csv", "--out-dir", "out", "-f", "wkt")
-    assert done.code == 0
-    assert "warning: e.csv: " in done.err
-    assert ((tmp_path / "out/e.wkt").read_bytes(), (tmp_path / "out/a.wkt").exists()) == (b"", True)
-    assert run("alphashape", "e.csv", "a.csv", "--out-dir", "o", "--strict", "--keep-going").code == 6
 
 
 @pytest.mark.parametrize("name", ["e.qgz", "e.qgs", "e.roi"])

@@ -9,8 +9,6 @@ import pytest
 from PIL import Image
 from svgelements import SVG
 
-import vorotool
-
 PART = (
     '<svg xmlns="http://www.w3.org/2000/svg" width="210mm" height="100mm" viewBox="0 0 420 200">'
     '<rect x="40" y="60" width="160" height="80"/></svg>'
@@ -40,11 +38,7 @@ def page(path):
 @pytest.mark.parametrize(
     "made",
     [
-        ("skeleton-exact",),
-        ("skeleton-exact", "--what", "offset", "-d", "-5"),
         ("skeleton-exact", "--what", "offset", "-d", "60"),
-        ("skeleton-exact", "--what", "discs"),
-        ("skeleton-exact", "--what", "diagram"),
         ("skeleton-exact", "--side", "exterior"),
         ("skeleton-approx", "--step", "2"),
         ("voronoi",),
@@ -80,8 +74,6 @@ def test_a_frame_is_the_page(run, tmp_path, part, side):
     ("command", "data"),
     [
         (["skeleton-exact"], "POLYGON ((2 3, 8 3, 8 5, 2 5, 2 3))"),
-        (["skeleton-exact", "--what", "offset", "-d", "-0.5"], "POLYGON ((2 3, 8 3, 8 5, 2 5, 2 3))"),
-        (["voronoi", "--layers", "objects"], "POLYGON ((2 3, 8 3, 8 5, 2 5, 2 3))"),
         (["draw"], "POLYGON ((2 3, 8 3, 8 5, 2 5, 2 3))"),
         (["delaunay"], "x,y\n2,3\n8,3\n8,5\n"),
         (["alphashape", "-r", "9", "--layers", "points"], "x,y\n2,3\n8,3\n8,5\n"),
@@ -92,29 +84,6 @@ def test_frames_are_pages_in_every_command(run, tmp_path, command, data):
     run(name, "-", *options, "--scale", "4", "--frame", "0,0,10,20", "-o", "made.svg", "--y-up", data=data.encode())
     sides, _ = page(tmp_path / "made.svg")
     assert sides == (40, 80)
-
-
-def test_the_page_of_a_frame_has_the_place_of_the_data(run, tmp_path):
-    wkt = b"POLYGON ((2 3, 8 3, 8 5, 2 5, 2 3))"
-    run("skeleton-exact", "-", "--scale", "1", "--frame", "0,0,10,20", "-o", "made.svg", data=wkt)
-    _, layers = page(tmp_path / "made.svg")
-    assert layers["polygons"] == pytest.approx((2, 15, 8, 17), abs=1e-3)  # y is upwards in WKT
-
-
-def test_a_frame_that_nothing_shows_is_refused(run):
-    done = run("skeleton-exact", "-", "--frame", "0,0,10,20", "-f", "csv", data=b"POLYGON ((2 3, 8 3, 8 5, 2 3))")
-    assert done.code == 2
-    assert "--frame" in done.err
-    done = run("delaunay", "-", "--frame", "0,0,10,20", "-f", "csv", data=b"x,y\n2,3\n8,3\n8,5\n")
-    assert done.code == 2
-
-
-def test_pixels_stay_where_they_are_asked_for(run, tmp_path, part):
-    run("skeleton-exact", part, "--width", "500", "-o", "made.svg")
-    assert ET.parse(tmp_path / "made.svg").getroot().get("width") == "500"
-    run("skeleton-exact", part, "-o", "made.png")
-    with Image.open(tmp_path / "made.png") as made:
-        assert made.width == 1000
 
 
 @pytest.mark.parametrize(("number", "millimeters"), [(4, 1), (5, 10), (1, 25.4)])
@@ -157,19 +126,3 @@ def test_images_to_scale_have_the_page_of_the_image(run, tmp_path):
     sides, layers = page(tmp_path / "made.svg")
     assert sides == (60, 40)
     assert layers["polygons"] == pytest.approx((8, 10, 40, 20), abs=1e-3)
-
-
-def test_percentages_are_of_the_size_in_px(tmp_path):
-    (tmp_path / "half.svg").write_text(
-        '<svg xmlns="http://www.w3.org/2000/svg" width="100" height="60"><rect width="50%" height="50%"/></svg>'
-    )
-    shapes = vorotool.read(tmp_path / "half.svg")
-    assert shapes.xy.max(axis=0) == pytest.approx([50, 30])
-
-
-def test_the_library_draws_drawings_at_their_size(tmp_path, part):
-    made = vorotool.skeleton_exact(vorotool.read(tmp_path / part))
-    vorotool.write(made, tmp_path / "made.svg")
-    assert page(tmp_path / "made.svg")[0] == SHEET
-    vorotool.write(made, tmp_path / "made.svg", width=300)
-    assert ET.parse(tmp_path / "made.svg").getroot().get("width") == "300"

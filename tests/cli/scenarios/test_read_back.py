@@ -1,12 +1,10 @@
 """What one command writes as a table or as features, others read: the same from each format, from files and pipes."""
 
-import json
-
 import numpy as np
 import pytest
 
 import vorotool
-from vorotool.products.formats import FORMATS
+from support.few import few
 from vorotool.products.registry import PRODUCTS, formats_of
 
 MADE_BY = {
@@ -77,7 +75,7 @@ def made(run, tmp_path):
     return make
 
 
-@pytest.mark.parametrize(("command", "what", "formats"), list(products()))
+@pytest.mark.parametrize(("command", "what", "formats"), few(products(), 12))
 def test_points_of_tables_are_the_same_from_each_format(made, command, what, formats):
     read = [vorotool.read(made(command, what, fmt), columns=coordinates_of(command, what)) for fmt in formats]
     assert len(read[0]) > 2
@@ -105,43 +103,12 @@ def features():
                 yield command, what
 
 
-@pytest.mark.parametrize(("command", "what"), list(features()))
+@pytest.mark.parametrize(("command", "what"), few(features(), 8))
 def test_features_a_line_are_those_of_the_collection(made, command, what):
     whole, lines = (vorotool.read(made(command, what, fmt)) for fmt in ("geojson", "jsonl"))
     assert type(lines) is type(whole)
     assert np.array_equal(lines.xy, whole.xy)
     assert lines.properties == whole.properties
-
-
-def test_a_batch_of_tables_of_each_kind(run, made, tmp_path):
-    folder = tmp_path / "in"
-    folder.mkdir()
-    for fmt in ROWS:
-        made("tessellate", "table", fmt).rename(folder / f"{fmt}.{fmt}")
-    done = run("delaunay", folder, "--out-dir", "out", "-q", "--no-properties", "-f", "tsv")
-    assert done.code == 0, done.err
-    texts = {path.name: path.read_bytes() for path in (tmp_path / "out").glob("*.tsv")}
-    assert set(texts) == {f"{fmt}.tsv" for fmt in ROWS}
-    assert len(set(texts.values())) == 1
-    joined = run("delaunay", folder, "--table", "all.tsv", "-q", "--no-properties")
-    assert joined.code == 0
-    rows = (tmp_path / "all.tsv").read_text().splitlines()
-    assert rows[0].split("\t")[:4] == ["input", "label", "x", "y"]
-    assert len(rows) == 1 + 6 * len(ROWS)
-
-
-def test_each_format_of_tables_is_written_where_any_is():
-    for command in PRODUCTS:
-        for what, formats in formats_of(command).items():
-            assert ("tsv" in formats) == ("csv" in formats), f"{command} {what}"
-    assert FORMATS["tsv"].is_text
-
-
-def test_lines_of_a_one_row_table_come_back_through_a_pipe(run, tmp_path):
-    (tmp_path / "one.csv").write_text("x,y\n2,1\n")
-    made = run("tessellate", "one.csv", "--size", "4x3", "--what", "table", "-f", "jsonl").out
-    assert json.loads(made)["x"] == 2
-    assert "points     1\n" in run("info", "-", data=made.encode()).out
 
 
 def test_arrays_of_places_are_points_for_other_commands(run, tmp_path):

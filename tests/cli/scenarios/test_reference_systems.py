@@ -79,16 +79,14 @@ def test_points_that_name_no_system_and_lie_elsewhere_are_refused(run, maps, nam
     assert "meters.geojson" in done.err
 
 
-def test_nothing_is_said_where_neither_names_a_system(run, maps):
-    done = run("delaunay", "plain.csv", "--what", "cells", "--clip", "unnamed.geojson")
-    assert (done.code, done.err, crs_of(done.out)) == (0, "", None)
-
-
 @pytest.mark.parametrize(
-    ("command", "options"),
-    [("delaunay", ("-f", "geojson")), ("alphashape", ("-r", "3", "-f", "geojson")), ("delaunay", ("--what", "cells"))],
+    ("name", "command", "options"),
+    [
+        ("stations.csv", "delaunay", ("-f", "geojson")),
+        ("stations.wkt", "alphashape", ("-r", "3", "-f", "geojson")),
+        ("stations.geojson", "delaunay", ("--what", "cells")),
+    ],
 )
-@pytest.mark.parametrize("name", ["stations.csv", "stations.wkt", "stations.geojson"])
 def test_the_system_is_carried_on_and_degrees_are_a_warning(run, maps, name, command, options):
     done = run(command, name, *options)
     assert done.code == 0
@@ -96,7 +94,7 @@ def test_the_system_is_carried_on_and_degrees_are_a_warning(run, maps, name, com
     assert crs_of(done.out) in ("urn:ogc:def:crs:OGC:1.3:CRS84", "urn:ogc:def:crs:EPSG::4326")
 
 
-@pytest.mark.parametrize("options", [("delaunay",), ("alphashape", "-r", "3"), ("delaunay", "--what", "cells")])
+@pytest.mark.parametrize("options", [("alphashape", "-r", "3")])
 def test_maps_from_longitude_and_latitude_are_drawn_north_up(run, maps, options):
     command, *rest = options
     run(command, "stations.geojson", *rest, "-o", "right.svg")
@@ -128,23 +126,3 @@ def test_a_system_is_declared_for_inputs_that_name_none(run, maps):
     done = run("skeleton-exact", "degrees.geojson", "--input-crs", "EPSG:3857")
     assert done.code == 3
     assert "degrees.geojson" in done.err
-
-
-@pytest.mark.parametrize("name", ["Lambert", "", "3857", "EPSG:"])
-def test_what_names_no_system_is_refused(run, maps, name):
-    done = run("delaunay", "plain.csv", "--input-crs", name)
-    assert done.code == 2
-    assert "write e.g. EPSG:3857" in done.err
-
-
-def test_images_have_no_system_to_declare(run, folder):
-    done = run("delaunay", "mask.pbm", "--input-crs", "EPSG:3857")
-    assert done.code == 2
-    assert "applies to points, polygons and lines" in done.err
-
-
-def test_each_input_of_a_batch_has_its_own_system(run, maps):
-    done = run("delaunay", "stations.geojson", "plain.csv", "--out-dir", "out", "-f", "geojson")
-    assert done.code == 0
-    systems = [crs_of((maps / f"out/{name}.geojson").read_text()) for name in ("stations", "plain")]
-    assert systems == ["urn:ogc:def:crs:OGC:1.3:CRS84", None]

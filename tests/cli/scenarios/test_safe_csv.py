@@ -42,10 +42,8 @@ def features(folder):
 
 @pytest.mark.parametrize(
     "command",
-    ["delaunay points.geojson --what table", "delaunay points.geojson --what cells -f csv",
-     "tessellate points.geojson --what table", "skeleton-exact squares.geojson --what table",
-     "skeleton-approx squares.geojson --step 0.5 --what table", "alphashape points.geojson --what points"],
-)  # fmt: skip
+    ["delaunay points.geojson --what cells -f csv", "skeleton-exact squares.geojson --what table"],
+)
 def test_texts_get_an_apostrophe_and_numbers_stay(run, features, command):
     plain, safe = (run(*command.split(), "-q", "-o", name, *options) for name, options in
                    (("a.csv", ()), ("b.csv", ("--safe-csv",))))  # fmt: skip
@@ -60,12 +58,3 @@ def test_texts_get_an_apostrophe_and_numbers_stay(run, features, command):
     for column, title in enumerate(header):
         if title not in ("=name", "id"):
             assert [row[column] for row in after] == [row[column] for row in before]
-
-
-def test_the_table_of_a_batch_too(run, features):
-    (features / "=in.geojson").write_bytes((features / "points.geojson").read_bytes())
-    done = run("tessellate", "=in.geojson", "points.geojson", "--table", "all.csv", "--safe-csv", "-q")
-    assert done.code == 0
-    header, *found = rows((features / "all.csv").read_bytes().decode())
-    assert {row[0] for row in found} == {"'=in.geojson", "points.geojson"}
-    assert [row[header.index("'=name")] for row in found] == 2 * SAFE

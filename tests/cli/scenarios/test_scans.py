@@ -30,7 +30,7 @@ def scans(tmp_path):
     return tmp_path
 
 
-@pytest.mark.parametrize("name", ["scan.jpg", "scan.png", "color.png"])
+@pytest.mark.parametrize("name", ["scan.jpg", "color.png"])
 def test_messages_say_what_makes_a_mask_of_a_scan(run, scans, name):
     done = run("tessellate", name, "-o", "a.png")
     assert (done.code, "--threshold" in done.err) == (3, True)
@@ -41,20 +41,12 @@ def test_messages_say_what_makes_a_mask_of_a_scan(run, scans, name):
     assert (done.code, "brighter" in done.err) == (0, False)
 
 
-def test_dark_images_are_told_nothing_of_it(run, scans):
-    assert "--invert" not in run("tessellate", "dark.png", "-o", "a.png").err
-    assert "--invert" not in run("tessellate", "dark.png", "-o", "a.png", "--threshold", "otsu").err
-
-
 COMMANDS = [
     "tessellate -f npy",
     "tessellate --what table -f csv",
-    "delaunay --what table -f csv",
     "alphashape --seeds pixels -r 2 -f json",
-    "skeleton-exact -f json",
     "skeleton-exact --outline contour -f json",
     "voronoi -f json",
-    "voronoi --outline contour -f json",
     "skeleton-approx --step 1 -f json",
 ]
 
@@ -93,19 +85,13 @@ def test_images_beyond_memory_are_refused_with_a_way_out(run, scans, monkeypatch
     assert "--fill-holes" in done.err
 
 
-def test_large_images_are_held_for_it(run, scans, monkeypatch):
-    import vorotool.jobs.tessellation as streamed
-
-    options = ["--min-area", "5", "--fill-holes", "-q"]
-    assert run("tessellate", "specks.tif", "-o", "held.tif", *options).code == 0
-    monkeypatch.setattr(streamed, "LARGE", 100)
-    assert run("tessellate", "specks.tif", "-o", "rows.tif", *options).code == 0
-    assert (scans / "held.tif").read_bytes() == (scans / "rows.tif").read_bytes()
-
-
-@pytest.mark.parametrize("typed", ["--fill-holes 49", "--fill-holes=49", "--fill-holes 12.25um2 --pixel-size 0.5um"])
 @pytest.mark.parametrize(
-    "command", ["tessellate --what table", "delaunay", "skeleton-exact", "skeleton-approx --step 1"]
+    ("command", "typed"),
+    [
+        ("tessellate --what table", "--fill-holes 49"),
+        ("delaunay", "--fill-holes=49"),
+        ("skeleton-exact", "--fill-holes 12.25um2 --pixel-size 0.5um"),
+    ],
 )
 def test_holes_of_at_most_an_area(run, scans, command, typed):
     options = ["specks.tif", "--stats", "s.json", "-q", "-o", "a.csv"]
@@ -133,14 +119,6 @@ def test_areas_in_the_unit_of_the_file(run, scans, command):
         assert (stats["filled_pixels"], stats["small_objects"]) == (49, 2 if name == "oblong.tif" else 0)
 
 
-def test_a_batch_is_cleaned_as_each_alone(run, scans):
-    options = ["--fill-holes", "50", "--min-area", "5", "-q"]
-    assert run("skeleton-exact", "ink.tif", "specks.tif", *options, "--out-dir", "out", "-f", "json").code == 0
-    for name in ("ink", "specks"):
-        assert run("skeleton-exact", f"{name}.tif", *options, "-o", "alone.json").code == 0
-        assert (scans / "out" / f"{name}.json").read_bytes() == (scans / "alone.json").read_bytes()
-
-
 def test_contours_of_grey_values_go_around_what_stays(run, scans):
     options = ["skeleton-exact", "dark.png", "--threshold", "90", "--outline", "contour", "-f", "json"]
     done = run(*options, "--min-area", "5", "--fill-holes", "--stats", "s.json", "-o", "a.json")
@@ -152,31 +130,3 @@ def test_contours_of_grey_values_go_around_what_stays(run, scans):
     shells = [{str(polygon["shell"]) for polygon in each["polygons"]} for each in (before, after)]
     assert shells[1] < shells[0]
     assert not any(polygon.get("holes") for polygon in after["polygons"])
-
-
-@pytest.mark.parametrize(
-    ("command", "code", "words"),
-    [
-        ("tessellate labels.tif --min-area 3 -o a.png", 3, "--min-area"),
-        ("tessellate ink.tif --fill-holes --seeds labels -o a.png", 3, "--fill-holes"),
-        ("tessellate dots.csv --size 9x9 --min-area 3 -o a.png", 2, "--min-area"),
-        ("delaunay dots.csv --fill-holes", 2, "--fill-holes"),
-        ("skeleton-exact line.wkt --min-area 3 -f json", 2, "--min-area"),
-        ("tessellate ink.tif --min-area 0 -o a.png", 2, "'0'"),
-        ("tessellate ink.tif --fill-holes -5 -o a.png", 2, "'-5'"),
-        ("tessellate ink.tif --fill-holes 5um -o a.png", 2, "expected a number of pixels such as 50, or an area such"),
-        ("tessellate ink.tif --fill-holes=ten -o a.png", 2, "expected a number of pixels such as 50, or an area such"),
-        ("tessellate ink.tif --fill-holes 5um2 -o a.png", 2, "--fill-holes 5um2"),
-        ("tessellate ink.tif --min-area 5um3 --pixel-size 1um --what table", 2, "pixels have areas, such as 5um2"),
-        ("delaunay ink.tif --min-area 5um2 --pixel-size auto", 3, "the image states no pixel size"),
-    ],
-)  # fmt: skip
-def test_what_is_refused(run, scans, command, code, words):
-    labels = np.zeros((9, 9), np.uint8)
-    labels[2:4, 2:4], labels[6:8, 6:8] = 3, 5
-    tifffile.imwrite(scans / "labels.tif", labels)
-    (scans / "dots.csv").write_text("x,y\n2,3\n5,5\n1,7\n")
-    (scans / "line.wkt").write_text("LINESTRING (0 0, 3 4)\n")
-    done = run(*command.split())
-    assert (done.code, words in done.err) == (code, True), done.err
-    assert run("tessellate", "labels.tif", "--min-area", "3", "--seeds", "components", "-o", "a.png").code == 0

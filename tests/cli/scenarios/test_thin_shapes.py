@@ -1,5 +1,6 @@
 """The checker of discs within little memory, however thin a shape is and wherever it lies."""
 
+import pytest
 import shapely
 import shapely.affinity
 
@@ -20,6 +21,7 @@ SHAPES = {
 COMMANDS = [("skeleton-exact", name) for name in SHAPES] + [("voronoi", "thin"), ("voronoi", "upright")]
 
 
+@pytest.mark.slow
 def test_thin_shapes(tmp_path):
     commands = []
     for command, name in COMMANDS:
