@@ -21,6 +21,18 @@ from vorotool.types.voronoi.voronoi_map import OUTSIDE
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
+_INSIDE, _AT_VERTEX, _TOUCHING = range(3)
+"""Where the core says that a crossing is: inside an edge, at its lower end, where two parts only touch each other."""
+
+_ALIGNED, _LOST = 1, 2
+"""What the core says of arcs about points: between two segments in one line, or rounded away."""
+
+ROUNDING = 2.0**-48
+"""Of coordinates on the lattice, by which places may be off."""
+
+STEP = 4
+"""By which orders around places are apart, so that arcs of the limit come in between."""
+
 
 @plain(eq=False)
 class Borders:
@@ -159,19 +171,7 @@ def sides_of_segments(owned: OwnedGraph) -> tuple[NDArray[np.bool_], NDArray[np.
     return sites[:, 0] != sites[:, 1], sites, parts
 
 
-_INSIDE, _AT_VERTEX, _TOUCHING = range(3)
-"""Where the core says that a crossing is: inside an edge, at its lower end, where two parts only touch each other."""
-
-_ALIGNED, _LOST = 1, 2
-"""What the core says of arcs about points: between two segments in one line, or rounded away."""
-
-ROUNDING = 2.0**-48
-"""Of coordinates on the lattice, by which places may be off."""
-
-STEP = 4
-"""By which orders around places are apart, so that arcs of the limit come in between."""
-
-
+# ---- the curves of a limit ---------------------------------------------------------------------------
 @plain(eq=False)
 class LimitArcs:
     """Arcs of a limit, each in the cell of an element of the graph, which is on its left."""

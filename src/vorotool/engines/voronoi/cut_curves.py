@@ -20,43 +20,6 @@ FAR = 2.0**34
 
 
 @plain(eq=False)
-class Parabolas:
-    """Parabolas, each about a focus, in units of its own: t along the directrix from below the focus."""
-
-    focus: Floats  # (k, 2) float64 array: on the lattice
-    way: Floats  # (k, 2) float64 array: unit vector along the directrix, the focus on its left
-    height: Floats  # (k,) float64 array: above 0
-
-    def parameter(self, place: Floats, radius: Floats) -> Floats:
-        """(k,) t of places; on the steep sides of a sharp parabola the radius tells more than the place."""
-        offset = place - self.focus
-        t = self.way[:, 0] * offset[:, 0] + self.way[:, 1] * offset[:, 1]
-        steep = self.height * radius < np.abs(t) * np.abs(place).sum(axis=1)
-        exact = np.copysign(np.sqrt(np.maximum(self.height * (2 * radius - self.height), 0)), t)
-        found: Floats = np.where(steep, exact, t)
-        return found
-
-
-def parabolas_of(graph: PlanarGraph, elements: Indices) -> tuple[NDArray[np.bool_], Parabolas]:
-    """Tell which pairs of elements have a parabola between them, and give these."""
-    count = len(graph.points)
-    point, segment = np.sort(elements, axis=1).T
-    mixed = np.flatnonzero((point < count) & (segment >= count))
-    ends = graph.segments[segment[mixed] - count]
-    focus = graph.points[point[mixed]].astype(np.int64)
-    a, b = (graph.points[end].astype(np.int64) for end in ends.T)
-    along, offset = b - a, focus - a
-    height = along[:, 0] * offset[:, 1] - along[:, 1] * offset[:, 0]
-    above = height != 0
-    along = np.where(height[:, None] < 0, -along, along)[above].astype(np.float64)
-    length = np.sqrt((along * along).sum(axis=1))
-    is_parabola = np.zeros(len(elements), dtype=bool)
-    is_parabola[mixed[above]] = True
-    high = np.abs(height[above]).astype(np.float64) / length
-    return is_parabola, Parabolas(focus[above].astype(np.float64), along / length[:, None], high)
-
-
-@plain(eq=False)
 class CutCurves:
     """Curves on the lattice, from one parameter to another."""
 
@@ -232,16 +195,33 @@ def cut_curves(borders: Borders, graph: PlanarGraph, pieces: Indices) -> CutCurv
     for end, place, where, infinite in ((0, a, first, -np.inf), (1, b, last, np.inf)):
         t = ((place[chosen] - middle) * straight).sum(axis=1) / squared
         where[chosen] = np.where(ends[chosen, end] < 0, infinite, t)
-    height = np.zeros(len(pieces))
-    is_parabola, parabolas = parabolas_of(graph, elements)
-    source, target = ends[is_parabola].T
-    base[is_parabola], way[is_parabola] = parabolas.focus, parabolas.way
-    height[is_parabola] = parabolas.height
-    first[is_parabola] = parabolas.parameter(borders.places[source], borders.radius[source])
-    last[is_parabola] = parabolas.parameter(borders.places[target], borders.radius[target])
-    radius = np.zeros(len(pieces))
+    height, radius = np.zeros((2, len(pieces)))
+    _take_parabolas(borders, graph, pieces, (base, way, height, first, last))
     _take_circles(borders, pieces, (base, way, radius, first, last))
     return CutCurves(base, way, height, radius, first, last, *_measured_from(graph, elements))
+
+
+def _take_parabolas(borders: Borders, graph: PlanarGraph, pieces: Indices, curves: tuple[Floats, ...]) -> None:
+    """Write the parabolas among pieces into arrays of base, way, height, first and last."""
+    base, way, height, first, last = curves
+    count = len(graph.points)
+    point, segment = np.sort(borders.elements[pieces], axis=1).T
+    mixed = np.flatnonzero((point < count) & (segment >= count))
+    focus, a, b = (graph.points[at].astype(np.int64) for at in (point[mixed], *_ends(graph, segment[mixed])))
+    along, offset = b - a, focus - a
+    double = along[:, 0] * offset[:, 1] - along[:, 1] * offset[:, 0]
+    above = double != 0
+    chosen, focus = mixed[above], focus[above].astype(np.float64)
+    along = np.where(double[:, None] < 0, -along, along)[above].astype(np.float64)
+    length = np.sqrt((along * along).sum(axis=1))
+    along, high = along / length[:, None], np.abs(double[above]).astype(np.float64) / length
+    base[chosen], way[chosen], height[chosen] = focus, along, high
+    for end, where in zip(borders.ends[pieces[chosen]].T, (first, last), strict=True):
+        place, radius = borders.places[end], borders.radius[end]
+        t = (along * (place - focus)).sum(axis=1)
+        # on the steep sides of a sharp parabola the radius tells more than the place
+        is_steep = high * radius < np.abs(t) * np.abs(place).sum(axis=1)
+        where[chosen] = np.where(is_steep, np.copysign(np.sqrt(np.maximum(high * (2 * radius - high), 0)), t), t)
 
 
 def _take_circles(borders: Borders, pieces: Indices, curves: tuple[Floats, ...]) -> None:

@@ -44,6 +44,7 @@ class CutMap:
         self.unknown, self.group = self._tell(half)  # sides that no border tells, and which of them are of one face
         self.places, self.given = overlay.places()
         self.radius = overlay.graph.scale * overlay.found.radius
+        self.radius[cuts.ends[overlay.edges.is_enclosure[cuts.edge]]] = np.nan
         self.is_cut = overlay.is_cut[:-1]
         control = overlay.control.take(pieces.piece, axis=0)
         control[pieces.whole :] = overlay.found.curves[pieces.row].control(*pieces.t.T)

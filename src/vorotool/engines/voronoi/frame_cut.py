@@ -24,9 +24,6 @@ _WITHIN, _OFF, _CROSSING = range(3)
 _AT_ONCE = 2**18
 """Pieces that are looked at together, so that what is only compared takes little memory."""
 
-TOUCH = 2.0**-48
-"""Of the coordinates, by which rounding alone may keep the ends of a limit off the sides of the frame."""
-
 _FARTHEST = 2.0**500
 """Coordinates on the lattice that the frame's are cut to: that of a single place is finer than anything."""
 
@@ -53,35 +50,21 @@ class FrameBox:
         inside: NDArray[np.bool_] = _all_of(places > self.low) & _all_of(places < self.high)
         return inside
 
-    def near_sides(self, places: Floats, slack: float) -> Indices:
-        """Numbers of places in input units that may be at sides, up to rounding and a slack."""
-        near = np.zeros(len(places), dtype=bool)
-        for axis in (0, 1):
-            x = places[:, axis]
-            for side in (self.low[axis], self.high[axis]):
-                near |= np.abs(x - side) <= slack + 2 * TOUCH * abs(side)
-        return np.flatnonzero(near)
-
-    def side_of(self, places: Floats, rounded: Floats, slack: Floats) -> Indices:
-        """(n,) the side that places are at, in input units or nearly on the lattice; -1 of others."""
-        low, high = self.on_lattice[0], self.on_lattice[2]
-        at_low = (places == self.low) | (np.abs(rounded - low) <= slack[[3, 0]])
-        at_high = (places == self.high) | (np.abs(rounded - high) <= slack[[1, 2]])
-        (left, bottom), (right, top) = at_low.T, at_high.T
+    def side_of(self, places: Floats, rounded: Floats, is_site: NDArray[np.bool_], slack: Floats) -> Indices:
+        """(n,) the side that places are at: nearly on the lattice, sites exactly in input units; -1 of others."""
+        hits = []
+        for number in range(SIDES):
+            axis = 1 - number % 2
+            near = np.abs(rounded[:, axis] - self.on_lattice[number, axis]) <= slack[number]
+            hits.append((near & ~is_site) | (places[:, axis] == self.corners[number, axis]))
+        bottom, right, top, left = hits
         side = np.full(len(places), -1, dtype=np.int64)
         for number, hit in enumerate((bottom & ~right, right & ~top, top & ~left, left & ~bottom)):
             side[hit] = number
-        is_in = ((places >= self.low) | at_low) & ((places <= self.high) | at_high)
-        side[~_all_of(is_in)] = -1
+        (x, y), (low_x, low_y), (high_x, high_y) = places.T, self.low, self.high
+        is_out = ((x < low_x) & ~left) | ((x > high_x) & ~right) | ((y < low_y) & ~bottom) | ((y > high_y) & ~top)
+        side[is_out] = -1
         return side
-
-    def attract(self, places: Floats, chosen: NDArray[np.bool_]) -> None:
-        """Move points to the sides of the frame that rounding alone may keep off."""
-        moved = places[chosen]
-        for side in (self.low, self.high):
-            near = np.abs(moved - side) <= TOUCH * np.abs(moved).max(axis=1, keepdims=True)
-            np.copyto(moved, side, where=near)
-        places[chosen] = moved
 
 
 class FrameOverlay(Overlay):
@@ -94,17 +77,11 @@ class FrameOverlay(Overlay):
         edges = box.edges()
         lines = EdgeLines(edges)
         places = graph.coordinates(borders.places).reshape(-1, 2)
-        if np.isfinite(borders.level):
-            box.attract(places, borders.radius == borders.level)
         at = np.flatnonzero(borders.radius == 0)
         given = graph.places_as_given(borders.places[at])
         on_side = _all_of((given >= box.low) & (given <= box.high)) & ~box.is_inside(given)
         places[at[on_side]] = given[on_side]  # the lattice may have them beside it
-        side = np.full(len(places), -1, dtype=np.int64)
-        near = box.near_sides(places, graph.scale * float(lines.slack.max()))
-        is_site = borders.radius[near] == 0  # which nothing but rounding to doubles draws to sides
-        rounded = np.where(is_site[:, None], np.nan, borders.places[near])
-        side[near] = box.side_of(places[near], rounded, lines.slack)
+        side = box.side_of(places, borders.places, borders.radius == 0, lines.slack)
         drawn = _drawn(box, borders, places, side, lines)
         control = controls_of(borders, graph)
         state = _states(borders, places, graph, control, box)

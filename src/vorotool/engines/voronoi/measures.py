@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import ridges_of
-from vorotool.engines.voronoi.crossings import crossings_of
 from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owned_graph, shared_elements
 from vorotool.engines.voronoi.frame_cut import FrameOverlay
 from vorotool.engines.voronoi.joint_graph import given_cuts, joint_graph
+from vorotool.engines.voronoi.overlay import Overlay, RegionOverlay
 from vorotool.engines.voronoi.regions import local_diagrams, regions_of
 from vorotool.errors import RepairWarning
 from vorotool.numeric.numbers import distinct
@@ -112,8 +112,7 @@ def reaches(cells: VoronoiMap) -> Floats:
     made = np.full(len(cells), -np.inf)
     _take_vertices(made, cells)
     if _has_ridges(cells):
-        is_cut = cells.clip is not None or cells.enclosures is not None
-        (_take_ridges_between_cuts if is_cut else _take_ridges_in_frame)(made, cells)
+        _take_ridges(made, cells)
     made[cells.components == 0] = np.nan
     return made
 
@@ -140,39 +139,22 @@ def _take_vertices(reach: Floats, cells: VoronoiMap) -> None:
     np.maximum.at(reach, site, radius)
 
 
-def _take_ridges_in_frame(reach: Floats, cells: VoronoiMap) -> None:
-    owned = graph_again(cells)
-    ridges = ridges_of(owned, diagram_of(owned))
-    cut = FrameOverlay(ridges, owned.graph, cells.frame)
-    for radius in owned.graph.scale * cut.found.radius[cut.pieces.ends].T:
-        _take(reach, cells, ridges.sites[cut.pieces.piece, 0], radius)
+def _take_ridges(reach: Floats, cells: VoronoiMap) -> None:
+    """Raise reaches to distances of the ends of ridges, which are cut as borders are."""
+    cut = _ridges(cells)
+    site, limit = cut.borders.sites[cut.pieces.piece, 0], np.inf if cells.max_distance is None else cells.max_distance
+    for radius in cut.graph.scale * cut.end_radii().T:
+        near = radius <= limit * (1 + _TIE)  # what is beyond the limit is in no cell
+        np.maximum.at(reach, site[near], np.minimum(radius[near], limit))
 
 
-def _take_ridges_between_cuts(reach: Floats, cells: VoronoiMap) -> None:
-    """Cut ridges as borders are; of their ends those count that lie in the cells."""
-    import shapely
-
+def _ridges(cells: VoronoiMap) -> Overlay:
+    if cells.clip is None and cells.enclosures is None:
+        owned = graph_again(cells)
+        return FrameOverlay(ridges_of(owned, diagram_of(owned)), owned.graph, cells.frame)
     with warnings.catch_warnings(action="ignore", category=RepairWarning):
         cuts = given_cuts(cells.clip, cells.enclosures, cells.crs)
         joint = joint_graph(cells.polygons, cuts.sides_near(cells.frame), cuts.clip, cuts.enclosures)
     regions = regions_of(joint, cells.polygon_site, len(cells))
     local = local_diagrams(joint.sites, cells.polygon_site, len(cells), regions, pieces_of=ridges_of)
-    ridges, scale = local.borders, joint.sites.scale
-    found = crossings_of(local, regions.edges)
-    stops = found.curves[found.stop_row].radius(found.stop_t)
-    _take(reach, cells, ridges.sites[found.pieces[found.stop_row], 0], scale * stops)
-    end, row = np.unique(ridges.ends, return_index=True)
-    site, end = ridges.sites[row // 2, 0][end >= 0], end[end >= 0]
-    radius = scale * ridges.radius[end]
-    higher = np.flatnonzero(radius > reach[site])
-    site, end, radius = site[higher], end[higher], radius[higher]
-    shapes = cell_polygons(cells, None)
-    inside = shapely.intersects(shapes[site], shapely.points(joint.sites.coordinates(ridges.places[end])))
-    _take(reach, cells, site[inside], radius[inside])
-
-
-def _take(reach: Floats, cells: VoronoiMap, site: NDArray[np.integer], radius: Floats) -> None:
-    """Raise reaches to distances of places; what is beyond the limit is in no cell."""
-    limit = np.inf if cells.max_distance is None else cells.max_distance
-    near = radius <= limit * (1 + _TIE)
-    np.maximum.at(reach, site[near], np.minimum(radius[near], limit))
+    return RegionOverlay(local, regions.edges, joint.graph)

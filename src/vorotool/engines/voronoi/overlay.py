@@ -124,6 +124,14 @@ class Overlay:
         kept = self._is_kept(pieces) & (along < 0)
         self.pieces = pieces if kept.all() else pieces[np.flatnonzero(kept)]
 
+    def end_radii(self) -> Floats:
+        """(k, 2) distances of the ends of parts from the sites of their borders, on the lattice."""
+        pieces, borders = self.pieces, self.borders
+        made: Floats = borders.radius[borders.ends.take(pieces.piece, axis=0)]
+        for end, t in enumerate(pieces.t.T):
+            made[pieces.whole :, end] = self.found.curves[pieces.row].radius(t)
+        return made
+
     def places(self) -> tuple[Floats, Floats]:
         """(v, 2) where all places are in input units, and where the input has them, by its vertices."""
         raise NotImplementedError
@@ -143,39 +151,21 @@ class Overlay:
     def _edge_of(self, pieces: Pieces) -> Indices:
         """(k,) the same of parts between places on cuts."""
         found, ends = self.found, self.edges.ends
-        a, b = pieces.ends.T
-        straight = np.ones(len(a), dtype=bool)
-        curves = found.curves[pieces.row]
-        finite: NDArray[np.bool_] = np.logical_and(*np.isfinite(pieces.t).T)
-        t = np.where(finite[:, None], pieces.t, 0)
-        straight[pieces.whole :] = finite & (curves.depth(t[:, 0], t[:, 1]) <= SLACK)
-        edge = np.full(len(a), -1, dtype=np.int64)
-        corners = len(self.edges.points)
-
-        def inside(node: Indices) -> Indices:
-            return np.where(node >= 0, found.edge[node], -1)
-
-        def corner(node: Indices) -> Indices:
-            is_corner = (node >= self.count) & (node < self.count + corners)
-            return np.where(is_corner, node - self.count, -1)
-
-        for one, other in ((a, b), (b, a)):
-            own = inside(one)
-            hit = own >= 0
-            hit &= (inside(other) == own) | ((corner(other)[:, None] == ends[own]).any(axis=1) & (corner(other) >= 0))
+        is_straight = np.ones(len(pieces.piece), dtype=bool)
+        is_finite: NDArray[np.bool_] = np.logical_and(*np.isfinite(pieces.t).T)
+        t = np.where(is_finite[:, None], pieces.t, 0)
+        is_straight[pieces.whole :] = is_finite & (found.curves[pieces.row].depth(*t.T) <= SLACK)
+        on, corner = found.edge[pieces.ends], pieces.ends - self.count  # of an end of an edge, else another number
+        edge = np.full(len(on), -1, dtype=np.int64)
+        for one, other in ((0, 1), (1, 0)):
+            own = on[:, one]
+            is_end = (on[:, other] < 0) & (corner[:, other, None] == ends[own]).any(axis=1)
+            hit = (own >= 0) & ((on[:, other] == own) | is_end)
             edge[hit] = own[hit]
-        both = np.flatnonzero((corner(a) >= 0) & (corner(b) >= 0))
-        low, high = np.sort(np.stack([corner(a)[both], corner(b)[both]]), axis=0)
-        least, most = np.sort(ends, axis=1).T
-        key = least * corners + most
-        order = np.argsort(key, kind="stable")
-        at = np.searchsorted(key[order], low * corners + high).clip(max=len(key) - 1)
-        same = key[order[at]] == low * corners + high
-        edge[both[same]] = order[at[same]]
-        edge[~straight] = -1
-        region = self.region[pieces.piece]
-        edge[(self.edges.regions[edge] != region[:, None]).all(axis=1)] = -1
-        return edge
+        both = np.flatnonzero((on < 0).all(axis=1))
+        edge[both] = _rows_of(ends, corner[both])
+        is_beside = (self.edges.regions[edge] == self.region[pieces.piece][:, None]).any(axis=1)
+        return np.where(is_straight & is_beside, edge, -1)
 
     def _far(self, node: Indices, edge: Indices) -> Floats:
         """How far along an edge a place on it is."""
@@ -230,7 +220,6 @@ class RegionOverlay(Overlay):
         whole = np.ones(len(borders.ends), dtype=bool)
         whole[found.pieces] = False
         self.put(pieces_between(borders, found, whole))
-        found.radius[self.cuts.ends[edges.is_enclosure[self.cuts.edge]]] = np.nan
 
     def places(self) -> tuple[Floats, Floats]:
         """(v, 2) places in input units, and as given, those on cuts between ends that are."""
@@ -256,15 +245,9 @@ class RegionOverlay(Overlay):
         graph = local.owned.graph
         if not len(graph):
             return
-        key = np.sort(packed(edges.points.astype(np.int64))[edges.ends], axis=1)
-        walls = np.sort(packed(graph.points)[graph.segments].reshape(-1, 2), axis=1)
-        corners, number = np.unique(np.concatenate([key, walls]).ravel(), return_inverse=True)
-        number = number.reshape(-1, 2)
-        pair = number[:, 0] * len(corners) + number[:, 1]
-        of_edge, of_wall = pair[: len(key)], pair[len(key) :]
-        chosen = np.flatnonzero(np.isin(of_wall, of_edge))
-        order = np.argsort(of_edge, kind="stable")
-        edge = order[np.searchsorted(of_edge[order], of_wall[chosen])]
+        row = _rows_of(packed(edges.points.astype(np.int64))[edges.ends], packed(graph.points)[graph.segments])
+        chosen = np.flatnonzero(row >= 0)
+        edge = row[chosen]
         _, sites, _ = sides_of_segments(local.owned)
         same = (graph.points[graph.segments[chosen, 0]] == edges.points[edges.ends[edge, 0]]).all(axis=1)
         told = np.full((len(edges.ends), 2), UNKNOWN, dtype=np.int64)
@@ -316,6 +299,16 @@ class RegionOverlay(Overlay):
         middle[plain] = (a + 2 * control + b) / 4
         length[plain] = _norm(b - a)
         return middle, length
+
+
+def _rows_of(pairs: Indices, wanted: Indices) -> Indices:
+    """(k,) the row that each pair has among others, either way round; -1 where it is none of them."""
+    values, number = np.unique(np.concatenate([pairs, wanted]), return_inverse=True)
+    low, high = np.sort(number.reshape(-1, 2), axis=1).T
+    key = low * len(values) + high
+    order = np.argsort(key[: len(pairs)], kind="stable")
+    row = order[np.searchsorted(key[order], key[len(pairs) :]).clip(max=len(pairs) - 1)]
+    return np.where(key[row] == key[len(pairs) :], row, -1)
 
 
 def _norm(way: Floats) -> Floats:
