@@ -206,3 +206,11 @@ def test_a_frame_that_touches_and_halves_a_disc():
     quarter = within([[0, 0]], 5, (0, 0, 6, 6))
     assert quarter.areas.tolist() == pytest.approx([25 * ROUND / 4])
     assert within([[0, 0]], 5, (0, 3, 6, 6)).vertices.shape == (3, 2)
+
+
+@pytest.mark.parametrize(("x", "y"), [(1e6 / 3, 1e6 / 8), (1e6 / 3, 1e5), (1e6 / 4, 1e6 / 7)])
+def test_a_disc_that_touches_two_sides_as_far_as_doubles_tell(x, y):
+    """Where a side misses it by less than rounding, its half arc on the other side does not touch that, but its own."""
+    cells = voronoi([[x, y], [x - 1.9, y + 0.3]], frame=(x - 0.7, y - 0.1, 1, 0.2), max_distance=0.1)
+    assert cells.areas.tolist() == pytest.approx([np.pi / 100, 0], rel=1e-4)
+    verify_voronoi(cells, places=100)

@@ -25,7 +25,7 @@ there, below 2^30, are rounded by, and what is drawn to an edge so moves by 2^-4
 ROUNDING = 2.0**-42
 """Of coordinates on the lattice: a thousand times what they are rounded by, of those of frames beyond 2^30, too."""
 
-ROUNDING_GIVEN = 2.0**-48
+ROUNDING_GIVEN = 2.0**-51
 """Of coordinates in input units: what differs by less may be the same number there, or come from the same one."""
 
 

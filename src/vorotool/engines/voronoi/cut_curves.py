@@ -106,7 +106,7 @@ class CutCurves:
         is_bent = self.height > 0
         h = np.where(is_bent, self.height, 1)
         a = np.where(is_bent, across / (2 * h), 0)
-        b = (normal * self.way).sum(axis=1)
+        ahead = b = (normal * self.way).sum(axis=1)
         far = (normal * (self.base - place)).sum(axis=1)
         c = far - np.where(is_bent, h * across / 2, 0)
         is_round = self.round > 0
@@ -119,7 +119,9 @@ class CutCurves:
             q = -(b + np.copysign(np.sqrt(np.maximum(discriminant, 0)), b)) / 2
             roots = np.stack([c / q, q / a], axis=1)
             roots[discriminant < 0] = np.nan
-            roots[touches, 0] = (-b / (2 * a))[touches]
+            to_line = np.copysign(1, far)  # a circle touches it in the direction of its normal
+            at = np.where(is_round, -to_line * across / (1 - to_line * ahead), -b / (2 * a))
+            roots[touches, 0] = at[touches]
             roots[touches, 1] = np.nan
         roots[~np.isfinite(roots)] = np.nan
         return roots

@@ -127,7 +127,7 @@ class Overlay:
     def end_radii(self) -> Floats:
         """(k, 2) distances of the ends of parts from the sites of their borders, on the lattice."""
         pieces, borders = self.pieces, self.borders
-        made: Floats = borders.radius[borders.ends.take(pieces.piece, axis=0)]
+        made: Floats = np.append(borders.radius, np.inf)[borders.ends.take(pieces.piece, axis=0)]  # of -1, at infinity
         for end, t in enumerate(pieces.t.T):
             made[pieces.whole :, end] = self.found.curves[pieces.row].radius(t)
         return made
