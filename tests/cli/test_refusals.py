@@ -94,6 +94,12 @@ USAGE = {
     "tessellate mask.pbm --fill-holes 5um2 -o a.png": "--fill-holes 5um2",
     "tessellate mask.pbm --min-area 5um3 --pixel-size 1um --what table": "pixels have areas, such as 5um2",
     "skeleton-exact two-shapes.json --what centerline --from=1e308,-1e308": "1e+308",
+    "skeleton-exact two-shapes.json --what points --every 1e300km --pixel-size 1e-20nm": "--every '1e300km'",
+    "tessellate dots.csv --size 9x9 --spacing 1,2,3 -o a.png": "--spacing",
+    "tessellate dots.csv --size 9x9 --spacing 1,2 --pixel-size 3 -o a.png": "--pixel-size",
+    "tessellate dots.csv --size 9x9 --spacing 1,2 --max-distance 3um -o a.png": "--max-distance 3um",
+    "draw two-shapes.json --pixel-size 2mm -f svg": "--pixel-size",
+    "draw two-shapes.json --layers cells -f svg": "--layers",
     # ---- volumes
     "tessellate stack.tif --volume --size 9x9 -o a.tif": "--size 9x9",
     "tessellate stack.tif --volume --window 1,2,3,4 -o a.tif": "--window",
@@ -150,6 +156,10 @@ OTHERS = {
     "tessellate streets.geojson --cell-size 10 --window 900,900,10,10 -o a.tif": (3, "no feature has a cell"),
     "skeleton-exact two-shapes.json --gap 20": (3, "use a gap below"),
     "skeleton-exact two-shapes.json --smooth 1e-9": (3, "fitted curves need at least"),
+    "tessellate streets.geojson --cell-size 1e-99 -o a.tif": (3, "more than 2^44 cells"),
+    "tessellate --files-from old.csv -0 --out-dir out": (3, "old.csv"),
+    "tessellate none.tif --volume -o a.tif": (3, "none.tif"),
+    "tessellate space.csv --volume --input-format tiff -o a.tif": (3, "space.csv"),
     # ---- 4: outputs
     "delaunay dots.csv -o no/such/a.csv": (4, "no/such/a.csv"),
     "tessellate dots.csv -o a.png --stats no/such/s.json": (4, "no/such/s.json"),
@@ -157,6 +167,7 @@ OTHERS = {
     "tessellate more --out-dir old.csv": (4, "old.csv"),
     "tessellate more --table no/such/all.csv": (4, "no/such/all.csv"),
     # ---- 5: limits
+    "tessellate dots.csv --what color --size 6000x6000 -o a.gif": (5, "6000 x 6000"),
     "delaunay dots.csv --max-sites 2": (5, "--max-sites"),
     "skeleton-exact two-shapes.json --max-sites 10": (5, "--max-sites"),
     "voronoi two-shapes.json --max-sites 3": (5, "more than the limit of 3"),
@@ -180,7 +191,7 @@ def test_what_is_refused(run, folder, line, expected):
     (folder / "more").mkdir()
     (folder / "more/p.csv").write_text("x,y\n2,1\n7,5\n")
     (folder / "more/q.csv").write_text("x,y\n2,1\n7,5\n")
-    (folder / "old.csv").write_text("old")
+    (folder / "old.csv").write_text("old\nlines\n")
     (folder / "space.csv").write_text("x,y,z\n1,2,0\n8,3,4\n")
     (folder / "line.wkt").write_text("LINESTRING (0 0, 1 1)")
     (folder / "flat.wkt").write_text("POLYGON ((0 0, 1 1, 2 2, 0 0))")

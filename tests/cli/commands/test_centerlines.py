@@ -40,12 +40,3 @@ def test_lengths_and_widths_follow(run, rectangle):
     done = run("skeleton-exact", rectangle, "--what", "centerline", "-f", "geojson")
     properties = json.loads(done.out)["features"][0]["properties"]
     assert (properties["length"], properties["width_mean"], properties["width_min"]) == (10, 4, 4)
-
-
-def test_rows_tell_what_leads_on(run, rectangle):
-    rows = run("skeleton-exact", rectangle, "--what", "centerline", "-f", "csv").rows
-    assert [(row["kind"], row["x0"], row["x1"], row["r0"], row["r1"]) for row in rows] == [
-        ("extension", "0", "2", "0", "2"),
-        ("line", "2", "8", "2", "2"),
-        ("extension", "8", "10", "2", "0"),
-    ]

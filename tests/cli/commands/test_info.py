@@ -110,6 +110,18 @@ def test_what_vorotool_wrote(run, info):
     assert (zarr["format"], zarr["kind"], zarr["objects"]) == ("zarr", "label image", 24)
 
 
+def test_points_lines_and_polygons_and_their_map(run, info, tmp_path):
+    (tmp_path / "a.wkt").write_text("POINT (0 0)\nLINESTRING (5 5, 9 6)\nPOLYGON ((4 9, 9 9, 9 12, 4 9))")
+    assert run("voronoi", "a.wkt", "-o", "map.json", "-q").code == 0
+    mixed, cells = info("a.wkt", "map.json")
+    assert (mixed["kind"], mixed["features"], mixed["commands"]) == (
+        *("points, lines and polygons", 3, ["voronoi", "distance"]),
+    )
+    assert (mixed["points"], mixed["lines"], mixed["polygons"]) == (1, 1, 1)
+    assert (cells["kind"], cells["cells"]) == ("Voronoi map", 3)
+    assert cells["commands"] == ["voronoi", "skeleton-approx", "skeleton-exact", "distance", "draw"]
+
+
 def test_a_plain_list_may_be_a_ring(run, info, tmp_path):
     (tmp_path / "a.json").write_text("[[0, 0], [4, 0], [0, 3]]")
     (told,) = info("a.json")

@@ -99,6 +99,21 @@ def test_results(run, tmp_path, line):
     assert made.read_bytes() == expected.read_bytes() != b""
 
 
+STATISTICS = {
+    "delaunay dots.csv --graph mst": {"points": 53, "graph_edges": 52},
+    "skeleton-exact two-shapes.json --smooth 0.5": {"smooth": 0.5},
+    "skeleton-exact two-shapes.json --what offset -d -20,5": {"distances": [-20, 5], "shapes": 5, "rings": 6},
+    "distance two-shapes.json two-shapes.json": {"hausdorff": 0, "smallest": 0},
+}
+
+
+@pytest.mark.parametrize("line", STATISTICS)
+def test_statistics(run, folder, line):
+    words = [DATA / word if (DATA / word).exists() else word for word in line.split()]
+    stats = json.loads(run(*words, "-q", "-o", "a.csv", "--stats", "-").out)
+    assert {name: stats[name] for name in STATISTICS[line]} == STATISTICS[line]
+
+
 # ---- features that overlap and touch -------------------------------------------------------------
 OVERLAPPING = {
     "type": "GeometryCollection",

@@ -4,7 +4,6 @@ import json
 from pathlib import Path
 
 import networkx
-import numpy as np
 import pytest
 import shapely
 
@@ -31,20 +30,6 @@ def test_the_shape_again(run, command):
 def wkt_of(run, polygons):
     vorotool.write(polygons, "given.wkt")
     return Path("given.wkt").read_text().splitlines()
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_points_and_transects(run, command):
-    options = [*COMMANDS[command], "--prune", "angle=90", "--every", "7", "-f", "csv"]
-    rows = run(command, SHAPES, "--what", "points", *options).rows
-    assert {float(row["along"]) % 7 for row in rows} == {0}
-    for row in rows:
-        x, y, r, *feet = (float(row[name]) for name in ("x", "y", "r", "x_a", "y_a", "x_b", "y_b"))
-        assert [np.hypot(feet[0] - x, feet[1] - y), np.hypot(feet[2] - x, feet[3] - y)] == pytest.approx(
-            [r, r], abs=0.5
-        )
-    spans = run(command, SHAPES, "--what", "transects", *options).rows
-    assert spans == [row for row in rows if (row["x_a"], row["y_a"]) != (row["x_b"], row["y_b"])]
 
 
 @pytest.mark.parametrize("command", COMMANDS)

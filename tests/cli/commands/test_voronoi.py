@@ -128,15 +128,6 @@ def labels(folder):
     return folder / "labels.png"
 
 
-def test_label_images_have_a_site_a_label(run, labels):
-    done = run("voronoi", labels, "--what", "table", "--verify")
-    assert (done.code, done.err) == (0, "")
-    cells = vorotool.voronoi(LABELS)
-    assert [row["id"] for row in done.rows] == ["3", "7", "9"]
-    np.testing.assert_allclose([float(row["area"]) for row in done.rows], cells.areas)
-    assert [row["own_area"] for row in done.rows] == ["120", "101", "200"]
-
-
 def test_masks_have_a_site_a_component(run, labels):
     done = run("voronoi", labels, "--threshold", "0", "--what", "table", "--stats", "s.json", "-o", "a.csv")
     assert done.code == 0
@@ -240,21 +231,6 @@ def test_cuts_of_images_on_maps_are_on_the_map(run, folder, labels):
     assert shapely.union_all(shapes).symmetric_difference(clip).area < 1e-6
     limited = run("voronoi", labels, "-q", "--max-distance", "3m", "--pixel-size", "2m", "--what", "table")
     assert max(float(row["max_distance"]) for row in limited.rows) == pytest.approx(3)
-
-
-# ---- what is written ---------------------------------------------------------------------------------
-
-
-def test_a_map_is_drawn_again(run, mixed, folder):
-    for fmt, source in (("svg", "json"), ("png", "npz")):
-        assert run("voronoi", mixed, "-q", "-o", f"a.{fmt}", "--width", "300").code == 0
-        assert run("voronoi", mixed, "-q", "-o", f"a.{source}").code == 0
-        assert run("draw", f"a.{source}", "-o", f"b.{fmt}", "--width", "300").code == 0
-        assert (folder / f"b.{fmt}").read_bytes() == (folder / f"a.{fmt}").read_bytes()
-    done = run("draw", "a.json", "-o", "c.svg", "--label-by", "code", "--layers", "cells,objects,labels")
-    assert (done.code, "007" in (folder / "c.svg").read_text()) == (0, True)
-    done = run("draw", "a.json", "-o", "c.svg", "--layers", "triangles")
-    assert done.code == 2
 
 
 # ---- few sites ---------------------------------------------------------------------------------------

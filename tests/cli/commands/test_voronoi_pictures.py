@@ -5,31 +5,12 @@ import re
 import warnings
 from pathlib import Path
 
-import imageio.v3 as iio
-import numpy as np
 import pytest
-from PIL import Image
 
 import vorotool
 from vorotool import VorotoolWarning
 
 LAKES = Path("data/great-lakes.geojson").resolve()
-LABELS = np.kron(np.array([[0, 1, 0, 2], [0, 1, 0, 0], [3, 0, 0, 2]], dtype=np.uint8), np.ones((6, 6), dtype=np.uint8))
-
-
-@pytest.fixture
-def labels(folder):
-    Image.fromarray(LABELS).save(folder / "labels.png")
-    return folder / "labels.png"
-
-
-def test_borders_over_an_image(run, labels, folder):
-    done = run("voronoi", labels, "--what", "edges", "--overlay", labels, "-o", "a.png", "--layers", "edges")
-    assert done.code == 0
-    picture = iio.imread(folder / "a.png")
-    assert picture.shape[:2] == LABELS.shape
-    assert (picture == picture[..., :1]).all()  # grey objects, and dark lines with white edges
-    assert len(np.unique(picture)) > 3
 
 
 @pytest.mark.parametrize("options", [("--pixel-size", "0.5um"), ("--clip", LAKES)])

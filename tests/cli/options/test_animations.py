@@ -55,16 +55,6 @@ def test_cells_grow(run, folder, fmt):
         np.testing.assert_array_equal(frame, np.where((reached | is_seed)[..., None], whole, 255))
 
 
-def test_shapes_grow(run, folder):
-    style = ["--what", "polygons", "--width", "200"]
-    assert run("alphashape", "dots.csv", "-r", "12", *style, "-o", "out.apng", "--frames", "6").code == 0
-    found = frames_of("out.apng")
-    for number in range(6):
-        r = str(float(Fraction(12) * (number + 1) / 6))
-        assert run("alphashape", "dots.csv", "-r", r, *style, "-o", "one.png", "-q").code == 0
-        np.testing.assert_array_equal(found[number], pixels("one.png"))
-
-
 def test_what_animate_stands_for(run, folder):
     command = ["tessellate", "dots.csv", "--size", "20x20", "--what", "color", "--animate", "--frames", "2"]
     for name, kind in (("a.gif", b"GIF89a"), ("a.png", b"\x89PNG"), ("a.webp", b"RIFF"), ("a", b"GIF89a")):

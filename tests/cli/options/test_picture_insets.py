@@ -150,34 +150,3 @@ def test_longitude_and_latitude_have_no_bar_and_an_aspect(run, folder):
     mesh = vorotool.read("world.csv", geometry="points")
     vorotool.write(vorotool.delaunay(mesh), "out.svg")
     assert Path("out.svg").read_text() == run("delaunay", "world.csv", "-f", "svg").out
-
-
-def test_arcs_follow_the_aspect(run, folder):
-    """Rounded corners of offsets are elliptical: twice as high as wide."""
-    done = run("skeleton-exact", "shapes.geojson", "--what", "offset", "-d", "5", "--aspect", "2", "-f", "svg", "-q")
-    assert done.code == 0, done.err
-    radii = {tuple(map(float, pair)) for pair in re.findall(r"A([\d.]+) ([\d.]+) 0 0", done.out)}
-    ((across, down),) = radii
-    assert down == pytest.approx(2 * across, rel=1e-4)
-    root = ET.fromstring(done.out)
-    assert across == pytest.approx(5 * 1000 / (110 + 0.04 * 110), rel=1e-3)
-    assert int(root.get("height")) == round(1000 * (80 + 4.4) / 114.4)
-
-
-@pytest.mark.parametrize(
-    "command",
-    [
-        ["skeleton-exact"],
-        ["delaunay", "--seeds", "pixels"],
-    ],
-)
-def test_results_of_images_have_their_frame(run, folder, command):
-    done = run(command[0], "labels.png", *command[1:], "-f", "svg", "-q")
-    assert done.code == 0, done.err
-    assert ET.fromstring(done.out).get("viewBox") == "0 0 1000 500"
-    if command[0] == "delaunay":
-        circles = [(float(x), float(y)) for x, y in re.findall(r'cx="([\d.]+)" cy="([\d.]+)"', done.out)]
-        expected = {(10 * x + 5.0, 10 * y + 5.0) for y, x in np.argwhere(read("labels.png", "L"))}
-        assert set(circles) == expected
-    data = run(command[0], "labels.png", *command[1:], "-f", "svg", "-q", "--extent", "data")
-    assert ET.fromstring(data.out).get("viewBox") != "0 0 1000 500"

@@ -2,10 +2,7 @@
 
 import re
 
-import numpy as np
 import pytest
-
-import vorotool
 
 PICTURES = {
     "skeleton-exact": ["shapes.json"],
@@ -40,22 +37,3 @@ def test_looks(run, folder, command):
     assert "<rect" not in done.out
     paths = [re.findall(r' d="([^"]*)"', text) for text in (plain.out, done.out)]
     assert paths[0] == paths[1]
-
-
-@pytest.mark.parametrize(
-    ("source", "options", "size"),
-    [
-        ("shapes.json", ["--scale", "0.5"], 20),
-        ("shapes.json", ["--scale", "1:10", "--unit", "cm"], 40),
-        ("shapes.json", ["--unit", "in"], 1016),
-        ("logo.svg", ["--scale", "1:2"], 20),
-        ("logo.svg", ["--scale", "3"], 120),
-        ("logo.svg", ["--scale", "1:1", "--unit", "cm"], 400),
-    ],
-)
-def test_pictures_to_scale(run, folder, source, options, size):
-    done = run("skeleton-exact", source, "-o", "out.svg", "--background", "none", "-q", *options)
-    assert done.code == 0, done.err
-    shapes = vorotool.read("out.svg")
-    assert shapes.unit == "mm"
-    assert np.ptp(shapes.ring(0), axis=0) == pytest.approx([size, 0.75 * size], abs=1e-3)

@@ -48,19 +48,6 @@ def test_exact_skeletons_are_those_of_outlines_in_the_unit(run, masks, options):
     assert sum(shapely.length(found)) == pytest.approx(sum(shapely.length(expected)), rel=1e-3)
 
 
-def test_measures_of_shapes_are_in_the_unit(run, masks):
-    rows = run("skeleton-exact", "mask.png", "--what", "table", "--spacing", "0.5,0.325um").rows
-    assert [float(row["area"]) for row in rows] == pytest.approx([42 * 0.1625, 108 * 0.1625])
-    assert [float(row["width_max"]) for row in rows] == [1.95, 2.6]
-    assert {row["unit"] for row in rows} == {"um"}
-
-
-def test_approximate_skeletons_sample_in_the_unit(run, masks):
-    args = ["--spacing", "0.5,0.325um", "--step", "0.1", "--verify"]
-    rows = run("skeleton-approx", "mask.png", "--what", "table", *args).rows
-    assert [float(row["width_max"]) for row in rows] == pytest.approx([1.95, 2.6], abs=0.01)
-
-
 @pytest.mark.parametrize("distance", ["-0.3", "-300nm"])
 def test_offsets_are_at_distances_in_the_unit(run, masks, distance):
     args = ["--what", "offset", "-d", distance, "--spacing", "0.5,0.325um"]

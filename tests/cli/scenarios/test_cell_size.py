@@ -56,21 +56,6 @@ def test_points(run, tmp_path, kind):
     assert nearest_misses(labels, transform, XY) == 0
 
 
-def test_a_window_of_the_map(run, tmp_path):
-    write(tmp_path / "in.geojson", [shapely.Point(xy) for xy in XY])
-    window = ["--window", "2600512.5,1199512.5,625,500"]
-    done = run("tessellate", "in.geojson", "--cell-size", "12.5", *window, "-o", "out.tif", "-q")
-    assert done.code == 0, done.err
-    labels, transform, _, _ = read(tmp_path / "out.tif")
-    assert labels.shape == (40, 50)
-    assert (transform.c, transform.f) == (2600512.5, 1200012.5)
-    assert nearest_misses(labels, transform, XY) == 0
-    rows = run("tessellate", "in.geojson", "--cell-size", "12.5", *window, "--what", "table", "-q").rows
-    assert [row["name"] for row in rows] == [f"n{k}" for k in range(40)]
-    assert sum(float(row["area"]) for row in rows) == 625 * 500
-    assert np.allclose([[float(row["x"]), float(row["y"])] for row in rows], XY, atol=12.5 / 256)
-
-
 def test_polygons_are_those_of_rasterio(run, folder_of_data):
     run("tessellate", "lakes.geojson", "--cell-size", "0.05", "--max-distance", "0", "-o", "out.tif", "-q")
     labels, transform, _, nodata = read("out.tif")

@@ -78,14 +78,6 @@ def test_pixels_that_are_points(run, tmp_path):
     assert about(path)[4] == "Point"
 
 
-def test_labels_within_a_distance_have_nodata(run, tmp_path):
-    write(tmp_path / "in.tif")
-    assert run("tessellate", "in.tif", "-o", "out.tif", "--max-distance", "3").code == 0
-    with rasterio.open(tmp_path / "out.tif") as file:
-        assert file.nodata == 0
-        assert (file.read_masks(1) == 0).any()
-
-
 def placed(transform, column, row):
     """A place on the map."""
     a, b, c, d, e, f = tuple(transform)[:6]
@@ -281,16 +273,6 @@ def test_nodata_of_images_that_are_not_held(run, tmp_path, monkeypatch, options)
     monkeypatch.setattr(streamed, "LARGE", 100)
     assert run("tessellate", "in.tif", "-o", "rows.tif", *options).code == 0
     assert (tmp_path / "held.tif").read_bytes() == (tmp_path / "rows.tif").read_bytes()
-
-
-def test_nodata_is_not_drawn(run, tmp_path):
-    values = np.zeros((20, 20), np.uint16)
-    values[3:9, 3:9], values[12:18] = 4, 65535
-    write(tmp_path / "in.tif", values, nodata=65535)
-    write(tmp_path / "plain.tif", np.where(values == 65535, 0, values).astype(np.uint16))
-    for name in ("in", "plain"):
-        assert run("draw", f"{name}.tif", "-o", f"{name}.png").code == 0
-    assert (tmp_path / "in.png").read_bytes() == (tmp_path / "plain.png").read_bytes()
 
 
 def test_nodata_that_is_no_number(run, tmp_path):

@@ -150,16 +150,6 @@ def test_rows_made_of_polygons_refer_to_features_by_label(run, tmp_path, what, f
         assert "polygon" not in found
 
 
-def test_neighbours_of_cells_refer_to_the_labels_of_the_input(run, tmp_path):
-    (tmp_path / "in.geojson").write_text(json.dumps(FEATURES))
-    for what in ("neighbors", "edges"):
-        made = run("voronoi", tmp_path / "in.geojson", "--what", what, "-f", "csv", "-q")
-        assert {(row["label_a"], row["label_b"]) for row in made.rows} == {("12", "11")}
-    table = run("voronoi", tmp_path / "in.geojson", "--what", "table", "-f", "csv", "-q")
-    assert [(row["label"], row["name"]) for row in table.rows] == [("12", "A"), ("11", "B")]
-    assert "voro_label" not in table.rows[0]
-
-
 READ_BACK = ["csv", "json", "geojson", "npz", "gpkg"]
 
 

@@ -38,22 +38,6 @@ def test_territories_of_an_image_fill_it(run, mask, command):
     assert sum(cell.area for cell in cells) == pytest.approx(WIDTH * HEIGHT, rel=1e-12)
 
 
-def test_an_image_in_a_reference_system_has_its_bounds(run, tmp_path):
-    rasterio = pytest.importorskip("rasterio")
-    where = rasterio.Affine(30, 0, 500000, 0, -30, 4600000)
-    about = {"driver": "GTiff", "height": HEIGHT, "width": WIDTH, "count": 1, "dtype": "uint8"}
-    with rasterio.open(tmp_path / "map.tif", "w", **about, crs="EPSG:32631", transform=where) as out:
-        out.write(MASK, 1)
-    for command in ("voronoi", "delaunay"):
-        done = run(command, "map.tif", "--what", "cells", "-f", "geojson")
-        assert shapely.union_all(shapes(done.out)).bounds == (
-            500000,
-            4600000 - 30 * HEIGHT,
-            500000 + 30 * WIDTH,
-            4600000,
-        )
-
-
 @pytest.mark.parametrize("command", [("skeleton-approx", "--step", "0.25")])
 def test_exteriors_end_at_the_image(run, mask, command):
     done = run(*command, mask, "--side", "exterior", "-f", "geojson")

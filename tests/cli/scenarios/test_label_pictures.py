@@ -89,22 +89,6 @@ def test_one_path_an_object(run, nuclei):
         assert [min(across), max(across)] == pytest.approx(expected, abs=0.02)
 
 
-@pytest.mark.parametrize("command", [["draw", "labels.png"], ["tessellate", "labels.png", "--what", "color"]])
-def test_looks_of_png(run, nuclei, command):
-    style = ["--color", "cells=navy", "--line-width", "cells=3", "--background", "#102030"]
-    done = run(*command, "--layers", "cells", *style, "-o", "out.png")
-    assert done.code == 0, done.err
-    image = pixels()
-    thin = run(*command, "--layers", "cells", "--color", "cells=navy", "-o", "thin.png")
-    assert thin.code == 0
-    wide, narrow = is_color(image, ImageColor.getrgb("navy")), is_color(pixels("thin.png"), ImageColor.getrgb("navy"))
-    grown = np.zeros_like(wide)
-    for y, x in np.argwhere(narrow):
-        grown[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2] = True
-    np.testing.assert_array_equal(wide, grown)
-    np.testing.assert_array_equal(is_color(image, (0x10, 0x20, 0x30)), (nuclei == 0) & ~wide & (command[0] == "draw"))
-
-
 @pytest.mark.parametrize(
     ("looks", "message"),
     [

@@ -77,15 +77,6 @@ def test_a_shapefile_does_not_go_through_a_stream(run, lakes):
     assert (done.code, "/dev/stdout" in done.err) == (2, True)
 
 
-def test_no_part_of_a_shapefile_is_replaced_unasked(run, lakes):
-    (lakes / "axes.dbf").write_text("mine")
-    done = run("skeleton-exact", "lakes.gpkg", "-q", "-o", "axes.shp", "--no-clobber")
-    assert (done.code, "--no-clobber" in done.err) == (4, True)
-    assert (lakes / "axes.dbf").read_text() == "mine"
-    done = run("skeleton-exact", "lakes.shp", "-q", "-o", "lakes.shp")
-    assert (done.code, "lakes.shp" in done.err) == (2, True)
-
-
 WITHOUT = "import sys; sys.modules.update({name: None for name in %r}); from vorotool.cli.main import main; main(%r)"
 
 

@@ -40,22 +40,6 @@ def test_ids_are_inside_their_objects(run, folder, objects):
         assert objects[row, column] == int(text)
 
 
-@pytest.mark.parametrize("mode", [None, "pixels"])
-def test_ids_of_a_tessellation_are_on_the_objects(run, folder, objects, mode):
-    small = np.zeros((60, 80), np.uint16)
-    small[5:11, 4:10] = 3
-    small[50, 70:79] = 12
-    np.save(folder / "small.npy", small)
-    seeds = ("--seeds", mode) if mode else ()
-    assert run("tessellate", "small.npy", *seeds, "--layers", "labels", "-o", "a.svg", "-f", "svg").code == 0
-    scale = 1000 / (80 + 2 * 0.02 * 80)
-    found = texts(folder / "a.svg")
-    assert len(found) == (45 if mode == "pixels" else 2)
-    for x, y, _ in found:
-        column, row = (int(float(k) / scale - 0.02 * 80) for k in (x, y))
-        assert small[row, column]
-
-
 def test_ids_of_features_may_be_texts(run, folder):
     ring = [[0, 0], [9, 0], [0, 9], [0, 0]]
     far = [[x + 20, y] for x, y in ring]

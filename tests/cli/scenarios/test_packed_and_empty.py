@@ -167,18 +167,8 @@ def test_a_tessellation_of_nothing_needs_a_frame(run, tmp_path):
 
 def test_a_map_of_nothing_lies_where_its_window_is(run, tmp_path):
     (tmp_path / "e.csv").write_bytes(b"")
-    run(
-        "tessellate",
-        "e.csv",
-        "--cell-size",
-        "5",
-        "--window",
-        "100,200,15,10",
-        "--input-crs",
-        "EPSG:2056",
-        "-o",
-        "a.tif",
-    )
+    frame = ("--cell-size", "5", "--window", "100,200,15,10", "--input-crs", "EPSG:2056")
+    run("tessellate", "e.csv", *frame, "-o", "a.tif")
     with rasterio.open(tmp_path / "a.tif") as file:
         assert (file.shape, tuple(file.bounds), file.read().any()) == ((2, 3), (100, 200, 115, 210), False)
 

@@ -94,18 +94,6 @@ def test_the_system_is_carried_on_and_degrees_are_a_warning(run, maps, name, com
     assert crs_of(done.out) in ("urn:ogc:def:crs:OGC:1.3:CRS84", "urn:ogc:def:crs:EPSG::4326")
 
 
-@pytest.mark.parametrize("options", [("alphashape", "-r", "3")])
-def test_maps_from_longitude_and_latitude_are_drawn_north_up(run, maps, options):
-    command, *rest = options
-    run(command, "stations.geojson", *rest, "-o", "right.svg")
-    run(command, "stations.csv", *rest, "-o", "made.svg")
-    run(command, "plain.csv", *rest, "-o", "down.svg")
-    right, made, down = ((maps / f"{name}.svg").read_bytes() for name in ("right", "made", "down"))
-    assert made == right != down
-    run(command, "plain.csv", *rest, "-o", "declared.svg", "--input-crs", "EPSG:4258")
-    assert (maps / "declared.svg").read_bytes() == right
-
-
 def test_a_drawing_is_no_map(run, folder):
     (folder / "drawing.geojson").write_text(box(0.5, 0.5, 100.5, 50.5))
     done = run("skeleton-exact", "drawing.geojson", "-f", "geojson")

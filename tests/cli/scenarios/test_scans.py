@@ -100,25 +100,6 @@ def test_holes_of_at_most_an_area(run, scans, command, typed):
         assert json.loads((scans / "s.json").read_text())["filled_pixels"] == pixels
 
 
-@pytest.mark.parametrize("command", ["tessellate --what table", "skeleton-exact --what branches", "alphashape -r 9"])
-def test_areas_in_the_unit_of_the_file(run, scans, command):
-    size = {"imagej": True, "resolution": (2, 4), "metadata": {"unit": "um"}}  # pixels of 1/2 x 1/4 um
-    square = {**size, "resolution": (2, 2)}
-    tifffile.imwrite(scans / "oblong.tif", SPECKS.astype(np.uint8) * 255, **size)
-    tifffile.imwrite(scans / "square.tif", SPECKS.astype(np.uint8) * 255, **square)
-    sizes = [("square.tif", "--pixel-size", "auto", "12.25um2"), ("square.tif", "--pixel-size", "0.5um", "12.25um^2")]
-    if not command.startswith("alphashape"):
-        sizes += [
-            ("oblong.tif", "--spacing", "auto", "6.125um2"),
-            ("oblong.tif", "--spacing", "0.5,0.25um", "6.125µm²"),
-        ]
-    for name, *size, area in sizes:
-        options = [name, *size, "--fill-holes", area, "--min-area", "0.25um2", "--stats", "s.json", "-q", "-o", "a.csv"]
-        assert run(*command.split(), *options).code == 0
-        stats = json.loads((scans / "s.json").read_text())
-        assert (stats["filled_pixels"], stats["small_objects"]) == (49, 2 if name == "oblong.tif" else 0)
-
-
 def test_contours_of_grey_values_go_around_what_stays(run, scans):
     options = ["skeleton-exact", "dark.png", "--threshold", "90", "--outline", "contour", "-f", "json"]
     done = run(*options, "--min-area", "5", "--fill-holes", "--stats", "s.json", "-o", "a.json")

@@ -109,15 +109,6 @@ def test_columns_are_chosen(run, points):
     ]
 
 
-@pytest.mark.parametrize(("connectivity", "labels"), [("26", 3), ("6", 4)])
-def test_components(run, tmp_path, connectivity, labels):
-    mask = MASK.copy()
-    mask[6, 8, 5] = 255  # by a corner beside another object
-    np.save(tmp_path / "mask.npy", mask)
-    run("tessellate", "--volume", "mask.npy", "--connectivity", connectivity, "-o", "out.npy", "-q")
-    assert np.load(tmp_path / "out.npy").max() == labels
-
-
 def test_labels_stay_and_values_are_cut(run, tmp_path):
     values = MASK.astype(np.uint16)
     values[MASK > 0] = 7
@@ -155,14 +146,6 @@ def test_tables_are_those_of_the_library_in_the_unit_of_the_spacing(run, stack, 
         found = [float(row[name]) if row[name] else np.nan for row in rows]
         np.testing.assert_allclose(found, np.ma.filled(np.ma.asarray(table[name], float), np.nan), err_msg=name)
     assert {row["unit"] for row in rows} == {"um"}
-
-
-def test_volumes_add_up(run, stack):
-    rows = run("tessellate", "--volume", "stack.tif", "--spacing", "auto", "--what", "table", "-q").rows
-    assert sum(float(row["volume"]) for row in rows) == pytest.approx(MASK.size * np.prod(SPACING))
-    plain = run("tessellate", "--volume", "stack.npy", "--what", "table", "-q").rows
-    assert sum(int(row["volume"]) for row in plain) == MASK.size
-    assert "unit" not in plain[0]
 
 
 @pytest.mark.parametrize("what", ["table", "neighbors"])

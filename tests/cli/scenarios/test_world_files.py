@@ -67,18 +67,6 @@ def test_pictures_of_vectors(run, tmp_path, command):
     assert [x.min(), x.max(), y.min(), y.max()] == pytest.approx([2600000, 2600400, 1200000, 1200900], abs=pixel)
 
 
-def test_pictures_of_an_image_on_a_map(run, tmp_path, geotiff):
-    """Vectors of it, and pictures of these, lie at one place, whatever else is written."""
-    assert run("skeleton-exact", "in.tif", "-o", "a.png", "--layers", "polygons", "-q").code == 0
-    assert run("skeleton-exact", "in.tif", "-o", "b", "--what", "skeleton,table", "-f", "png", "-q").code in (0, 2)
-    x, y, transform = black(tmp_path / "a.png")
-    rows, columns = np.nonzero(MASK)
-    left, top = geotiff @ (columns.min(), rows.min())
-    right, bottom = geotiff @ (columns.max() + 1, rows.max() + 1)
-    pixel = 2 * abs(transform.a)
-    assert [x.min(), x.max(), y.min(), y.max()] == pytest.approx([left, right, bottom, top], abs=pixel)
-
-
 def test_what_is_on_no_map_has_none(run, tmp_path):
     collection(tmp_path / "in.geojson", SHAPES, crs=None)
     Image.fromarray(MASK).save(tmp_path / "in.png")
