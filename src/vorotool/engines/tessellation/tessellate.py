@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
 from numpy.typing import NDArray
 
@@ -41,6 +41,25 @@ if TYPE_CHECKING:
     from vorotool.types.volumes.volume_points import VolumePoints
     from vorotool.typing import SeedsLike, Spacing, VolumeSeedsLike
 
+    class _Options(TypedDict, total=False):
+        """What images and volumes have in common."""
+
+        image: bool | None
+        passes: int
+        max_distance: float | Fraction | None
+        spacing: Spacing | None
+        dtype: DTypeLike | None
+        out: NDArray[Any] | None
+        threads: int
+        max_pixels: int
+        progress: Progress
+
+    class _ExactOptions(_Options, total=False):
+        """Those of volumes."""
+
+        method: Literal["exact"]
+
+
 Method = Literal["exact", "propagation"]
 
 
@@ -50,16 +69,7 @@ def tessellate(
     *,
     shape: tuple[int, int, int] | None = ...,
     window: tuple[int, int, int, int, int, int] | None = ...,
-    image: bool | None = ...,
-    method: Literal["exact"] = ...,
-    passes: int = ...,
-    max_distance: float | Fraction | None = ...,
-    spacing: Spacing | None = ...,
-    dtype: DTypeLike | None = ...,
-    out: NDArray[Any] | None = ...,
-    threads: int = ...,
-    max_pixels: int = ...,
-    progress: Progress = ...,
+    **options: Unpack[_ExactOptions],
 ) -> LabelVolume: ...
 @overload
 def tessellate(
@@ -67,16 +77,7 @@ def tessellate(
     *,
     shape: tuple[int, int, int],
     window: None = ...,
-    image: bool | None = ...,
-    method: Literal["exact"] = ...,
-    passes: int = ...,
-    max_distance: float | Fraction | None = ...,
-    spacing: Spacing | None = ...,
-    dtype: DTypeLike | None = ...,
-    out: NDArray[Any] | None = ...,
-    threads: int = ...,
-    max_pixels: int = ...,
-    progress: Progress = ...,
+    **options: Unpack[_ExactOptions],
 ) -> LabelVolume: ...
 @overload
 def tessellate(
@@ -84,16 +85,7 @@ def tessellate(
     *,
     shape: None = ...,
     window: tuple[int, int, int, int, int, int],
-    image: bool | None = ...,
-    method: Literal["exact"] = ...,
-    passes: int = ...,
-    max_distance: float | Fraction | None = ...,
-    spacing: Spacing | None = ...,
-    dtype: DTypeLike | None = ...,
-    out: NDArray[Any] | None = ...,
-    threads: int = ...,
-    max_pixels: int = ...,
-    progress: Progress = ...,
+    **options: Unpack[_ExactOptions],
 ) -> LabelVolume: ...
 @overload
 def tessellate(
@@ -101,16 +93,8 @@ def tessellate(
     *,
     shape: tuple[int, int] | None = ...,
     window: tuple[int, int, int, int] | None = ...,
-    image: bool | None = ...,
     method: Method = ...,
-    passes: int = ...,
-    max_distance: float | Fraction | None = ...,
-    spacing: Spacing | None = ...,
-    dtype: DTypeLike | None = ...,
-    out: NDArray[Any] | None = ...,
-    threads: int = ...,
-    max_pixels: int = ...,
-    progress: Progress = ...,
+    **options: Unpack[_Options],
 ) -> LabelImage: ...
 
 
