@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from vorotool.errors import InputError, option
 from vorotool.plain import plain
@@ -46,20 +47,7 @@ class Frame:
     height: int
 
     def __post_init__(self) -> None:
-        from vorotool.numeric.numbers import shown_number, whole_number  # imports NumPy, which options need not
-
-        for name in ("x", "y", "width", "height"):  # NumPy's integers would wrap around in what follows
-            object.__setattr__(self, name, whole_number(getattr(self, name), f"{name} of the frame"))
-        if max(abs(self.x), abs(self.y)) > FARTHEST:
-            raise InputError(
-                f"the frame begins at {shown_number((self.x, self.y))}: its coordinates must be at most 2^44; "
-                f"use a nearer {option('--window')}"
-            )
-        if self.width < 1 or self.height < 1:
-            raise InputError(
-                f"the frame is {shown_number(self.width)} x {shown_number(self.height)} pixels: "
-                f"it needs at least 1 x 1, use {option('--size WxH', 'shape=(H, W)')}"
-            )
+        check_frame(self, "pixels", option("--size WxH", "shape=(H, W)"))
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -86,6 +74,22 @@ class Frame:
     def pixels(self) -> int:
         """Number of pixels."""
         return self.width * self.height
+
+
+def check_frame(frame: Any, cells: str, instead: str) -> None:
+    """Refuse a frame of pixels or voxels that is empty or too far away; its numbers become Python's integers."""
+    from vorotool.numeric.numbers import shown_number, whole_number  # imports NumPy, which options need not
+
+    for each in fields(frame):  # NumPy's integers would wrap around in what follows
+        object.__setattr__(frame, each.name, whole_number(getattr(frame, each.name), f"{each.name} of the frame"))
+    if max(map(abs, frame.origin)) > FARTHEST:
+        raise InputError(
+            f"the frame begins at {shown_number(frame.origin)}: its coordinates must be at most 2^44; "
+            f"use a nearer {option('--window')}"
+        )
+    if min(frame.shape) < 1:
+        size, least = " x ".join(map(shown_number, frame.shape[::-1])), " x ".join("1" * len(frame.shape))
+        raise InputError(f"the frame is {size} {cells}: it needs at least {least}, use {instead}")
 
 
 MAX_PIXELS = 2**31

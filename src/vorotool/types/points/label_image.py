@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -58,17 +59,7 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
     sides: PixelSides = SQUARE
 
     def __post_init__(self) -> None:
-        labels = self.labels
-        labels = labels.filled(0) if is_masked_array(labels) else np.asarray(labels)
-        if labels.ndim != 2 or labels.dtype.kind not in "ui":
-            raise InputError(f"labels must be a 2-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
-        object.__setattr__(self, "labels", labels)
-        if self.frame is None:
-            object.__setattr__(self, "frame", Frame(0, 0, labels.shape[1], labels.shape[0]))
-        elif self.frame.shape != labels.shape:
-            raise InputError(f"labels have shape {labels.shape}, but the frame {self.frame.shape}")
-        if self.grid is None and self.seeds is not None and self.seeds.frame == self.frame:
-            object.__setattr__(self, "grid", self.seeds.grid)
+        check_labels(self, 2, Frame)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -126,3 +117,17 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
         occurs = np.zeros(largest + 1, dtype=bool)
         occurs[np.maximum(self.labels, 0)] = True
         return counted(int(np.count_nonzero(occurs[1:])), "label")
+
+
+def check_labels(value: Any, axes: int, frame_of: Callable[..., Any]) -> None:
+    """Refuse labels that are no integers, or not of the frame; what is not given follows from labels and seeds."""
+    labels = value.labels.filled(0) if is_masked_array(value.labels) else np.asarray(value.labels)
+    if labels.ndim != axes or labels.dtype.kind not in "ui":
+        raise InputError(f"labels must be a {axes}-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
+    object.__setattr__(value, "labels", labels)
+    if value.frame is None:
+        object.__setattr__(value, "frame", frame_of(*(0 for _ in labels.shape), *reversed(labels.shape)))
+    elif value.frame.shape != labels.shape:
+        raise InputError(f"labels have shape {labels.shape}, but the frame {value.frame.shape}")
+    if value.grid is None and value.seeds is not None and value.seeds.frame == value.frame:
+        object.__setattr__(value, "grid", value.seeds.grid)

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
-from vorotool.numeric.checks import is_masked_array
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.elements import Elements
+from vorotool.types.points.label_image import check_labels
 from vorotool.types.spacing import PixelSides
 from vorotool.types.values import Graph, Tabular, Value
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
@@ -59,18 +57,7 @@ class LabelVolume(Value, Tabular, Graph, Elements):
     grid: VoxelGrid | None = None
 
     def __post_init__(self) -> None:
-        labels = self.labels
-        labels = labels.filled(0) if is_masked_array(labels) else np.asarray(labels)
-        if labels.ndim != 3 or labels.dtype.kind not in "ui":
-            raise InputError(f"labels must be a 3-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
-        object.__setattr__(self, "labels", labels)
-        if self.frame is None:
-            depth, height, width = labels.shape
-            object.__setattr__(self, "frame", VoxelFrame(0, 0, 0, width, height, depth))
-        elif self.frame.shape != labels.shape:
-            raise InputError(f"labels have shape {labels.shape}, but the frame {self.frame.shape}")
-        if self.grid is None and self.seeds is not None and self.seeds.frame == self.frame:
-            object.__setattr__(self, "grid", self.seeds.grid)
+        check_labels(self, 3, VoxelFrame)
 
     @property
     def shape(self) -> tuple[int, int, int]:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from fractions import Fraction
 from typing import Literal
 
-from vorotool.errors import InputError, LimitError, option
+from vorotool.errors import LimitError, option
 from vorotool.numeric.length_units import unit_name
 from vorotool.plain import plain
-from vorotool.types.pixel_frame import FARTHEST, MAX_SIDE
+from vorotool.types.pixel_frame import MAX_SIDE, check_frame
 from vorotool.types.pixel_grid import ALIKE
 
 
@@ -47,23 +46,9 @@ class VoxelFrame:
     depth: int
 
     def __post_init__(self) -> None:
-        from vorotool.numeric.numbers import shown_number, whole_number  # imports NumPy, which options need not
-
-        for each in fields(self):  # NumPy's integers would wrap around in what follows
-            object.__setattr__(self, each.name, whole_number(getattr(self, each.name), f"{each.name} of the frame"))
-        size = (self.width, self.height, self.depth)
-        if max(map(abs, self.origin)) > FARTHEST:
-            raise InputError(
-                f"the frame begins at {shown_number(self.origin)}: its coordinates must be at most 2^44; "
-                f"use a nearer {option('--window')}"
-            )
-        text = " x ".join(map(shown_number, size))
-        if min(size) < 1:
-            raise InputError(
-                f"the frame is {text} voxels: it needs at least 1 x 1 x 1, use "
-                f"{option('--size WxHxD', 'shape=(D, H, W)')}"
-            )
-        if max(size) > MAX_SIDE:
+        check_frame(self, "voxels", option("--size WxHxD", "shape=(D, H, W)"))
+        if max(self.shape) > MAX_SIDE:
+            text = " x ".join(map(str, self.shape[::-1]))
             raise LimitError(f"the frame is {text}: a side has at most 2^30 voxels")
 
     @property
