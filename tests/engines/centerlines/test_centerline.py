@@ -1,7 +1,5 @@
 """Centerlines: along the middle to the middles of the ends, beside brute force, alone and together."""
 
-import warnings
-
 import numpy as np
 import pytest
 import shapely
@@ -188,30 +186,6 @@ def test_brute_force_agrees():
         assert line.path.length.sum() == pytest.approx(brute[1], rel=1e-9)
         compared += 1
     assert compared > 30
-
-
-def test_centerlines_stay_inside():
-    for polygon, skeleton in random_skeletons(25):
-        shape = shapely.Polygon(polygon).buffer(1e-6)
-        for kind in ("middle", "corner", "none"):
-            with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
-                line = vorotool.centerline(skeleton, ends=kind)
-            assert all(shape.contains(shapely.LineString(line.flattened(1e-9)[0])) for _ in range(len(line)))
-
-
-def test_lines_move_with_their_polygons():
-    turn = np.array([[0, 1], [-1, 0]])
-    for polygon, skeleton in random_skeletons(12):
-        expected_line = vorotool.centerline(skeleton).flattened(1e-3)[0]
-        for moved, back in (
-            (polygon @ turn, lambda line: line @ turn.T),
-            (polygon * [-1, 1], lambda line: line * [-1, 1]),
-            (polygon * 4, lambda line: line / 4),
-            (np.add(polygon, [64, -128]), lambda line: line - [64, -128]),
-        ):
-            line = back(vorotool.centerline(vorotool.skeleton_exact(moved.tolist())).flattened(1e-3)[0])
-            ends_of = sorted(line[[0, -1]].round(6).tolist())
-            assert ends_of == pytest.approx(np.array(sorted(expected_line[[0, -1]].round(6).tolist())), abs=2e-6)
 
 
 def test_lines_that_are_led_on_end_on_edges_exactly():

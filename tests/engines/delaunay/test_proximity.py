@@ -28,7 +28,7 @@ def pairs(graph):
     return {frozenset(edge) for edge in graph.edges.tolist()}
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("name", few(FAMILIES, 10))
 def test_the_definitions_in_rationals(name):
     for seed in range(5):
         points = np.unique(draw(name, 5 + 3 * seed, seed), axis=0)

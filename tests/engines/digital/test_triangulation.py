@@ -25,7 +25,6 @@ from vorotool import (
     UsageError,
     VerificationError,
     VorotoolWarning,
-    _core,
     delaunay,
     digital_triangulation,
     repair_digital,
@@ -72,22 +71,6 @@ def test_bands_and_threads_change_nothing(pixels, monkeypatch):
         assert_same(("edges", "triangles", "at_four"), found, whole)
         assert found.four_label_corners == whole.four_label_corners
         assert found.three_label_corners == whole.three_label_corners
-
-
-def test_many_rows_in_pieces():
-    """More pixels than a piece of work, of labels at random."""
-    image = np.random.default_rng(3).integers(1, 40, (600, 600)).astype(np.uint8)
-    found = digital_triangulation(LabelImage(image), threads=2)
-    scan = _core.digital.DigitalTriangulationScan()
-    for y in range(599):
-        scan.add_rows(image[y : y + 2], 1, None)
-    one_by_one = scan.finish()
-    np.testing.assert_array_equal(found.labels[found.edges[:, 0]], one_by_one["edge_a"])
-    assert found.four_label_corners == one_by_one["four_label_corners"]
-    corner = np.array([image[:-1, :-1], image[:-1, 1:], image[1:, 1:], image[1:, :-1]]).reshape(4, -1)
-    distinct = 1 + (np.diff(np.sort(corner, axis=0), axis=0) != 0).sum(axis=0)
-    assert found.four_label_corners == np.count_nonzero(distinct == 4)
-    assert found.three_label_corners == np.count_nonzero(distinct == 3)
 
 
 def test_what_cannot_be_read():

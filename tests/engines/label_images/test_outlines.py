@@ -50,7 +50,7 @@ def test_crack_outlines_of_labels(index, connectivity):
 
 
 @pytest.mark.parametrize("connectivity", [4, 8])
-@pytest.mark.parametrize("index", [0, 1])
+@pytest.mark.parametrize("index", few([0, 1], 1))
 def test_crack_outlines_of_all_small_masks(index, connectivity):
     """All masks of 3 x 4 pixels and of 4 x 3, in one image."""
     mask = IMAGES[index]

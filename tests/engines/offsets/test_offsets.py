@@ -20,7 +20,7 @@ HALVES = [(family, (k + turn) % 2) for turn in (0, 1) for k, family in enumerate
 
 
 @pytest.mark.parametrize(
-    ("family", "begin"), few(HALVES, len(SHAPES)), ids=lambda each: getattr(each, "__name__", each)
+    ("family", "begin"), few(HALVES, len(SHAPES) // 2), ids=lambda each: getattr(each, "__name__", each)
 )
 def test_offsets_are_those_of_shapely(family, begin):
     with warnings.catch_warnings(action="ignore"):

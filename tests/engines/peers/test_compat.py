@@ -72,7 +72,7 @@ def test_results_are_written_into_arrays(shape):
 
 @pytest.mark.parametrize("ndim", [1, 2, 3])
 @pytest.mark.parametrize("distance", few([1.5, 3, 0, 1, 2, 5], 2))
-@pytest.mark.parametrize("spacing", [1, 2, "each"])
+@pytest.mark.parametrize("spacing", few([1, 2, "each"], 2))
 def test_labels_grow_as_those_of_scikit_image(ndim, distance, spacing):
     blobs = binary_blobs(length=32, blob_size_fraction=0.1, n_dim=max(ndim, 2), rng=7)
     labels = measure.label(blobs)[5] if ndim == 1 else measure.label(blobs)

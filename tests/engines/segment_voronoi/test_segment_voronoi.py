@@ -35,7 +35,7 @@ def assert_right(points, segments):
     verify_segment_voronoi(diagram, threads=1)
 
 
-@pytest.mark.parametrize("name", [name for name in FAMILIES if name not in ("contour", "partition")])
+@pytest.mark.parametrize("name", few([name for name in FAMILIES if name not in ("contour", "partition")], 12))
 def test_brute_force_agrees(name):
     points, segments = next(
         graph for n in range(7, 0, -1) for graph in [draw(name, n, 1)] if len(graph[0]) + len(graph[1]) <= SMALL
@@ -43,7 +43,7 @@ def test_brute_force_agrees(name):
     assert_right(points, segments)
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("name", few(FAMILIES, 12))
 def test_boost_agrees_on_small_coordinates(name):
     for seed in range(4):
         points, segments = coarse(*draw(name, 40, seed), 2**12)
@@ -152,7 +152,7 @@ def test_what_is_far_away_changes_no_digit():
     assert len(found) == 1
 
 
-@pytest.mark.parametrize("name", ["star_smooth", "star_rough", "comb", "hilbert", "wheel"])
+@pytest.mark.parametrize("name", few(["star_smooth", "star_rough", "comb", "hilbert", "wheel"], 2))
 def test_threads_change_nothing(name):
     """Rounds long enough to be shared."""
     points, segments = draw(name, 20_000, 2)

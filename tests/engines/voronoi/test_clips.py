@@ -70,7 +70,7 @@ def test_eight_symmetries(seed):
         np.testing.assert_allclose(again.perimeters.sum(), once.perimeters.sum(), rtol=1e-5)
 
 
-@pytest.mark.parametrize("far", [30.03, 3003.3, 3.1e8])
+@pytest.mark.parametrize("far", few([30.03, 3003.3, 3.1e8], 1))
 @pytest.mark.parametrize("others", [{}, {"enclosures": shapely.box(-1.3, -1, 5.1, 17.7)}, {"max_distance": 2.5}])
 def test_a_frame_far_around_the_clip_changes_nothing(far, others):
     sites = np.random.default_rng(7).random((20, 2)) * 10

@@ -17,7 +17,7 @@ BOX = shapely.box(0, 0, 10, 10)
 FRAME = (-10.0, -10.0, 30.0, 30.0)
 
 
-@pytest.mark.parametrize("seed", few(range(60), 8))
+@pytest.mark.parametrize("seed", few(range(60), 4))
 def test_mixed_sites(seed):
     random = np.random.default_rng(seed)
     grid = [None, 10, 4][seed % 3]

@@ -56,14 +56,6 @@ def test_a_sweep_finds_what_pairs_show(seed, monkeypatch):
     assert [lists(filled_polygons(rings, rule)) for rule in RULES] + [lists(nested_polygons(rings))] == by_pairs
 
 
-@pytest.mark.parametrize("turn", [1, -1])
-def test_hundreds_of_rings_in_one_another(turn):
-    rings = [square(k, 9000 - k)[::turn] for k in range(400)]
-    assert [len(polygon) for polygon in filled_polygons(rings, "evenodd")] == [2] * 200
-    assert lists(filled_polygons(rings, "nonzero")) == [[rings[0].tolist()]]
-    assert lists(nested_polygons(rings)) == [lists([rings])[0][k : k + 2] for k in range(0, 400, 2)]
-
-
 def test_the_sign_of_a_side_is_exact():
     a, b = (0.1, 0.1), (0.7, 0.7)
     assert fill_rules._side(a, b, (0.3, 0.3)) == 0

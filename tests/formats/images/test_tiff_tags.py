@@ -67,14 +67,17 @@ def open_volume_and_look(path):
 
 @pytest.mark.parametrize(
     "command",
-    [
-        ["info", "a.tif"],
-        ["info", "--page", "1", "a.tif"],
-        ["tessellate", "a.tif", "-o", "b.tif"],
-        ["tessellate", "--volume", "a.tif", "-o", "b.tif"],
-        ["tessellate", "a.tif", "--page", "all", "--out-dir", "out"],
-        ["skeleton-exact", "a.tif", "-o", "b.json"],
-    ],
+    few(
+        [
+            ["info", "a.tif"],
+            ["info", "--page", "1", "a.tif"],
+            ["tessellate", "a.tif", "-o", "b.tif"],
+            ["tessellate", "--volume", "a.tif", "-o", "b.tif"],
+            ["tessellate", "a.tif", "--page", "all", "--out-dir", "out"],
+            ["skeleton-exact", "a.tif", "-o", "b.json"],
+        ],
+        2,
+    ),
 )
 def test_a_circle_through_a_page_without_tags(tmp_path, command):
     written(tmp_path, chain([*pages(1), {}, *pages(1)], [1, 2, 1]))

@@ -87,11 +87,6 @@ def test_what_is_written_is_read_back(tmp_path):
     assert whole.properties == lines.properties
 
 
-def test_many_lines_are_read_at_once(written):
-    text = "".join(f'{{"x":{k},"y":{k % 7}}}\n' for k in range(50_000))
-    assert vorotool.read(written(text)).xy[-1].tolist() == [49_999, 49_999 % 7]
-
-
 @pytest.mark.parametrize(
     ("text", "words"),
     [

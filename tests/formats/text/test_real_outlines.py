@@ -10,6 +10,7 @@ import pytest
 import shapely
 
 import vorotool
+from support.few import few
 from vorotool.types.skeleton.tables import polygon_table
 
 DATA = Path(__file__).parents[3] / "data"
@@ -78,7 +79,7 @@ def test_of_skeletons(name, tmp_path):
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("cuts", [{}, {"clip": [CLIP]}, {"enclosures": [WALL, CLIP.exterior]}])
+@pytest.mark.parametrize("cuts", few([{}, {"clip": [CLIP]}, {"enclosures": [WALL, CLIP.exterior]}], 2))
 def test_of_cells(name, cuts, tmp_path):
     path = DATA / f"{name}.geojson"
     shapes = shapes_of(path)

@@ -59,7 +59,7 @@ def page(tmp_path_factory):
 
 
 @needs_browser
-@pytest.mark.parametrize("r", few([None, 0.8, 50.0], 2))
+@pytest.mark.parametrize("r", few([None, 0.8, 50.0], 1))
 def test_the_page_counts_what_the_library_does(page, r):
     family, path = page
     document = browse("--dump-dom", f"{path.as_uri()}{'' if r is None else f'#r={r}'}")

@@ -14,6 +14,7 @@ import shapely
 from PIL import Image
 
 import vorotool
+from support.few import few
 from vorotool import LimitError, voronoi_cells
 from vorotool.render.canvas.styles import CELLS
 from vorotool.render.pages.html import (
@@ -119,7 +120,7 @@ def test_the_browser_names_a_cell(tmp_path):
 
 
 @needs_browser
-@pytest.mark.parametrize(("scheme", "ground"), [(1, 255), (0, 0x16)])
+@pytest.mark.parametrize(("scheme", "ground"), few([(1, 255), (0, 0x16)], 1))
 def test_the_browser_draws_on_light_and_dark_ground(tmp_path, scheme, ground):
     path, picture = tmp_path / "page.html", tmp_path / "page.png"
     path.write_text(page_of(shapes_of_labels(LABELS), [1, 2, 3, 4], {}))

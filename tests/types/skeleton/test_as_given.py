@@ -135,7 +135,9 @@ def perimeter(polygon):
     return shapely.Polygon(*rings).length
 
 
-@pytest.mark.parametrize("others", [[], [FAR], [FAR, [[20, 20], [30, 20], [30, 30], [25, 30], [25, 40], [25, 30]]]])
+@pytest.mark.parametrize(
+    "others", few([[], [FAR], [FAR, [[20, 20], [30, 20], [30, 30], [25, 30], [25, 40], [25, 30]]]], 2)
+)
 @pytest.mark.parametrize("name", CASES)
 @pytest.mark.filterwarnings("ignore::vorotool.errors.RepairWarning")
 def test_measures_are_those_of_the_input(name, others, tmp_path):
