@@ -137,33 +137,18 @@ def test_bad_lines(text, message):
 
 
 @pytest.mark.parametrize(
-    ("text", "message"),
+    ("text", "own"),
     [
-        (
-            "1,2,3\n",
-            '3 columns without a header; name the columns of x and y, for example columns="1,2" (its '
-            "columns are 1 = 1, "
-            "2 = 2, 3 = 3)",
-        ),
-        (
-            "id,east,north\n1,2,3\n",
-            "no coordinate columns recognized in the header; name the columns of x and y, for example "
-            'columns="east,north" '
-            "(its columns are 1 = id, 2 = east, 3 = north)",
-        ),
-        (
-            "lng,lat\n1,2\n",
-            "no coordinate columns recognized in the header; name the columns of x and y, for example "
-            'columns="lng,lat" '
-            "(its columns are 1 = lng, 2 = lat)",
-        ),
-        ("1|2\n", "'1|2'"),
+        ("1,2,3\n", ["1 = 1, 2 = 2, 3 = 3", "1,2"]),
+        ("id,east,north\n1,2,3\n", ["1 = id, 2 = east, 3 = north", "east,north"]),
+        ("lng,lat\n1,2\n", ["1 = lng, 2 = lat", "lng,lat"]),
+        ("1|2\n", ["'1|2'"]),
     ],
 )
-def test_unknown_columns(text, message):
+def test_unknown_columns(text, own):
     error = error_of(text)
     assert error.startswith("seeds.csv")
-    assert message in error
+    assert all(each in error for each in own)
 
 
 @pytest.mark.parametrize("columns", ["x", "x,y,label,more", "x,,y", "", "0,1", "x,x", "1,1"])
