@@ -167,14 +167,3 @@ def test_a_folder_without_permission(run, folder, monkeypatch):
         done = run("tessellate", "dots.csv", *options)
         assert done.code == 4
         assert not (folder / "a.png").exists()
-
-
-def test_messages_name_the_option_that_names_the_output(run, folder):
-    (folder / "in.geojson").write_text('{"type":"Polygon","coordinates":[[[0,0],[4,0],[0,3],[0,0]]]}')
-    for options in (["-f", "geojson"], ["-f", "json", "--no-clobber"]):
-        (folder / "in.json").write_text("old")
-        done = run("skeleton-exact", "in.geojson", "--out-dir", ".", *options)
-        assert done.code in (2, 4)
-        assert done.err.endswith("choose another name with --out-dir\n")
-    done = run("skeleton-exact", "in.geojson", "-o", "in.geojson")
-    assert done.err.endswith("choose another name with -o\n")

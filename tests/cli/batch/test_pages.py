@@ -1,12 +1,10 @@
 """``--page all``: each page of a stack or an animation is an input of a batch."""
 
-import gzip
 import json
 
 import numpy as np
 import pytest
 import tifffile
-from PIL import Image
 
 RNG = np.random.default_rng(4)
 PAGES = [((RNG.random((20, 30)) < 0.03) * 255).astype(np.uint8) for _ in range(3)]
@@ -29,32 +27,6 @@ def test_outputs_are_those_of_each_page(run, stack):
         assert (stack / "one.npy").read_bytes() == (stack / f"out/stack-p00{k}.npy").read_bytes()
     rows = (stack / "all.csv").read_text().splitlines()[1:]
     assert {row.partition('",')[0] for row in rows} == {f'"stack.tif, page {k}' for k in range(3)}
-
-
-def test_packed_stacks_have_pages(run, stack):
-    packed = gzip.compress((stack / "stack.tif").read_bytes())
-    (stack / "stack.tif").unlink()
-    (stack / "stack.tif.gz").write_bytes(packed)
-    images = [Image.fromarray(page) for page in PAGES[:2]]
-    images[0].save(stack / "moving.gif", save_all=True, append_images=images[1:])
-    (stack / "moving.gif.gz").write_bytes(gzip.compress((stack / "moving.gif").read_bytes()))
-    done = run("tessellate", "stack.tif.gz", "moving.gif.gz", "--page", "all", "--out-dir", "out", "-f", "npy")
-    assert done.code == 0, done.err
-    names = sorted(path.name for path in (stack / "out").glob("*.npy"))
-    assert names == ["moving-p000.npy", "moving-p001.npy", *(f"stack-p00{k}.npy" for k in range(3))]
-    assert (np.load(stack / "out/moving-p001.npy") == np.load(stack / "out/stack-p001.npy")).all()
-
-
-COMMANDS = ["delaunay --seeds pixels", "draw"]
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_other_commands(run, stack, command):
-    done = run(*command.split(), "stack.tif", "--page", "all", "--out-dir", "out", "-f", "svg", "-q")
-    assert done.code == 0, done.err
-    assert len(list((stack / "out").glob("stack-p00?.svg"))) == 3
-    assert run(*command.split(), "stack.tif", "--page", "1", "-o", "one.svg", "-q").code == 0
-    assert (stack / "one.svg").read_bytes() == (stack / "out/stack-p001.svg").read_bytes()
 
 
 def test_plans_and_what_was_done_before(run, stack):

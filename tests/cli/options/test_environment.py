@@ -44,17 +44,6 @@ def test_quiet(run, points, tmp_path, monkeypatch):
     assert run("delaunay", "none.csv").err
 
 
-@pytest.mark.parametrize("variables", [{"JOBS": "2"}, {"CLUSTER": "local"}, {"JOBS": "2", "CLUSTER": "tcp://nobody:1"}])
-def test_workers_for_many_change_nothing_for_one(run, points, tmp_path, monkeypatch, variables):
-    text = run("delaunay", "p.csv").out
-    for name, value in variables.items():
-        monkeypatch.setenv(f"VOROTOOL_{name}", value)
-    done = run("delaunay", "p.csv")
-    assert (done.code, done.out, done.err) == (0, text, "")
-    assert run("delaunay", "p.csv", "--out-dir", "out").code == 0
-    assert [path.name for path in (tmp_path / "out").iterdir()] == ["p.csv"]
-
-
 def test_jobs_of_many_and_a_cluster_that_is_not_asked_where_jobs_are_typed(run, points, tmp_path, monkeypatch):
     monkeypatch.setenv("VOROTOOL_JOBS", "2")
     assert run("delaunay", "p.csv", "q.csv", "--out-dir", "out", "-q").code == 0

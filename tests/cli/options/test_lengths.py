@@ -1,8 +1,5 @@
 """Lengths with units on the command line: the bytes are those of the same number of pixels, which is exact."""
 
-import json
-import shutil
-
 import numpy as np
 import pytest
 
@@ -26,27 +23,6 @@ def test_what_is_exact_stays_so(run, inputs):
     assert run("tessellate", "two.csv", "--max-distance", "2.5399999999999999999999mm", *size, "less.npy").code == 0
     assert np.count_nonzero(np.load(inputs / "one.npy")) == 5
     assert np.count_nonzero(np.load(inputs / "less.npy")) == 1
-
-
-def test_a_batch_and_its_statistics(run, inputs):
-    (inputs / "many").mkdir()
-    for name in "ab":
-        shutil.copy(inputs / "in.csv", inputs / "many" / f"{name}.csv")
-    options = ["--pixel-size", "0.5mm", "-r", "3mm", "-q"]
-    assert run("alphashape", "many", "--out-dir", "out", "-f", "csv", *options, "--stats", "s.json").code == 0
-    assert run("alphashape", "in.csv", "-o", "one.csv", *options).code == 0
-    assert {path.read_bytes() for path in (inputs / "out").glob("*.csv")} == {(inputs / "one.csv").read_bytes()}
-    assert json.loads((inputs / "s.json").read_text())["unit"] == "mm"
-    again = run("alphashape", "many", "--out-dir", "out", "-f", "csv", *options, "--resume", "--dry-run")
-    assert again.out.count('"kept"') == 2
-    other = run("alphashape", "many", "--out-dir", "out", "-f", "csv", *options[:3], "2mm", "--resume", "--dry-run")
-    assert other.out.count('"planned"') == 2
-
-
-def test_a_unit_of_its_own_is_as_good_as_any(run, inputs):
-    assert run("tessellate", "in.csv", "--max-distance", "6voxel", "--pixel-size", "2voxel", "-o", "a.npy").code == 0
-    assert run("tessellate", "in.csv", "--max-distance", "3", "-o", "b.npy").code == 0
-    assert (inputs / "a.npy").read_bytes() == (inputs / "b.npy").read_bytes()
 
 
 # ---- places and frames

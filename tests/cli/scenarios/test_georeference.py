@@ -189,16 +189,6 @@ def test_clip_is_on_the_map(run, tmp_path):
     assert (done.code, "in.tif in EPSG:2056" in done.err) == (3, True)
 
 
-def test_pictures_stay_as_they_are(run, tmp_path):
-    """Those beside vectors are drawn from what lies on the map, and show the same."""
-    write(tmp_path / "in.tif")
-    tifffile.imwrite(tmp_path / "plain.tif", MASK)
-    options = ["-f", "svg", "--overlay", "in.tif"]
-    for name in ("in", "plain"):
-        assert run("skeleton-exact", f"{name}.tif", *options, "-o", f"{name}.svg").code == 0
-    assert (tmp_path / "in.svg").read_bytes() == (tmp_path / "plain.svg").read_bytes()
-
-
 @pytest.mark.parametrize(
     ("transform", "code", "words"),
     [

@@ -37,14 +37,6 @@ def test_other_layers_are_named_and_kept(run, tmp_path):
     assert run(*edges, "--overwrite").code == 0
 
 
-def test_a_table_is_a_layer_too(tmp_path):
-    path = tmp_path / "a.gpkg"
-    mesh = vorotool.delaunay([[0, 0], [9, 0], [0, 9]])
-    vorotool.write(mesh, path, what="table")
-    with pytest.raises(OutputError, match="the layers table"):
-        vorotool.write(mesh, path, what="triangles")
-
-
 def test_a_file_that_another_program_writes(tmp_path):
     """Its journal would be taken for one of the new file."""
     path = tmp_path / "a.gpkg"
