@@ -13,13 +13,12 @@ from math import ceil, inf, isfinite, sqrt, ulp
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.circular_arcs import chords_of
 from vorotool.numeric.curves.flatten import CURVE_PART, MOST_PIECES
 from vorotool.numeric.curves.inverse_functions import PI, cosine_and_sine, hypotenuse
 
-Floats = NDArray[np.float64]
 Point = tuple[float, float]
 
 

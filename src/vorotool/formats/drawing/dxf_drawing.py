@@ -9,13 +9,9 @@ from collections.abc import Sequence
 from configparser import ConfigParser
 from typing import Any, BinaryIO
 
-import numpy as np
-from numpy.typing import NDArray
-
 from vorotool.convert.extras import needed
+from vorotool.numeric.arrays import Floats
 from vorotool.types.axis import DOWN, YAxis
-
-Floats = NDArray[np.float64]
 
 UNITS = {
     **{1: "in", 2: "ft", 3: "mi", 4: "mm", 5: "cm", 6: "m", 7: "km", 9: "mil", 10: "yd"},

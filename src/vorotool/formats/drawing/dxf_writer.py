@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.drawing.dxf_drawing import DxfDrawing
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.alpha.hull import AlphaHull
 from vorotool.types.skeleton.centerline import Centerlines
@@ -20,8 +21,6 @@ from vorotool.types.skeleton.offsets import Offsets
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.skeleton.smooth_lines import SmoothLines
-
-Floats = NDArray[np.float64]
 
 DEPTH = "depth"
 """Layer of the lines in space along points."""

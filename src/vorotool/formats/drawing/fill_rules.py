@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.types.box import bounds
-
-Floats = NDArray[np.float64]
 
 _MOST_PAIRS = 2**17
 """Of rings whose boxes meet, for which pairs are looked at one by one; beyond, a sweep finds how rings lie."""
@@ -288,9 +287,6 @@ def _side(a: Point, b: Point, c: Point) -> float:
     (ax, ay), (bx, by), (cx, cy) = (tuple(map(Fraction, place)) for place in (a, b, c))  # type: ignore[assignment]
     exact = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
     return float((exact > 0) - (exact < 0))
-
-
-Indices = NDArray[np.int64]
 
 
 # ---- how often rings turn around places ----------------------------------------------------------

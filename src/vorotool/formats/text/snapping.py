@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.coordinate_grid import Grid
 from vorotool.numeric.ragged import Nesting, following, owners, starts_of
 from vorotool.plain import plain
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 Rings = tuple[Floats, Nesting]
 
 
