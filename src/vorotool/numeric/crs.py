@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import Kind, Message, option
+
+if TYPE_CHECKING:
+    from vorotool.numeric.arrays import Floats
 
 _FORMS = (
     re.compile(r"urn:(?:x-)?ogc:def:crs:(\w+):[^:]*:(\w+)", re.IGNORECASE),
@@ -180,7 +180,7 @@ def note_degrees(value: Any, name: str, note: Callable[[str], None]) -> None:
         note(Message(f"{text}; {projected_advice(value.xy)}", Kind.DEGREES, source=name))
 
 
-def projected_advice(xy: NDArray[np.float64]) -> str:
+def projected_advice(xy: Floats) -> str:
     """Name the zone of UTM that an input lies in, if it does not spread over more than two."""
     if len(xy):
         (west, south), (east, north) = xy.min(axis=0).tolist(), xy.max(axis=0).tolist()
