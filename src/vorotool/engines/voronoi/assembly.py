@@ -7,13 +7,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import VerificationError
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.ragged import ranges, starts_of
 from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
-
-Indices = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 _AT_ONCE = 2**18
 """Arcs that are measured together, so that this takes little memory."""

@@ -12,14 +12,12 @@ from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.engines.voronoi.elements import OwnedGraph
 from vorotool.errors import VerificationError
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import distinct
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
-
-Indices = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 _INSIDE, _AT_VERTEX, _TOUCHING = range(3)
 """Where the core says that a crossing is: inside an edge, at its lower end, where two parts only touch each other."""

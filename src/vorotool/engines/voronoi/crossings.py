@@ -11,11 +11,10 @@ from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.cut_curves import FAR, CutCurves, cut_curves
 from vorotool.engines.voronoi.elements import packed
 from vorotool.engines.voronoi.regions import CutEdges, LocalDiagrams
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 Pairs = tuple[Indices, Indices]
 
 SLACK = 2.0**-12

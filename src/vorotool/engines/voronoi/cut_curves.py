@@ -9,11 +9,9 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 FAR = 2.0**34
 """Beyond all that is on the lattice: ends that are farther away tell less of a line than its two elements do."""

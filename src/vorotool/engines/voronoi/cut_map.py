@@ -12,10 +12,8 @@ from vorotool.engines.voronoi.assembly import Arcs, Moves, by_ends, without_lost
 from vorotool.engines.voronoi.nearest import NearestElements
 from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay, RegionOverlay
 from vorotool.errors import VerificationError
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _MOST_TRIED = 7
 """Ends at one place, of which all orders are tried."""

@@ -10,11 +10,9 @@ from vorotool.engines.voronoi.crossings import Drawn, EdgeLines, crossings_betwe
 from vorotool.engines.voronoi.cut_curves import controls_of, cut_curves
 from vorotool.engines.voronoi.overlay import Overlay, Pieces, cut_pieces, pieces_between
 from vorotool.engines.voronoi.regions import NOBODY, CutEdges
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.types.box import Extent, corners_of
 from vorotool.types.polygons.planar_graph import PlanarGraph
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 SIDES = 4
 """Of a frame, counter-clockwise: least y, most x, most y, least x."""

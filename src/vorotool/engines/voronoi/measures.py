@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import ridges_of
 from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owned_graph, shared_elements
@@ -14,15 +13,13 @@ from vorotool.engines.voronoi.joint_graph import given_cuts, joint_graph
 from vorotool.engines.voronoi.overlay import Overlay, RegionOverlay
 from vorotool.engines.voronoi.regions import local_diagrams, regions_of
 from vorotool.errors import RepairWarning
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.numbers import distinct
 from vorotool.types.box import Extent
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.voronoi.shapes import cell_polygons
 from vorotool.types.voronoi.tables import site_shapes
 from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 
 def graph_again(cells: VoronoiMap) -> OwnedGraph:

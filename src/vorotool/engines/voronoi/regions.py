@@ -15,6 +15,7 @@ from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owners_of, packed
 from vorotool.engines.voronoi.joint_graph import JointGraph
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import distinct, is_among
 from vorotool.numeric.parallel import Progress
 from vorotool.numeric.ragged import owners, ranges, starts_of
@@ -23,8 +24,6 @@ from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 
-Indices = NDArray[np.int64]
-Floats = NDArray[np.float64]
 Sites = NDArray[np.int32]
 
 NOBODY = -1

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats
 from vorotool.types.box import corners_of
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.used_shapes import used_shapes
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
-
-Floats = NDArray[np.float64]
 
 
 def shared_out(cells: VoronoiMap) -> Any:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.voronoi.verify_cuts import EnclosedFaces, shared_out
 from vorotool.errors import UsageError
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.curves.inverse_functions import PI, angle_of
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.ragged import owners
@@ -18,9 +19,6 @@ from vorotool.types.box import corners_of
 from vorotool.types.polygons.used_shapes import used_shapes
 from vorotool.types.voronoi.shapes import flattened_arcs
 from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 AREA = 1e-12
 """By how much the areas of all cells may differ from that of the frame, as a part of it."""

@@ -29,7 +29,6 @@ from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike, ImageLike, PointsLike, PolygonsLike
 
-Indices = NDArray[np.int64]
 
 LEAST = 2.0**-40
 """Of the largest coordinate: smaller limits are less than what a lattice moves sites by, and near what is rounded."""

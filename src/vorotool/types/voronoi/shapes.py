@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.curves.flatten import circle_tolerances, curve_tolerances, least_focal_distances
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.numbers import distinct
@@ -15,9 +16,6 @@ from vorotool.products.formats import resolved
 from vorotool.types.features import Areas, Lines, Rows, without_places
 from vorotool.types.voronoi.tables import border_table, cell_table
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 PART_OF_RADIUS = 0.25
 """How far a polyline may be from its curve, as a part of the smallest distance of that from the sites."""

@@ -10,14 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats, Indices
 from vorotool.types.features import Rows
 from vorotool.types.identity import with_ends
 from vorotool.types.polygons.used_shapes import used_shapes
 from vorotool.types.table import Computed, Lookup, Table
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 KINDS = ["line", "parabola", "circle"]
 """Of arcs."""

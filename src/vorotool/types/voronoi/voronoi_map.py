@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.ragged import owners
 from vorotool.products.formats import resolved
@@ -29,8 +30,6 @@ OUTSIDE = -1
 """The site of what belongs to no cell: the far side of the frame, or of another cut."""
 
 _TABLES = "types.voronoi.tables"
-
-Floats = NDArray[np.float64]
 
 
 @record
