@@ -103,6 +103,7 @@ def region_table(
     Examples
     --------
     >>> import numpy as np
+    >>> from vorotool import LabelImage
     >>> table = region_table(LabelImage(np.array([[1, 1, 2], [1, 2, 2]], dtype=np.uint16)))
     >>> table["perimeter"].tolist(), table["nearest_label"].tolist()
     ([8, 8], [2, 1])
@@ -156,6 +157,7 @@ def neighbor_table(
     Examples
     --------
     >>> import numpy as np
+    >>> from vorotool import LabelImage
     >>> table = neighbor_table(LabelImage(np.array([[1, 1, 2], [3, 3, 2]], dtype=np.uint16)))
     >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_length"))))
     [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
@@ -278,6 +280,7 @@ def color_regions(
     Examples
     --------
     >>> import numpy as np
+    >>> from vorotool import LabelImage
     >>> color_regions(LabelImage(np.array([[0, 1, 4]], dtype=np.uint16)))
     array([0, 2, 0, 0, 1], dtype=uint8)
     """

@@ -46,6 +46,7 @@ class LabelVolume(Value, Tabular, Graph, Elements):
 
     Examples
     --------
+    >>> import numpy as np
     >>> LabelVolume(np.array([[[1, 1, 2]]], dtype=np.uint16)).frame.shape
     (1, 1, 3)
     """
