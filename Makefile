@@ -161,7 +161,7 @@ endif
 long: build $(BUILD)/.tests ## frames, images and volumes far beyond memory: minutes, and some gigabytes of disk (SIDE=..., SEED=...)
 	$(RUN) tests/long/big_tessellation.py --side 32768 --seeds 100000 --folder $(BUILD) --seed $(or $(SEED),1)
 	$(RUN) tests/long/big_tessellation.py --side 32768 --seeds 30000 --folder $(BUILD) --seed $(or $(SEED),1) -- --cluster local
-	$(RUN) tests/long/big_tessellation.py --side 16384 --seeds 100000 --image --folder $(BUILD) --seed $(or $(SEED),1)
+	$(RUN) tests/long/big_tessellation.py --side 30000 --seeds 60000 --image --table --folder $(BUILD) --seed $(or $(SEED),1)
 	$(RUN) tests/long/big_tessellation.py --side $(or $(SIDE),131072) --folder $(BUILD) --seed $(or $(SEED),1)
 	$(RUN) tests/long/big_volume.py --side $$(($(or $(SIDE),131072) / 32)) --folder $(BUILD) --seed $(or $(SEED),1)
 

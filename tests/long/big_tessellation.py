@@ -2,7 +2,7 @@
 
 The tool runs as a process of its own, whose peak of resident memory is measured. Windows at random places, at the
 corners and across the borders of chunks are computed once more by brute force. With --image the seeds are the
-components of a mask in tiles, which SciPy numbers.
+components of a mask in tiles, which SciPy numbers. The areas of a table are compared with the pixels of all labels.
 """
 
 import argparse
@@ -39,11 +39,23 @@ def size_on_disk(folder):
     return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
 
 
-def tessellate(folder, source, options):
+def tessellate(folder, source, options, output="labels.zarr"):
     """Run the tool; seconds, and the peak of its memory in bytes."""
     start = time.perf_counter()
-    memory = peak_memory(["tessellate", source, "-o", "labels.zarr", "-q", *options], folder)
+    memory = peak_memory(["tessellate", source, "-o", output, "-q", *options], folder)
     return time.perf_counter() - start, memory
+
+
+def compare_table(table, store):
+    """Compare the area of each cell with the pixels of its label; the number of cells."""
+    labels = zarr.open_array(store, mode="r")
+    rows = np.genfromtxt(table, delimiter=",", names=True)
+    pixels = np.zeros(int(rows["label"].max()) + 1, np.int64)
+    for y in range(0, labels.shape[0], 1024):
+        pixels += np.bincount(labels[y : y + 1024].ravel(), minlength=len(pixels))
+    np.testing.assert_array_equal(pixels[rows["label"].astype(int)], rows["area"])
+    assert rows["area"].sum() == labels.shape[0] * labels.shape[1]
+    return len(rows)
 
 
 def compare(seeds, numbers, store, side, windows, rng):
@@ -91,6 +103,7 @@ def main():
     parser.add_argument("--side", type=int, default=131072)
     parser.add_argument("--seeds", type=int, default=1_000_000)
     parser.add_argument("--image", action="store_true", help="seeds are objects in a mask")
+    parser.add_argument("--table", action="store_true", help="write a table, too, and compare its areas")
     parser.add_argument("--windows", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--folder", type=Path, help="where there is room for some hundreds of megabytes")
@@ -108,6 +121,12 @@ def main():
         compared = compare(seeds, numbers, folder / "labels.zarr", o.side, o.windows, rng)
         print(f"{compared} pixels in windows are those of direct computation")
         assert memory < MEMORY, "it takes too much memory"
+        if o.table:
+            options = [*source[1:], *o.options, "--what", "table"]
+            seconds, memory = tessellate(folder, source[0], options, "table.csv")
+            cells = compare_table(folder / "table.csv", folder / "labels.zarr")
+            print(f"a table of {cells} cells: {seconds:.0f} s, peak memory {memory / 1e6:.0f} MB")
+            assert memory < MEMORY, "the table takes too much memory"
     finally:
         shutil.rmtree(folder)
 
