@@ -69,14 +69,15 @@ test-all: test test-slow test-docs ## all tests, with all seeds
 
 .PHONY: lint
 lint: build $(BUILD)/.tests ## ruff, mypy --strict, import-linter, clang-format, codespell
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
-	$(BIN)/mypy
-	$(BIN)/lint-imports --no-cache
-	$(RUN) tools/public_names.py | diff $(STUBS)/__init__.pyi -
-	$(RUN) tools/check_core.py
-	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)
-	$(BIN)/codespell
+	$(BIN)/mypy & types=$$!; \
+	$(BIN)/ruff check . && \
+	$(BIN)/ruff format --check . && \
+	$(BIN)/lint-imports --no-cache && \
+	$(RUN) tools/public_names.py | diff $(STUBS)/__init__.pyi - && \
+	$(RUN) tools/check_core.py && \
+	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES) && \
+	$(BIN)/codespell; \
+	others=$$?; wait $$types && exit $$others
 
 .PHONY: tidy
 tidy: $(BUILD)/.venv ## clang-tidy of the core, which takes minutes

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vorotool.jobs.options import Options
     from vorotool.jobs.run_log import Run
 
 

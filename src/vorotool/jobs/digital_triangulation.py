@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from vorotool.engines.digital.comparison import compare_digital
 from vorotool.engines.digital.triangulation import DigitalRepair, digital_triangulation, repair_digital
@@ -14,18 +14,12 @@ from vorotool.errors import Message
 from vorotool.jobs.inputs import JobInput, frame_of, window_of
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.triangulation import MeshProducts, ReadPoints
 from vorotool.jobs.units import sides_of
 from vorotool.numeric.parallel import Progress
 from vorotool.types.mesh.digital_triangulation import AnyTriangulation, DigitalComparison
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
-
-if TYPE_CHECKING:
-    from vorotool.types.mesh.digital_triangulation import AnyTriangulation
-    from vorotool.types.points.point_set import PointSet
-    from vorotool.types.points.seed_set import SeedSet
-
-from vorotool.jobs.triangulation import MeshProducts, ReadPoints
 
 
 class DigitalProducts(MeshProducts):

@@ -19,9 +19,7 @@ from vorotool.products.registry import NAMING_FEATURES, PRODUCTS, Product
 from vorotool.render.looks import SCALE_BAR
 
 if TYPE_CHECKING:
-    from vorotool.jobs.options import Options
     from vorotool.jobs.run_log import Run
-    from vorotool.jobs.targets import Target
     from vorotool.jobs.units import PixelSize
     from vorotool.numeric.length_units import InputUnit
     from vorotool.types.pixel_grid import PixelGrid

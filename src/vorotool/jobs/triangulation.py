@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from vorotool.types.box import Box, Extent
     from vorotool.types.mesh.cells import CellSet
     from vorotool.types.mesh.tables import CellStatistics
-    from vorotool.types.points.point_set import PointSet
-    from vorotool.types.points.seed_set import SeedSet
 
 
 class ReadPoints(NamedTuple):

@@ -8,16 +8,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from operator import index
 from os import PathLike
-from typing import TYPE_CHECKING, Any, TypeGuard
+from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.numbers import shown_number
-
-if TYPE_CHECKING:
-    import numpy as np
 
 MOST_THREADS = 1024
 """More help nothing."""
