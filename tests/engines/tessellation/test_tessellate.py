@@ -155,11 +155,14 @@ def test_large_image_takes_many_bands_and_streams_past_the_cache(simd):
 # ---- the public function and its errors ------------------------------------------------------------------------
 
 
-def test_snapping_warns_or_is_refused():
-    with pytest.warns(VorotoolWarning, match=r"1 of 2 seeds moved to the nearest 2\^-38 pixel"):
-        seeds = vorotool.seeds_from_points(vorotool.PointSet([[0.1, 0], [2, 1]]))
+def test_snapping_is_counted_warns_where_it_is_coarse_or_is_refused():
+    seeds = vorotool.seeds_from_points(vorotool.PointSet([[0.1, 0], [2, 1]]))  # a warning would fail
     assert (seeds.snapped, seeds.scale) == (1, 2**37)
     assert 0 < seeds.largest_move <= 2.0**-39
+    with pytest.warns(VorotoolWarning, match=r"1 of 2 seeds moved to the nearest 2\^-17 pixel"):
+        far = vorotool.seeds_from_points(vorotool.PointSet([[0.1, 0], [2.0**22, 1]]))
+    assert far.snapped == 1
+    assert 2.0**-20 <= far.largest_move <= 2.0**-18
     with pytest.raises(InputError, match=r"point 1 is \(0\.1, 0\.0\)"):
         vorotool.seeds_from_points(vorotool.PointSet([[0.1, 0], [2, 1]]), strict=True)
 

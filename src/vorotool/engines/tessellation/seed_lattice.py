@@ -33,6 +33,9 @@ _MOST_STEPS = 2**40
 _MOST_COUNTED = 2**61
 """Coordinates in steps, seen from the origin, stay below: sums of them fit 64 bits."""
 
+_LARGE_MOVE = 2.0**-20
+"""Seeds of decimals move by less, in pixels or voxels, where the lattice is not coarse for the frame."""
+
 _CELL = {2: "pixel", 3: "voxel"}
 
 
@@ -154,7 +157,7 @@ def _columns_of_regions(
 
 
 def report_snapped(places: NDArray[np.float64], snapped: SnappedPlaces, *, strict: bool) -> None:
-    """Tell how many places moved to the lattice, if any did, or refuse them."""
+    """Refuse places that moved to the lattice, or warn if one moved far; the seeds have the count in any case."""
     count, cell = snapped.moves, _CELL[places.shape[1]]
     step = f"1/{snapped.finest}" if snapped.finest <= FINEST_SCALE else f"2^-{snapped.finest.bit_length() - 1}"
     if not count:
@@ -165,10 +168,11 @@ def report_snapped(places: NDArray[np.float64], snapped: SnappedPlaces, *, stric
             f"point {row + 1} is ({', '.join(map(str, places[row].tolist()))}): seeds lie on multiples of {step} "
             f"{cell} ({counted(count, 'such point')}); round them or leave out {STRICT}"
         )
-    warn(
-        f"{count} of {len(places)} seeds moved to the nearest {step} {cell}, by at most {snapped.largest_move:.2g} "
-        f"{cell}s"
-    )
+    if snapped.largest_move >= _LARGE_MOVE:
+        warn(
+            f"{count} of {len(places)} seeds moved to the nearest {step} {cell}, by at most "
+            f"{snapped.largest_move:.2g} {cell}s"
+        )
 
 
 def _coarsest_scale(lattice: NDArray[np.int64], finest: int) -> int:
