@@ -29,7 +29,7 @@ _WKT = re.compile(
 )
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
-_WITH_COLUMNS = ("csv", "json", "jsonl", "npz", "parquet")
+_WITH_COLUMNS = ("csv", "json", "jsonl", "npz", "parquet", "gpkg")
 _HEADS = (
     *((MAGIC, "npy"), (NPZ_MAGIC, "npz"), (b"SQLite format 3\0", "gpkg"), (b"fgb\x03fgb", "fgb")),
     *((b"\0\0\x27\x0a", "shp"), (b"PAR1", "parquet"), (b"{", "geojson"), (b"[", "json"), (RECORD_MARK, "jsonl")),

@@ -133,7 +133,7 @@ class DrawnInput(Results):
         if not len(value):
             run.warn(f"the picture is empty: the input ({kind}) has nothing to draw")
         polygons = value if isinstance(value, PolygonSet) else value.polygons
-        run.has_crs = polygons.crs is not None
+        run.crs = polygons.crs
         check_column(o.label_by, (value if isinstance(value, VoronoiMap) else polygons).properties)
         if o.overlay is not None:
             refuse({"frame": o.frame}, "sets what a picture shows, but a picture over an image shows the image")

@@ -110,7 +110,7 @@ def read_opened(
     run.coordinates = coordinates_of(o, value)
     if run.coordinates is not None and o.pixel_size is None:
         run.stats["unit"] = run.coordinates.unit
-    run.has_crs = (value.polygons if is_of(value, "Sites") else value).crs is not None
+    run.crs = (value.polygons if is_of(value, "Sites") else value).crs
     if o.pixel_size is not None:
         run.stats |= unit_stats(o.pixel_size)
     return o, value if wants_properties or not wants_unit else replace(value, properties={})

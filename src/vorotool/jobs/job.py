@@ -100,8 +100,10 @@ def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets
     size, deviation = options.unit, 0.0
     unit = None if size is None else run.stats.get("unit") if size.is_auto else size.unit
     stated = unit if size is not None or run.coordinates is None else run.coordinates.unit
+    system = run.crs if size is None else getattr(products.options.unit, "crs", None)  # of tables
     texts, columns = safe_texts(options.safe_csv), columns_wanted(options.with_columns)
     digits: Any = {"decimals": options.decimals, "is_verified": options.verify}
+    in_crs: dict[str, Any] = {}
     with committed_together(), texts, unit_column(unit), unit_member(stated), columns:
         for target in targets:
             if options.out_dir is not None:
@@ -113,6 +115,9 @@ def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets
                 _note_system(run, target, written.system_unread)
             if written.has_y_down:
                 _note_y_down(run, target)
+            if target.fmt == "wkt" or (target.fmt in ("csv", "tsv") and written.has_places):
+                in_crs[spoken(target.path)] = written.crs or system
+    _note_no_system(run, {name: crs for name, crs in in_crs.items() if crs is not None})
     if options.stats is not None:
         with run.phase("count"):
             run.stats.update({**products.stats(), **unit_stats(options.unit)})
@@ -129,6 +134,16 @@ def _note_system(run: Run, target: Target, crs: Any) -> None:
             f"{spoken(target.path)} is in {crs_name(crs)}, but GDAL reads JSON lines as longitude and latitude: give "
             f"GDAL -a_srs {crs_name(crs)}, or write a GeoPackage"
         )
+
+
+def _note_no_system(run: Run, crs: Mapping[str, Any]) -> None:
+    """Say once which files do not state the coordinate reference system that their coordinates are in."""
+    from vorotool.numeric.crs import crs_name
+
+    if crs:
+        verb, them = ("states", "it") if len(crs) == 1 else ("state", "them")
+        name = crs_name(next(iter(crs.values())))
+        run.note(f"{', '.join(crs)} {verb} no coordinate reference system: read {them} as {name} (--input-crs)")
 
 
 def _note_y_down(run: Run, target: Target) -> None:

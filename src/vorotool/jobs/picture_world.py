@@ -196,7 +196,7 @@ def _transform(run: Run, size: PixelSize | None, page: Page | None) -> Transform
     if page is None:
         return None if grid is None else grid.transform
     if grid is None:
-        return _of_page(page, lambda xy: xy) if run.has_crs else None
+        return _of_page(page, lambda xy: xy) if run.crs is not None else None
     return _of_page(page, _to_map(size, grid))
 
 

@@ -266,7 +266,7 @@ def check_image_size(run: Run, o: Options, name: str, grid: PixelGrid | None) ->
 def check_system(run: Run, o: Options, targets: Sequence[Target]) -> None:
     """Warn of a size that scales coordinates, which are no longer in their reference system then."""
     size = o.unit
-    if size is None or size.is_auto or size.is_spacing or size.factor == 1 or not run.has_crs:
+    if size is None or size.is_auto or size.is_spacing or size.factor == 1 or run.crs is None:
         return
     if any(target.fmt in _WITH_SYSTEM and "geojson" in PRODUCTS[o.command][target.what].written for target in targets):
         text = f"--pixel-size {_text(size)} scales the coordinates: results state no coordinate reference system"

@@ -55,7 +55,7 @@ class Run:
         self.coordinates: InputUnit | None = None
         self.pixel: InputUnit | None = None  # the side of a pixel of the input, where that is known
         self.grid: PixelGrid | None = None  # the pixels of the input, or the cells that are laid over it
-        self.has_crs = False  # points, lines and polygons name a coordinate reference system
+        self.crs: Any = None  # the coordinate reference system that points, lines and polygons name
 
     def __enter__(self) -> Run:
         """Collect warnings from here on."""

@@ -34,6 +34,8 @@ class Written:
 
     deviation: float = 0.0  # the largest distance of lines from the curves that they stand for
     has_y_down: bool = False
+    crs: Any = None  # the coordinate reference system of the value
+    has_places: bool = False  # of a table: some of its columns are coordinates
     system_unread: Any = None  # the coordinate reference system of a file whose readers assume another one
 
 
@@ -54,11 +56,19 @@ def record_system_unread(crs: Any) -> None:
         written.system_unread = crs
 
 
-def record_axis(value: Any) -> None:
-    """Record whether y of a value that is written goes down."""
+def record_places() -> None:
+    """Record that a table that is written has coordinates."""
     written = _WRITTEN.get()
-    if written is not None and getattr(value, "y_axis", None) == "down":
-        written.has_y_down = True
+    if written is not None:
+        written.has_places = True
+
+
+def record_value(value: Any) -> None:
+    """Record the coordinate reference system of a value that is written, and whether its y goes down."""
+    written = _WRITTEN.get()
+    if written is not None:
+        written.crs = getattr(value, "crs", None)
+        written.has_y_down = written.has_y_down or getattr(value, "y_axis", None) == "down"
 
 
 @contextmanager

@@ -114,3 +114,24 @@ def test_a_system_is_declared_for_inputs_that_name_none(run, maps):
     done = run("skeleton-exact", "degrees.geojson", "--input-crs", "EPSG:3857")
     assert done.code == 3
     assert "degrees.geojson" in done.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "files"),
+    [
+        (("--what", "edges", "-o", "a.csv"), "a.csv"),
+        (("--what", "cells", "-o", "a.wkt"), "a.wkt"),
+        (("--what", "cells,table", "-f", "csv", "--out-dir", "o"), "o/meters.cells.csv, o/meters.table.csv"),
+        (("--what", "statistics", "-o", "a.csv"), None),  # without coordinates
+        (("--what", "cells", "-o", "a.geojson"), None),
+        (("--what", "edges", "--pixel-size", "2", "-o", "a.csv"), None),  # no longer in it
+        (("--what", "edges", "-q", "-o", "a.csv"), None),
+    ],
+)
+def test_files_that_cannot_state_the_system_are_named_once(run, folder, arguments, files):
+    points = [{"type": "Point", "coordinates": place} for place in ([3, 1], [9, 2], [4, 8])]
+    (folder / "meters.geojson").write_text(collection(*points, crs="EPSG:3057"))
+    done = run("delaunay", "meters.geojson", *arguments)
+    named = [line for line in done.err.splitlines() if "--input-crs" in line]
+    assert (done.code, len(named)) == (0, int(files is not None))
+    assert files is None or (files in named[0] and "EPSG:3057" in named[0])

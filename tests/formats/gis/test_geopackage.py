@@ -3,12 +3,14 @@
 import sqlite3
 import struct
 
+import pandas
+import pyogrio
 import pytest
 import shapely
 
 import vorotool
 from support.families.vector_files import frame, save
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.gis import geopackage
 
 ARCS = struct.pack("<BIIBII", 1, 10, 1, 1, 8, 5) + struct.pack("<10d", 0, 0, 4, 0, 4, 4, 0, 4, 0, 0)
@@ -151,3 +153,34 @@ def test_databases_that_are_none(tmp_path):
     (tmp_path / "a.gpkg").write_bytes(data[: len(data) // 2])
     with pytest.raises(InputError, match=r"a\.gpkg"):
         vorotool.read(tmp_path / "a.gpkg")
+
+
+TABLE = pandas.DataFrame({"x": [1.5, 4, 9], "y": [2, 7.25, 1], "east": [10, 20, 30], "name": ["a", None, "c"]})
+
+
+def test_a_table_without_geometry_holds_points(tmp_path):
+    path = tmp_path / "a.gpkg"
+    pyogrio.write_dataframe(TABLE, path, layer="t")
+    points = vorotool.read(path)
+    assert points.xy.tolist() == [[1.5, 2], [4, 7.25], [9, 1]]
+    assert points.properties == {"east": [10, 20, 30], "name": ["a", None, "c"]}
+    assert vorotool.read(path, columns="east,y").xy.tolist() == [[10, 2], [20, 7.25], [30, 1]]
+    changed(path, "UPDATE t SET fid = 7 WHERE fid = 2")
+    assert vorotool.read(path).properties["id"] == [1, 3, 7]
+    with pytest.raises(InputError, match=r"a\.gpkg"):
+        vorotool.read(path, geometry="polygons")
+
+
+def test_tables_beside_layers_with_geometry(tmp_path):
+    path = save(frame(), tmp_path / "a.gpkg")
+    for name in ("t", "u"):
+        pyogrio.write_dataframe(TABLE, path, layer=name, append=True)
+    assert len(vorotool.read(path)) == 4  # of the one layer with geometry
+    assert len(vorotool.read(f"{path}:u")) == 3
+    with pytest.raises(UsageError, match="columns"):
+        vorotool.read(path, geometry="points", columns="x,y")
+    with pytest.raises(InputError, match=r"'v'.* a.* t, u"):
+        vorotool.read(f"{path}:v")
+    changed(path, "DELETE FROM gpkg_contents WHERE table_name = 'a'")
+    with pytest.raises(InputError, match=r"choose one of t, u, as .*a\.gpkg:t"):
+        vorotool.read(path)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.sites import Sites
-from vorotool.errors import NO_PROPERTIES, InputError, LimitError, option
+from vorotool.errors import NO_PROPERTIES, InputError, LimitError, UsageError, option
 from vorotool.formats.io.sources import STANDARD_INPUT, Source
 from vorotool.formats.parsing.json import MOST_CELLS, OF_SITES, not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shortened
@@ -38,9 +38,14 @@ class Features:
     ids: Sequence[Any] | None = None  # the file's own names of its features
     crs: Any = None  # the `crs` member of GeoJSON
     place: Callable[[int], str] | None = None  # gives the words for a feature (0-based), for messages
-    is_table: bool = False  # there is no geometry at all: coordinates are among the columns, if anywhere
+    has_none: str = ""  # of a table, whose coordinates are among the columns, if anywhere: that there is no geometry
     curves: int = 0  # how many curves were flattened
     texts: Sequence[str] | None = None  # well-known text of each
+
+    @property
+    def is_table(self) -> bool:
+        """Whether there is no geometry at all."""
+        return bool(self.has_none)
 
     @property
     def holds_shapes(self) -> bool:
@@ -64,6 +69,8 @@ class Features:
 
 def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet:
     """Give the polygons and lines of features; those without a geometry are left out."""
+    if features.is_table and features.columns:
+        raise InputError(f"{features.has_none}; polygons or lines are expected, columns x, y are read as points")
     kept = _kept(features)
     options.note_left_out(features.name, len(features.geometry) - len(kept))
     _check_kinds(features, kept, _SHAPES, "not a polygon or line", not_a_shape_advice)
@@ -208,24 +215,36 @@ def _check_attributes(features: Features, count: int, noun: str) -> None:
         )
 
 
-def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> int:
-    """Give the number of the layer that is wanted, or of the only one that has geometry."""
-    named = {name: number for number, (name, kind) in enumerate(layers) if kind is not None}
+TABLE = "table"
+"""The kind of a layer without geometry whose columns can be read."""
+
+
+def layer_fault(source: Source, layer: str, layers: Mapping[str, str | None]) -> str:
+    """Say that a layer has no geometry, or does not exist, and which layers there are."""
+    fault = "has no geometry" if layer in layers else "does not exist"
+    named = [name for name, kind in layers.items() if kind not in (None, TABLE)]
+    tables = [name for name, kind in layers.items() if kind == TABLE]
     held = ", ".join(named) or "none"
+    others = f", those without are {', '.join(tables)}" if tables else ""
+    return f"the layer {layer!r} of {source.name} {fault}: the layers with geometry are {held}{others}"
+
+
+def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> int:
+    """Give the number of the layer that is wanted, or of the only one that has geometry, or else is a table."""
+    numbers = {name: number for number, (name, kind) in enumerate(layers) if kind is not None}
+    named = {name: number for name, number in numbers.items() if layers[number][1] != TABLE}
     if source.layer is not None:
-        if source.layer not in named:
-            fault = "has no geometry" if source.layer in dict(layers) else "does not exist"
-            raise InputError(
-                f"the layer {source.layer!r} of {source.name} {fault}: the layers with geometry are {held}"
-            )
-        return named[source.layer]
+        if source.layer not in numbers:
+            raise InputError(layer_fault(source, source.layer, dict(layers)))
+        return numbers[source.layer]
+    named = named or numbers
     if not named:
         raise InputError(f"{source.name} holds no layer with geometry: name another file")
     if len(named) > 1:
         how = f"as {source.name}:{next(iter(named))}"
         if source.name == STANDARD_INPUT:
             how = f"by {option('--input-layer', 'layer=...')}"
-        raise InputError(f"{source.name} holds {len(named)} layers: choose one of {held}, {how}")
+        raise InputError(f"{source.name} holds {len(named)} layers: choose one of {', '.join(named)}, {how}")
     return next(iter(named.values()))
 
 
@@ -240,6 +259,10 @@ def features_of(source: Source) -> Features:
 def read_points(source: Source, options: ReadOptions) -> PointRows:
     """Read points with their attributes; where there is no geometry, as tables have them."""
     features = features_of(source)
+    if options.columns is not None and not features.is_table:
+        raise UsageError(
+            f"{option('--columns')} applies to tables, but the points of {source.name} have geometry: leave it out"
+        )
     if features.is_table:
         return rows_of_columns(source.name, {name: list(values) for name, values in features.columns.items()}, options)
     return feature_points(features, options)

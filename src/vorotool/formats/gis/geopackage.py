@@ -17,8 +17,10 @@ from datetime import date, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from vorotool.errors import INPUT_FORMAT, OUTPUT, OVERWRITE, InputError, LimitError, OutputError
-from vorotool.formats.gis.feature_table import Features, chosen_layer
+from vorotool.formats.gis.feature_table import TABLE, Features, chosen_layer, layer_fault
 from vorotool.formats.gis.feature_writer import GdalFeatures, move_into
 from vorotool.formats.io.atomic_output import current_rules, failure
 from vorotool.formats.io.commit import committed_together
@@ -46,6 +48,8 @@ _ENVELOPES = (0, 32, 48, 48, 64)
 """Bytes of the bounds before the geometry, by three bits of its flags."""
 _UNDEFINED = (-1, 0, 99999)
 """Numbers of systems that say nothing."""
+_ATTRIBUTES = ("attributes", "aspatial")
+"""What tables without geometry are registered as; the second by GDAL, before there was the first."""
 _AUTHORITIES = ("EPSG", "ESRI", "OGC")
 _FEATURE_IDS = ("fid", "ogc_fid")
 _GEOMETRY_KINDS = ("GEOMETRY", "POINT", "LINESTRING", "POLYGON", "CURVE", "SURFACE", "CIRCULARSTRING", "COMPOUNDCURVE")
@@ -82,12 +86,13 @@ def features_of(source: Source) -> Features:
 def layers_of(source: Source) -> list[str]:
     """Give the names of all tables of a GeoPackage that are registered, those without geometry too."""
     with decoding(source.name, "GeoPackage"), _connected(source) as database:
-        return _registered(database)
+        return list(_registered(database))
 
 
-def _registered(database: sqlite3.Connection) -> list[str]:
-    """Give the names of all tables that are registered."""
-    return [name for (name,) in database.execute("SELECT table_name FROM gpkg_contents ORDER BY rowid")]
+def _registered(database: sqlite3.Connection) -> dict[str, str | None]:
+    """Give the names of all tables that are registered, and which are tables of attributes."""
+    rows = database.execute("SELECT table_name, data_type FROM gpkg_contents ORDER BY rowid")
+    return {name: TABLE if kind in _ATTRIBUTES else None for name, kind in rows}
 
 
 def has_index(path: Path, layer: str) -> bool:
@@ -118,11 +123,13 @@ def check_layers(path: str, written: Collection[str], *, overwrite: bool = False
 
 def _read(source: Source) -> Features:
     with _connected(source) as database:
-        layers = _layers(source, database)
-        tables = [layer.table for layer in layers]
-        others = [(name, None) for name in _registered(database) if name not in tables]
-        chosen = chosen_layer(source, [*((table, "geometry") for table in tables), *others])
-        return _features(source, database, layers[chosen])
+        layers = {layer.table: layer for layer in _layers(source, database)}
+        kinds: dict[str, str | None] = dict.fromkeys(layers, "geometry")
+        kinds |= {name: kind for name, kind in _registered(database).items() if name not in layers}
+        chosen = list(kinds)[chosen_layer(source, list(kinds.items()))]
+        if chosen in layers:
+            return _features(source, database, layers[chosen])
+        return _table(source, database, chosen, layer_fault(source, chosen, kinds))
 
 
 # ---- the database --------------------------------------------------------------------------------
@@ -206,28 +213,40 @@ def _features(source: Source, database: sqlite3.Connection, layer: _Layer) -> Fe
     geometry = next((each for each in columns if each.name.lower() == str(layer.column).lower()), None)
     if geometry is None:
         raise InputError(f"{source.name}: the layer {layer.table!r} has no geometry column {layer.column!r}")
-    key = next((each for each in columns if each.is_key), None)
-    key = key or next((each for each in columns if each.name.lower() in _FEATURE_IDS), None)
-    kept = [each for each in columns if each not in (geometry, key) and not _is_binary(each.kind)]
-    read = _rows(source, database, layer.table, [geometry, *([key] if key else []), *kept])
-    binary = [None if blob is None else _well_known(source, blob, row) for row, blob in enumerate(read[0], 1)]
+    ids, attributes, (blobs,) = _attributes(source, database, layer.table, columns, [geometry])
+    binary = [None if blob is None else _well_known(source, blob, row) for row, blob in enumerate(blobs, 1)]
     shapes, curves = geometry_of_binary(binary, source.flatten)
     bad = next((row for row, blob in enumerate(binary, 1) if blob is not None and shapes[row - 1] is None), None)
     if bad is not None:
         raise _geometry_error(source, bad)
-    ids = read[1] if key else None
-    values = read[2 if key else 1 :]
-    return Features(
-        source.name,
-        shapes,
-        {
-            column.name: [_converted(column.kind, value) for value in each]
-            for column, each in zip(kept, values, strict=True)
-        },
-        None if ids is None or ids == list(range(1, len(ids) + 1)) else ids,
-        _system(database, layer.system),
-        curves=curves,
-    )
+    return Features(source.name, shapes, attributes, ids, _system(database, layer.system), curves=curves)
+
+
+def _table(source: Source, database: sqlite3.Connection, table: str, fault: str) -> Features:
+    """Read a table without geometry."""
+    ids, attributes, _ = _attributes(source, database, table, _columns_of(database, table))
+    columns = attributes if ids is None else {"id": ids, **attributes}
+    rows = len(next(iter(columns.values()), []))
+    return Features(source.name, np.full(rows, None, dtype=object), columns, has_none=fault)
+
+
+def _attributes(
+    source: Source,
+    database: sqlite3.Connection,
+    table: str,
+    columns: Sequence[_Column],
+    geometry: Sequence[_Column] = (),
+) -> tuple[list[Any] | None, dict[str, list[Any]], list[list[Any]]]:
+    """Read the ids of rows, None where these are their numbers; their attributes; and the columns of geometry."""
+    key = next((each for each in columns if each.is_key), None)
+    key = key or next((each for each in columns if each.name.lower() in _FEATURE_IDS), None)
+    kept = [each for each in columns if each not in (*geometry, key) and not _is_binary(each.kind)]
+    keys = [key] if key else []
+    read = _rows(source, database, table, [*geometry, *keys, *kept])
+    ids = read[len(geometry)] if key else []
+    named = zip(kept, read[len(geometry) + len(keys) :], strict=True)
+    attributes = {column.name: [_converted(column.kind, value) for value in each] for column, each in named}
+    return None if ids == list(range(1, len(ids) + 1)) else ids, attributes, read[: len(geometry)]
 
 
 def _rows(source: Source, database: sqlite3.Connection, table: str, columns: Sequence[_Column]) -> list[list[Any]]:

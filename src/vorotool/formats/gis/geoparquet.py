@@ -29,7 +29,7 @@ def features_of(source: Source) -> Features:
         columns, document = _columns(source)
         if document is None:
             no_geometry = np.full(len(next(iter(columns.values()), [])), None, dtype=object)
-            return Features(source.name, no_geometry, columns, is_table=True)
+            return Features(source.name, no_geometry, columns, has_none=f"{source.name} has no geometry")
         name = document["primary_column"]
         described = document["columns"][name]
         if described.get("encoding") != "WKB":

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.formats.text.rings import report_emptied, written_rings
 from vorotool.formats.text.row_writer import Column
-from vorotool.numeric.coordinate_grid import current_decimals, on_grid
+from vorotool.numeric.coordinate_grid import current_decimals, on_grid, record_places
 from vorotool.numeric.ragged import Nesting
 from vorotool.types.features import Areas, Corners, Lines, Rows
 from vorotool.types.table import Computed, Lookup
@@ -111,5 +111,6 @@ def geometry_text(rows: Rows, style: str) -> GeometryText:
 
 def with_shapes(rows: Rows) -> Rows:
     """Add a column with the geometry as well-known text."""
+    record_places()
     (shapes,) = geometry_text(rows, "wkt").columns
     return rows.with_columns(wkt=shapes.values)

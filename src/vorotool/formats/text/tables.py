@@ -22,7 +22,7 @@ from vorotool.formats.text.row_writer import (
     write_list_rows,
     write_rows,
 )
-from vorotool.numeric.coordinate_grid import on_grid
+from vorotool.numeric.coordinate_grid import on_grid, record_places
 from vorotool.numeric.length_units import ascii_unit, is_known
 from vorotool.numeric.numbers import NumberText
 from vorotool.numeric.parallel import in_order
@@ -58,6 +58,7 @@ def placed_column(column: Column) -> Column:
     values = column.values
     if column.name.removeprefix("voro_") not in _PLACES:
         return column
+    record_places()
     if isinstance(values, Lookup) and isinstance(values.values, np.ndarray) and values.values.dtype.kind == "f":
         return replace(column, values=Lookup(on_grid(values.values), values.index), is_place=True)
     if isinstance(values, np.ndarray) and values.dtype.kind == "f":
