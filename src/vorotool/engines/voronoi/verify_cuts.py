@@ -2,52 +2,68 @@
 
 from __future__ import annotations
 
-from collections import Counter
+import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.arrays import Floats
-from vorotool.types.box import corners_of
+from vorotool.types.box import bounds, corners_of
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.used_shapes import used_shapes
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
+_BITS = 30
+"""Steps of the lattice in half the extent, as bits."""
 
-def shared_out(cells: VoronoiMap) -> Any:
-    """Give the area within the frame and the clip of a map, as geometry of shapely."""
+
+def shared_out(cells: VoronoiMap, step: float = 0, grid: float | None = None) -> Any:
+    """Give the area within the frame and the clip of a map, as geometry of shapely; with a step, rounded to that."""
     import shapely
 
     x, y, w, h = cells.frame
-    box = shapely.box(x, y, x + w, y + h)
+    box = _rounded(shapely.box(x, y, x + w, y + h), step)
     if cells.clip is None:
         return box
-    clip = used_shapes(cells.clip)
-    both = shapely.get_parts(shapely.intersection(shapely.union_all(clip[shapely.area(clip) > 0]), box))
+    clip = shapely.get_parts(shapely.make_valid(_rounded(used_shapes(cells.clip), step)))
+    clip = shapely.union_all(clip[shapely.area(clip) > 0], grid_size=grid)
+    both = shapely.get_parts(shapely.intersection(clip, box, grid_size=grid))
     return shapely.multipolygons(both[shapely.area(both) > 0])  # where both only touch there are lines and points
 
 
+def _rounded(geometry: Any, step: float) -> Any:
+    """Round coordinates to multiples of a power of two, exactly; by none, leave them."""
+    import shapely
+
+    return shapely.transform(geometry, lambda xy: np.rint(xy / step) * step) if step else geometry
+
+
+def _steps(cells: VoronoiMap) -> list[float]:
+    """Give the steps that the lattice may have: a frame that cuts a clip may reach farther than the map tells."""
+    import shapely
+
+    assert cells.enclosures is not None
+    corners = corners_of(cells.frame)
+    placed, margin = np.concatenate([cells.polygons.xy, cells.enclosures.xy, corners]), 0.0
+    if cells.clip is not None:
+        clip = shapely.total_bounds(to_shapely(cells.clip)[~cells.clip.is_line]).reshape(2, 2)
+        placed = np.concatenate([placed, clip])
+        if (clip[0] < corners[0]).any() or (clip[1] > corners[2]).any():
+            margin = float((clip[1] - clip[0]).max())
+    low, high = bounds(placed)
+    half = float((high / 2 - low / 2).max())
+    least, most = np.frexp([half, half + margin])[1].tolist()
+    return [math.ldexp(1.0, exponent - _BITS) for exponent in range(least, most + 1)]
+
+
 class EnclosedFaces:
-    """Faces between the enclosures of a map; where these only touch, as far as doubles tell, they may meet or not."""
+    """Faces between the enclosures of a map on its lattice; crossings there are rounded or not."""
 
     def __init__(self, cells: VoronoiMap, geometry: NDArray[Any], near: float) -> None:
         import shapely
 
-        assert cells.enclosures is not None
-        given = to_shapely(cells.enclosures)
-        lines = np.where(cells.enclosures.is_line, given, shapely.boundary(given))
-        shared = shared_out(cells)
-        border = shapely.boundary(shared)
-        corners = shapely.multipoints(shapely.get_coordinates([border, *lines]))
-        met, inner = (shapely.snap(each, corners, near) for each in (lines, border))
-        self.readings = [
-            _Faces(shared, lines, border, geometry, near),
-            _Faces(shared, met, inner, geometry, near),
-        ]
-        apart = _apart(cells, lines, border, 2 * near)
-        if (apart != lines).any():
-            self.readings.append(_Faces(shared, apart, border, geometry, near))
+        self.readings = [_Faces(cells, geometry, near, step, grid) for step in _steps(cells) for grid in (None, step)]
         self.boundaries = shapely.boundary(np.concatenate([each.shapes for each in self.readings]))
 
     def least(self, places: Floats) -> Floats:
@@ -61,33 +77,20 @@ class EnclosedFaces:
         return fits
 
 
-def _apart(cells: VoronoiMap, lines: NDArray[Any], border: Any, near: float) -> NDArray[Any]:
-    """Take from lines their ends that are on others, or on a border, as far as doubles tell and at no vertex of it."""
-    import shapely
-
-    cuts = [each.xy for each in (cells.enclosures, cells.clip) if each is not None]
-    passes = Counter(map(tuple, np.concatenate([*cuts, corners_of(cells.frame)]).tolist()))
-    ends, line = shapely.get_coordinates(shapely.boundary(lines), return_index=True)
-    is_lone = np.array([passes[x, y] == 1 for x, y in ends.tolist()], dtype=bool)
-    ends, line = shapely.points(ends[is_lone]), line[is_lone]
-    end, other = shapely.STRtree([*lines, border]).query(ends, predicate="dwithin", distance=near)
-    end = np.unique(end[other != line[end]])
-    made = lines.copy()
-    for k in np.unique(line[end]).tolist():
-        made[k] = shapely.difference(made[k], shapely.union_all(shapely.buffer(ends[end[line[end] == k]], near)))
-    return made
-
-
 class _Faces:
     """Faces between lines, and the sites that meet the inside of each."""
 
-    def __init__(self, shared: Any, lines: NDArray[Any], border: Any, geometry: NDArray[Any], near: float) -> None:
+    def __init__(self, cells: VoronoiMap, geometry: NDArray[Any], near: float, step: float, grid: float | None) -> None:
         import shapely
 
-        noded = shapely.union_all([*lines, border])
+        assert cells.enclosures is not None
+        given = to_shapely(cells.enclosures)
+        lines = _rounded(np.where(cells.enclosures.is_line, given, shapely.boundary(given)), step)
+        shared = shared_out(cells, step, grid)
+        noded = shapely.union_all([*lines, shapely.boundary(shared)], grid_size=grid)
         faces = np.asarray(shapely.get_parts(shapely.polygonize(shapely.get_parts(noded))))
         self.shapes = faces[shapely.covers(shared, shapely.point_on_surface(faces))]
-        cuts = shapely.union_all(lines)
+        cuts = shapely.union_all(lines, grid_size=grid)
         around = self._closed(cuts, shared, geometry)
         self.geometry, self.near = geometry, near
         self.sure, self.possible = (
