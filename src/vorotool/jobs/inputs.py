@@ -61,6 +61,7 @@ def read_opened(
     columns: str | None = None,
     properties: bool = True,
     wants_unit: bool = False,
+    curves_advice: str = "",
 ) -> tuple[Options, Any]:
     """Read what is open, whole, as the options say: points, polygons or sites, as it was opened, or an image.
 
@@ -91,7 +92,7 @@ def read_opened(
     tolerances: dict[str, Any] = {}
     if o.is_of_shapes:
         source, tolerances = _tolerances(o, source, read)
-    value = read(source, run.note, to_crs=o.crs, y_up=o.y_up, **tolerances)
+    value = read(source, run.note, to_crs=o.crs, y_up=o.y_up, curves_advice=curves_advice, **tolerances)
     if not is_of(value, "PointSet", "PolygonSet", "Sites", "Raster"):  # which is read where no geometry is asked for
         raise InputError(
             f"{given.name} is a {type(value).__name__}, a result of vorotool, but points or polygons are expected"

@@ -18,6 +18,11 @@ if TYPE_CHECKING:
     from vorotool.types.points.raster import Raster
     from vorotool.types.polygons.polygon_set import PolygonSet
 
+UNPRUNED = {"diagram", "discs", "elements", "necks", "offset", "parts", "shape", "thickness"}
+"""Results that pruning does not change."""
+
+PRUNE_CURVES = ", whose corners each have a branch: --prune angle=20 removes these branches"
+
 
 class ReadPolygons(NamedTuple):
     """What skeletons are made of."""
@@ -34,8 +39,9 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons:
     from vorotool.types.points.raster import Raster
     from vorotool.types.polygons.polygon_set import PolygonSet
 
+    advice = "" if o.prune is not None or set(o.what) <= UNPRUNED else PRUNE_CURVES
     with opened_input(o, given, "polygons") as source:
-        o, value = read_opened(run, o, given, source)
+        o, value = read_opened(run, o, given, source, curves_advice=advice)
     if isinstance(value, Raster):
         return outlined(run, o, given, value)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image

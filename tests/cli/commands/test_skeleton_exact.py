@@ -76,3 +76,22 @@ def test_a_ring_in_the_first_one_of_a_list_is_noted(run, folder):
     done = run("skeleton-exact", "rings.json", "--what", "table")
     assert "ring 2" in done.err
     assert '"holes"' in done.err
+
+
+CURVES = {
+    "a.svg": '<svg xmlns="http://www.w3.org/2000/svg"><path d="M1 1H6A2 2 0 0 1 6 5H1Z"/></svg>',
+    "a.wkt": "CURVEPOLYGON (COMPOUNDCURVE ((1 1, 6 1), CIRCULARSTRING (6 1, 8 3, 6 5), (6 5, 1 5, 1 1)))",
+}
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_pruning_is_named_where_curves_are_flattened(run, folder, name):
+    (folder / name).write_text(CURVES[name])
+    done = run("skeleton-exact", name, "--what", "branches")
+    assert f"{name}: 1 curve" in done.err
+    advice = "--prune angle=20"
+    assert advice in done.err
+    pruned = run("skeleton-exact", name, "--what", "branches", *advice.split())
+    assert len(pruned.rows) < 10 < len(done.rows)
+    for more in (advice.split(), ("--what", "discs"), ("--prune", "none")):
+        assert advice not in run("skeleton-exact", name, *more).err

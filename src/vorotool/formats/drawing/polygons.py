@@ -72,6 +72,8 @@ def shapes_to_polygons(
         page=page,
         is_drawing=True,
     )
+    if options.curves_advice:
+        options.note_curves(name, collected.curves)
     if collected.outlines:
         options.note(f"{name}: {counted(collected.outlines, 'closed line')} without a fill read as polygons")
     if collected.without_area:
@@ -95,13 +97,14 @@ class _Rings:
         self.polygons: list[int] = []
         self.feature: list[int] = []  # of each polygon
         self.owner: list[int] = []  # its shape
-        self.outlines = self.without_area = self.vertices = self._next = 0
+        self.curves = self.outlines = self.without_area = self.vertices = self._next = 0
 
     def add(self, index: int, shape: Shape) -> None:
         """Flatten a shape."""
         flat = []
         for curve in shape.curves:
             flat.append(curve.flattened(self.options.flatten, self.most))
+            self.curves += sum(not isinstance(piece, Line) for piece in curve.pieces)
             self.vertices += len(flat[-1])
             self.options.check_vertices(self.name, self.vertices)
         self._begin()

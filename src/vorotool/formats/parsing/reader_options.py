@@ -43,6 +43,7 @@ class ReadOptions:
     join_tolerance: float | None = None  # how far ends of curves may be apart that are joined
     y_axis: YAxis | None = None  # which way y goes, where the caller says it
     wants_z: bool = False  # points are of space, and have a z
+    curves_advice: str = ""  # what the note about flattened curves adds; drawings have the note only with it
 
     @property
     def axes(self) -> int:
@@ -78,7 +79,7 @@ class ReadOptions:
         if curves:
             from vorotool.numeric.curves.well_known import flattened_note
 
-            self.note(f"{name}: {flattened_note(curves)}")
+            self.note(f"{name}: {flattened_note(curves)}{self.curves_advice}")
 
     def note_heights(self, name: str) -> None:
         """Say that coordinates beyond x and y are not used."""
