@@ -242,11 +242,11 @@ from vorotool.jobs.writing import (
 from vorotool.types.alpha.complex import (
     AlphaComplex as AlphaComplex,
 )
-from vorotool.types.alpha.hull import (
-    AlphaHull as AlphaHull,
-)
-from vorotool.types.alpha.persistence import (
+from vorotool.types.alpha.complex import (
     RegionPersistence as RegionPersistence,
+)
+from vorotool.types.alpha.shape import (
+    AlphaHull as AlphaHull,
 )
 from vorotool.types.alpha.shape import (
     AlphaShape as AlphaShape,
@@ -260,16 +260,16 @@ from vorotool.types.distances.distances import (
 from vorotool.types.distances.distances import (
     PlacePair as PlacePair,
 )
+from vorotool.types.images import (
+    LabelImage as LabelImage,
+)
+from vorotool.types.images import (
+    Raster as Raster,
+)
 from vorotool.types.mesh.cells import (
     CellSet as CellSet,
 )
-from vorotool.types.mesh.digital_triangulation import (
-    DigitalComparison as DigitalComparison,
-)
-from vorotool.types.mesh.digital_triangulation import (
-    DigitalTriangulation as DigitalTriangulation,
-)
-from vorotool.types.mesh.proximity import (
+from vorotool.types.mesh.cells import (
     ProximityGraph as ProximityGraph,
 )
 from vorotool.types.mesh.tables import (
@@ -285,22 +285,22 @@ from vorotool.types.mesh.tables import (
     triangle_table as triangle_table,
 )
 from vorotool.types.mesh.triangulation import (
+    DigitalComparison as DigitalComparison,
+)
+from vorotool.types.mesh.triangulation import (
+    DigitalTriangulation as DigitalTriangulation,
+)
+from vorotool.types.mesh.triangulation import (
     Triangulation as Triangulation,
 )
-from vorotool.types.pixel_frame import (
+from vorotool.types.pixels import (
     Frame as Frame,
 )
-from vorotool.types.pixel_grid import (
+from vorotool.types.pixels import (
     PixelGrid as PixelGrid,
-)
-from vorotool.types.points.label_image import (
-    LabelImage as LabelImage,
 )
 from vorotool.types.points.point_set import (
     PointSet as PointSet,
-)
-from vorotool.types.points.raster import (
-    Raster as Raster,
 )
 from vorotool.types.points.seed_set import (
     SeedSet as SeedSet,

@@ -21,10 +21,9 @@ from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
 from numpy.typing import ArrayLike
 
 from vorotool.types.box import Box
+from vorotool.types.images import LabelImage, Raster
 from vorotool.types.mesh.triangulation import Triangulation
-from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.point_set import PointSet
-from vorotool.types.points.raster import Raster
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import Skeleton

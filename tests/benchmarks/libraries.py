@@ -34,7 +34,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.points.delimited import read_text
 from vorotool.formats.results.graphml import write_graphml
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 RNG = np.random.default_rng(1)
 

@@ -24,7 +24,7 @@ import vorotool
 from benchmarks.timing import options, timed
 from vorotool import _core, _core_testing
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame
 
 PEERS: dict[str, Callable[[np.ndarray], object]] = {
     "scipy": lambda image: image[

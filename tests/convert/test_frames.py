@@ -9,7 +9,7 @@ from pandas.testing import assert_frame_equal, assert_index_equal
 
 import vorotool
 from support.families.values import empty_values, example_values, label_image
-from vorotool.types.pixel_grid import map_grid
+from vorotool.types.pixels import map_grid
 
 VALUES = example_values()
 WITH_GEOMETRY = [name for name, value in VALUES.items() if hasattr(value, "to_geopandas")]

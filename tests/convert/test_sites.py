@@ -10,9 +10,8 @@ from vorotool import LabelImage, PointSet, Raster
 from vorotool.convert.sites import as_sites
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.crs import crs_name, member_of_text
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.pixel_grid import map_grid
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.pixels import Frame, map_grid
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 MIXED = [
     shapely.Point(0, 0),

@@ -16,7 +16,7 @@ from vorotool.numeric.length_units import meters
 from vorotool.numeric.numbers import NumberText
 from vorotool.products.formats import FORMATS
 from vorotool.products.inputs import INPUTS, NAMES_WITH, VOLUME_NAMES
-from vorotool.types.pixel_grid import PixelGrid, map_grid
+from vorotool.types.pixels import PixelGrid, map_grid
 from vorotool.types.polygons.polygon_set import PolygonSet
 
 ROOT = Path(__file__).parents[2]

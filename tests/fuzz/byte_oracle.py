@@ -19,7 +19,7 @@ import vorotool
 from fuzz.byte_seeds import Bundle
 from support.readers.sources import bands_of
 from vorotool.cli.main import main
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import Raster
 
 LIMITS = {"max_pixels": 2**16, "max_sites": 2**14, "threads": 1}
 LONGEST = 2**22

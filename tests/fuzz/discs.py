@@ -13,7 +13,7 @@ from fuzz.runner import run_families
 from support.families.skeleton_shapes import FAMILIES, TOUCHING
 from vorotool import Skeleton, VorotoolError, largest_empty_discs, points_along, skeleton_exact, verify_discs
 from vorotool.engines.from_skeleton.largest_discs import discs_of_skeleton
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 SHAPES = (*FAMILIES, *TOUCHING)
 COUNT = 6

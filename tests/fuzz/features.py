@@ -20,7 +20,7 @@ from vorotool import PolygonSet, VorotoolError, outlines, read, skeleton_exact
 from vorotool.engines.features import batches as feature_sheets
 from vorotool.engines.skeleton.exact import interior_skeleton, shape_diagram
 from vorotool.types.polygons.polygon_set import SHELL
-from vorotool.types.polygons.used_shapes import RingArrays
+from vorotool.types.polygons.shapely_geometry import RingArrays
 
 PLACES = ("vertices", "radius", "control", "length", "error_bound")
 SITES = ("kind", "ring", "index")

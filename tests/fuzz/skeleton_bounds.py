@@ -31,7 +31,7 @@ from vorotool.engines.sampled_skeleton.hausdorff import deviation, exact_skeleto
 from vorotool.engines.sampled_skeleton.per_feature import skeleton_within
 from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
 from vorotool.engines.skeleton.shortened_edges import corner_sectors
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 DATA = Path(__file__).parents[2] / "data"
 STEPS = (25, 50, 100, 200, 400)

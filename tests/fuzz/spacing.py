@@ -24,9 +24,8 @@ from support.families.families import random_case
 from vorotool import _core
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import PixelSides
 
 FARTHEST = 2**39
 """Steps from the middle of a frame to a seed; twice as many are refused."""

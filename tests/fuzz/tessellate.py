@@ -21,9 +21,8 @@ from vorotool import _core
 from vorotool.engines.tessellation.bands import SeedBands
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import SQUARE, Frame
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import SQUARE
 
 
 def check(rng: np.random.Generator, side: int) -> tuple[str, int, int]:

@@ -9,7 +9,7 @@ from numpy.random import default_rng
 
 import vorotool as v
 from vorotool.errors import InputError
-from vorotool.numeric.equality import index_of_rows, joined_index
+from vorotool.numeric.checks import index_of_rows, joined_index
 from vorotool.types.polygons.polygon_set import set_of_rings
 
 NAMES = pd.Index(["d", "a", "c", "b"], name="place")

@@ -19,7 +19,7 @@ import vorotool
 from support.families.values import empty_values, example_values, label_image
 from support.few import few
 from vorotool.numeric.crs import crs_member
-from vorotool.types.pixel_grid import map_grid
+from vorotool.types.pixels import map_grid
 
 VALUES = example_values()
 PICTURED = [name for name, value in VALUES.items() if hasattr(value, "plot")]

@@ -10,7 +10,7 @@ import shapely
 
 import vorotool
 from vorotool import InputError, UsageError
-from vorotool.numeric.equality import is_equal
+from vorotool.numeric.checks import is_equal
 from vorotool.types import fields as f
 from vorotool.types.fields import Meaning, Record, declared, record, with_y_axis
 from vorotool.types.scaling import scaled, scaled_table

@@ -20,7 +20,7 @@ from support.families.values import (
     volume_values,
 )
 from support.processes.ended import ended_python
-from vorotool.numeric.equality import is_equal
+from vorotool.numeric.checks import is_equal
 
 VALUES = {**example_values(), **volume_values()}
 TYPES = sorted(

@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from vorotool.convert.tables import index_of, listed
 from vorotool.errors import InputError, warn
-from vorotool.numeric.checks import LONGEST
+from vorotool.numeric.checks import LONGEST, index_of_rows
 from vorotool.numeric.crs import crs_member, member_of_text, without_number
-from vorotool.numeric.equality import index_of_rows
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
-from vorotool.types.axis import UP, YAxis, y_axis_member
+from vorotool.types.fields import UP, YAxis, y_axis_member
 
 _WELL_KNOWN = "numeric.curves.well_known"
 

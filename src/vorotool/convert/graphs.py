@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vorotool.convert.extras import needed
-from vorotool.convert.geometry import lines
+from vorotool.convert.frames import lines
 from vorotool.numeric.numbers import Flatten, checked_flatten
 from vorotool.products.formats import resolved
 from vorotool.types.features import Lines
-from vorotool.types.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
-from vorotool.types.mesh.proximity import ProximityGraph
-from vorotool.types.mesh.triangulation import Triangulation
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.mesh.cells import ProximityGraph
+from vorotool.types.mesh.triangulation import AnyTriangulation, DigitalTriangulation, Triangulation
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.graph import skeleton_graph
 from vorotool.types.skeleton.skeleton import Skeleton

@@ -21,9 +21,8 @@ from vorotool.numeric.checks import (
 )
 from vorotool.numeric.coordinates import MOST_AXES
 from vorotool.numeric.numbers import real_number
-from vorotool.types.pixel_frame import MAX_PIXELS
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import LabelImage, Raster
+from vorotool.types.pixels import MAX_PIXELS
 
 EXPECTED = "an image: a Raster, a LabelImage, or a 2-D array of truth values or integers"
 POINT_WIDTHS = (2, 3)

@@ -11,14 +11,21 @@ from numpy.typing import NDArray
 from vorotool.convert.features import HeldFeatures, held_features, is_shapely, joined_parts, report_missing
 from vorotool.convert.tables import is_table, points_of_table
 from vorotool.errors import InputError, warn
-from vorotool.numeric.checks import described, is_masked_array, items_of, naming, refuse_paths, unexpected
+from vorotool.numeric.checks import (
+    described,
+    index_of_rows,
+    is_masked_array,
+    items_of,
+    naming,
+    refuse_paths,
+    unexpected,
+)
 from vorotool.numeric.coordinates import MOST_AXES, number_array
 from vorotool.numeric.crs import note_degrees
-from vorotool.numeric.equality import index_of_rows
 from vorotool.numeric.numbers import pair_of_doubles
 from vorotool.products.registry import is_of
-from vorotool.types.points.conversion import part_numbers, single_points
 from vorotool.types.points.point_set import LABEL, PointSet, labels_of
+from vorotool.types.polygons.shapely_geometry import part_numbers, single_points
 
 EXPECTED = "an (n, 2) array of numbers, a data frame with columns x, y, or points of shapely, geopandas, GeoJSON or WKT"
 

@@ -21,10 +21,9 @@ from vorotool.numeric.checks import described, items_of, naming, refuse_paths, u
 from vorotool.numeric.coordinates import coordinate_rows, number_array
 from vorotool.numeric.crs import note_degrees
 from vorotool.products.formats import resolved
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.raster import Raster
-from vorotool.types.polygons.conversion import polygons_of_geometry, to_shapely
+from vorotool.types.images import LabelImage, Raster
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.types.polygons.shapely_geometry import polygons_of_geometry, to_shapely
 
 EXPECTED = (
     "polygons or lines of shapely, geopandas, GeoJSON or WKT, an (n, 2) array of the vertices of one shell, "

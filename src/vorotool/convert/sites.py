@@ -16,21 +16,20 @@ from vorotool.convert.points import as_points
 from vorotool.convert.polygons import as_polygons, is_ring
 from vorotool.convert.tables import MISSING_TYPES, is_table, listed
 from vorotool.errors import InputError, UsageError, option, warn
-from vorotool.numeric.checks import items_of, naming, unexpected
+from vorotool.numeric.checks import index_of_rows, items_of, naming, unexpected
 from vorotool.numeric.crs import note_degrees
-from vorotool.numeric.equality import index_of_rows
 from vorotool.numeric.numbers import shown_number
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
-from vorotool.types.axis import UP
 from vorotool.types.box import Box, bounds
-from vorotool.types.named_columns import check_plain, column_of
-from vorotool.types.pixel_grid import PixelGrid
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.fields import UP
+from vorotool.types.identity import check_plain, column_of
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import PixelGrid
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.polygons.conversion import polygons_of_geometry
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
+from vorotool.types.polygons.shapely_geometry import polygons_of_geometry
 from vorotool.types.values import counted
 
 _BY = option("--by", "by")

@@ -13,8 +13,7 @@ from vorotool.convert.tables import plain_name
 from vorotool.errors import InputError, UsageError, warn
 from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.length_units import ratio
-from vorotool.types.pixel_grid import ALIKE, PixelGrid, map_grid, rounded_side, sides_of_grid
-from vorotool.types.spacing import PixelSides, pixel_sides
+from vorotool.types.pixels import ALIKE, PixelGrid, PixelSides, map_grid, pixel_sides, rounded_side, sides_of_grid
 from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 AUTO = "auto"

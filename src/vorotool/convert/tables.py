@@ -13,7 +13,7 @@ from vorotool.numeric.checks import column_names, described, is_masked_array
 from vorotool.numeric.coordinates import INEXACT, first_inexact, number_array
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.numbers import shown_number
-from vorotool.types.axis import UNSTATED, UP
+from vorotool.types.fields import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet, labels_of
 from vorotool.types.volumes.volume_points import VolumePoints
 

@@ -13,9 +13,8 @@ from vorotool.errors import InputError, LimitError
 from vorotool.numeric.checks import column_names, described, is_masked_array, items_of, naming, refuse_paths, unexpected
 from vorotool.numeric.coordinates import number_array
 from vorotool.numeric.numbers import real_number
-from vorotool.types.pixel_frame import MAX_PIXELS
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import LabelImage, Raster
+from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
 from vorotool.types.volumes.volume_points import VolumePoints

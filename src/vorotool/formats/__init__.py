@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal, cast, overload
 
-from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.pixels import MAX_PIXELS
 
 if TYPE_CHECKING:
     from vorotool.numeric.numbers import Flatten
+    from vorotool.types.images import Raster
     from vorotool.types.points.point_set import PointSet
-    from vorotool.types.points.raster import Raster
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.offsets import Offsets
     from vorotool.types.skeleton.skeleton import Skeleton

@@ -20,13 +20,13 @@ from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.numbers import Flatten, checked_flatten, checked_tolerance
 from vorotool.plain import plain
 from vorotool.products.inputs import NAMES_WITH, known_input_format
-from vorotool.types.axis import y_axis_of
+from vorotool.types.fields import y_axis_of
 
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
     from vorotool.formats.images.band_reader import TiffRows, ZarrRows
+    from vorotool.types.images import Raster
     from vorotool.types.points.point_set import PointSet
-    from vorotool.types.points.raster import Raster
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.offsets import Offsets
     from vorotool.types.skeleton.skeleton import Skeleton

@@ -33,8 +33,7 @@ from vorotool.numeric.numbers import nearest_double
 from vorotool.numeric.parallel import Progress
 from vorotool.products.registry import OF_ONE_SHAPE, PLOTS
 from vorotool.render.drawing import Drawing, Plot, drawing_of
-from vorotool.types.alpha.complex import Radius
-from vorotool.types.alpha.persistence import RegionPersistence
+from vorotool.types.alpha.complex import Radius, RegionPersistence
 from vorotool.types.alpha.shape import AlphaShape
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
@@ -45,8 +44,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vorotool.types.alpha.hull import AlphaHull
-    from vorotool.types.mesh.digital_triangulation import AnyTriangulation
+    from vorotool.types.alpha.shape import AlphaHull
+    from vorotool.types.mesh.triangulation import AnyTriangulation
 
 
 def products(run: Run, o: Options, given: JobInput) -> ShapeProducts:

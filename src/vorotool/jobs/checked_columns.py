@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import Kind, Message
 from vorotool.jobs.options import Options
-from vorotool.types.named_columns import check_plain, chosen_column
+from vorotool.types.identity import check_plain, chosen_column
 
 if TYPE_CHECKING:
     import numpy as np

@@ -30,11 +30,11 @@ from vorotool.jobs.terminal import escaped, tell
 from vorotool.numeric.crs import crs_name
 from vorotool.numeric.length_units import unit_of
 from vorotool.products.inputs import NAMES_WITH, TAKEN_BY, VOLUME_NAMES, VOLUMES_TAKEN_BY
-from vorotool.types.axis import UNSTATED
 from vorotool.types.box import bounds
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.fields import UNSTATED
+from vorotool.types.images import Raster
+from vorotool.types.pixels import PixelGrid
 from vorotool.types.points.point_set import PointSet
-from vorotool.types.points.raster import Raster
 from vorotool.types.polygons.polygon_set import HOLE, PolygonSet
 from vorotool.types.skeleton.offsets import Offsets
 from vorotool.types.skeleton.skeleton import Skeleton

@@ -17,7 +17,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.triangulation import MeshProducts, ReadPoints
 from vorotool.jobs.units import sides_of
 from vorotool.numeric.parallel import Progress
-from vorotool.types.mesh.digital_triangulation import AnyTriangulation, DigitalComparison
+from vorotool.types.mesh.triangulation import AnyTriangulation, DigitalComparison
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
 

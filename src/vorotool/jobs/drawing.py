@@ -32,9 +32,8 @@ from vorotool.numeric.length_units import unit_of
 from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
 from vorotool.products.registry import PRODUCTS, Product
 from vorotool.render.canvas.layers import Backdrop
-from vorotool.types.axis import y_axis_of
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.raster import Raster
+from vorotool.types.fields import y_axis_of
+from vorotool.types.images import LabelImage, Raster
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.offsets import Offsets
 from vorotool.types.skeleton.skeleton import Skeleton

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from vorotool.engines.tessellation.seeding import SeedMode
     from vorotool.formats.opening import Opened
     from vorotool.render.canvas.layers import Backdrop
+    from vorotool.types.images import Raster
     from vorotool.types.mesh.triangulation import Triangulation
     from vorotool.types.points.point_set import PointSet
-    from vorotool.types.points.raster import Raster
     from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
@@ -122,7 +122,7 @@ def _tolerances(o: Options, source: Opened, read: Callable[..., Any]) -> tuple[O
     names = ("flatten", "join_tolerance")
     if any(isinstance(getattr(o, name), Measured) for name in names):
         from vorotool.jobs.pixel_sizes import lengths_of_vectors
-        from vorotool.types.points.raster import Raster
+        from vorotool.types.images import Raster
 
         source = source.fetched()
         first = read(source)
@@ -229,7 +229,7 @@ def frame_of(o: Options, seeds: SeedSet | VolumeSeeds) -> Any:
 
 def asked_frame(o: Options) -> Any:
     """Give the frame of --window or --size, if there is one: of pixels, or of voxels."""
-    from vorotool.types.pixel_frame import Frame
+    from vorotool.types.pixels import Frame
     from vorotool.types.volumes.voxel_frame import VoxelFrame
 
     numbers = o.window if o.size is None else (*(0 for _ in o.size), *o.size)

@@ -81,7 +81,7 @@ def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets
     from vorotool.formats.io.commit import committed_together
     from vorotool.formats.text.tables import safe_texts, unit_column, unit_member
     from vorotool.jobs.refusals import check_system
-    from vorotool.numeric.coordinate_grid import coordinates_written
+    from vorotool.numeric.coordinates import coordinates_written
     from vorotool.types.identity import columns_wanted
 
     check_targets(options, targets, path)

@@ -11,12 +11,11 @@ from vorotool.jobs.inputs import JobInput, no_seeds
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, unit_stats
-from vorotool.types.axis import DOWN, UNSTATED
+from vorotool.types.fields import DOWN, UNSTATED
 
 if TYPE_CHECKING:
     from vorotool.numeric.length_units import InputUnit
-    from vorotool.types.pixel_frame import Frame
-    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.pixels import Frame, PixelGrid
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.polygons.polygon_set import PolygonSet
@@ -78,7 +77,7 @@ def _cells_of_raster(
     from vorotool.formats.images.image_header import image_header
     from vorotool.formats.io.sources import reading
     from vorotool.jobs.second_files import in_one_crs
-    from vorotool.types.pixel_frame import Frame
+    from vorotool.types.pixels import Frame
     from vorotool.types.points.point_set import PointSet
 
     with reading(path):
@@ -131,7 +130,7 @@ def _check_upright(path: str, given: JobInput, value: PointSet | PolygonSet, gri
 
 def _size_of_cells(o: Options, side: Fraction, grid: PixelGrid) -> PixelSize:
     """Return the size by which results are in the unit of the map, times ``--pixel-size``."""
-    from vorotool.types.spacing import PixelSides
+    from vorotool.types.pixels import PixelSides
 
     asked = PixelSize(Fraction(1), None) if o.pixel_size is None else o.pixel_size
     x, y = grid.center
@@ -149,7 +148,7 @@ def _seeds_of_features(o: Options, polygons: PolygonSet, frame: Frame) -> SeedSe
     from vorotool.engines.tessellation.frames import require_memory
     from vorotool.engines.tessellation.rasterized import rasterized
     from vorotool.engines.tessellation.seeding import seeds_from_raster
-    from vorotool.types.points.raster import Raster
+    from vorotool.types.images import Raster
 
     require_memory(frame, o.max_pixels)
     labels = rasterized(polygons, frame)

@@ -11,7 +11,7 @@ from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.cleaned_masks import Cleaning
-    from vorotool.types.points.raster import Raster
+    from vorotool.types.images import Raster
 
 
 class Foreground(NamedTuple):

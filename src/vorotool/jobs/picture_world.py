@@ -24,10 +24,9 @@ if TYPE_CHECKING:
     from vorotool.render.canvas.layers import Page
     from vorotool.render.canvas.styles import ScaleBar
     from vorotool.types.box import Box, Sides
-    from vorotool.types.mesh.digital_triangulation import AnyTriangulation
-    from vorotool.types.pixel_frame import Frame
-    from vorotool.types.pixel_grid import PixelGrid, Transform
-    from vorotool.types.points.label_image import LabelImage
+    from vorotool.types.images import LabelImage
+    from vorotool.types.mesh.triangulation import AnyTriangulation
+    from vorotool.types.pixels import Frame, PixelGrid, Transform
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.polygons.polygon_set import PolygonSet
@@ -126,7 +125,7 @@ def world_of_value(run: Run, o: Options, value: Any) -> World:
 def _size_of(image: LabelImage) -> PixelSize | None:
     """Return the width of a pixel, if the image says it of one that is a square, or of its distances."""
     from vorotool.jobs.units import PixelSize
-    from vorotool.types.spacing import SQUARE
+    from vorotool.types.pixels import SQUARE
 
     grid = image.grid
     if image.sides != SQUARE:

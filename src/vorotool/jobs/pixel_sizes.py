@@ -20,14 +20,14 @@ from vorotool.jobs.units import (
     unit_stats,
 )
 from vorotool.products.options import flag, options_of
-from vorotool.types.axis import UP
+from vorotool.types.fields import UP
 
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
     from vorotool.jobs.inputs import JobInput
     from vorotool.numeric.length_units import InputUnit
     from vorotool.render.canvas.layers import Backdrop
-    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.pixels import PixelGrid
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.polygons.polygon_set import PolygonSet
@@ -73,7 +73,7 @@ def size_of_file(grid: PixelGrid | None, o: Options) -> PixelSize:
 
 def _spacing_of(grid: PixelGrid) -> PixelSize:
     """Both sides as distances take them."""
-    from vorotool.types.pixel_grid import sides_of_grid
+    from vorotool.types.pixels import sides_of_grid
 
     sides = sides_of_grid(grid)
     if sides is None:
@@ -178,7 +178,7 @@ def written_grid(size: PixelSize | None, grid: PixelGrid | None) -> PixelGrid | 
     """Give what images that are written say of their pixels: the sides of ``--spacing``, else what the input says."""
     if size is None or size.sides is None or size.unit is None or (grid is not None and grid.transform is not None):
         return grid
-    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.pixels import PixelGrid
 
     height, width = size.sides.lengths
     return PixelGrid(width, height, size.unit, "imagej" if grid is None else grid.form)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.run_log import Run
     from vorotool.jobs.units import PixelSize
     from vorotool.numeric.length_units import InputUnit
-    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.pixels import PixelGrid
     from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 Products = Mapping[str, Product]

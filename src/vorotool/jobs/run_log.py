@@ -18,7 +18,7 @@ from vorotool.signals import end_by_exceptions
 
 if TYPE_CHECKING:
     from vorotool.numeric.length_units import InputUnit
-    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.pixels import PixelGrid
 
 PROGRESS_AFTER = 1.0
 """Seconds before a progress bar appears on a terminal."""

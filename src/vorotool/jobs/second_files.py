@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.options import Options
     from vorotool.jobs.run_log import Run
     from vorotool.numeric.length_units import InputUnit
-    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.pixels import PixelGrid
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.polygons.polygon_set import PolygonSet
 
@@ -125,7 +125,7 @@ def read_cut(run: Run, o: Options, option: str, path: str, first: First) -> tupl
 
     Lines are left out of ``--clip``, with a note.
     """
-    from vorotool.types.polygons.used_shapes import RingArrays
+    from vorotool.types.polygons.shapely_geometry import RingArrays
 
     with reading(path):  # messages name the file
         value, size, data = _read(run, o, option, path), o.pixel_size, first.data

@@ -13,9 +13,8 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import lengths_in_steps, sides_of
 
 if TYPE_CHECKING:
-    from vorotool.types.pixel_frame import Frame
-    from vorotool.types.pixel_grid import PixelGrid
-    from vorotool.types.points.raster import Raster
+    from vorotool.types.images import Raster
+    from vorotool.types.pixels import Frame, PixelGrid
     from vorotool.types.polygons.polygon_set import PolygonSet
 
 UNPRUNED = {"diagram", "discs", "elements", "necks", "offset", "parts", "shape", "thickness"}
@@ -36,7 +35,7 @@ class ReadPolygons(NamedTuple):
 
 def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons:
     """Read polygons, or the outlines of an image."""
-    from vorotool.types.points.raster import Raster
+    from vorotool.types.images import Raster
     from vorotool.types.polygons.polygon_set import PolygonSet
 
     advice = "" if o.prune is not None or set(o.what) <= UNPRUNED else PRUNE_CURVES
@@ -55,7 +54,7 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons:
 
 def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygons:
     """Give the outlines of an image."""
-    from vorotool.types.pixel_frame import Frame
+    from vorotool.types.pixels import Frame
 
     o = with_pixel_size(run, o, given, image.grid)
     sides_of(o)

@@ -27,9 +27,8 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, table_in_units
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.table import Table
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.voxel_frame import VoxelFrame

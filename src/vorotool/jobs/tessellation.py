@@ -32,13 +32,12 @@ from vorotool.jobs.streams import Tessellated, check_chunks, scale_of_squares, t
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import known_length, sides_of, unit_columns, unit_text
 from vorotool.products.formats import ANIMATIONS
-from vorotool.types.axis import is_up
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.fields import is_up
+from vorotool.types.images import Raster
+from vorotool.types.pixels import SQUARE, PixelGrid
 from vorotool.types.points.point_set import PointSet
-from vorotool.types.points.raster import Raster
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.spacing import SQUARE
 
 if TYPE_CHECKING:
     from vorotool.formats.images.band_reader import TiffRows, ZarrRows

@@ -18,7 +18,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, table_in_units, unit_columns
 from vorotool.numeric.parallel import Progress
-from vorotool.types.mesh.digital_triangulation import AnyTriangulation
+from vorotool.types.mesh.triangulation import AnyTriangulation
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
 
@@ -56,7 +56,7 @@ def _clipped(run: Run, o: Options, given: JobInput, points: PointSet | SeedSet) 
     """Read the polygons of ``--clip``."""
     from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
     from vorotool.types.points.seed_set import SeedSet
-    from vorotool.types.polygons.conversion import to_shapely
+    from vorotool.types.polygons.shapely_geometry import to_shapely
 
     if isinstance(points, SeedSet):
         grid = points.grid

@@ -22,7 +22,7 @@ from vorotool.products.registry import PLOTS
 if TYPE_CHECKING:
     from vorotool.jobs.options import Options
     from vorotool.jobs.targets import Target
-    from vorotool.types.spacing import PixelSides
+    from vorotool.types.pixels import PixelSides
     from vorotool.types.table import Table
 
 Value = TypeVar("Value")
@@ -76,7 +76,7 @@ def with_spacing(o: Options) -> Options:
 
 def sides_of(o: Options, axes: int = 2) -> PixelSides:
     """Give the sides of a pixel, or of a voxel, in whose unit distances are: 1 without ``--spacing``."""
-    from vorotool.types.spacing import pixel_sides
+    from vorotool.types.pixels import pixel_sides
 
     sides = None if o.pixel_size is None else o.pixel_size.sides
     if sides is None:
@@ -103,7 +103,7 @@ def lengths_in_steps(o: Options) -> Options:
 
 def _in_steps(value: Any, step: Fraction) -> Any:
     """A number, or several, in steps: as the decimal number that it is written as."""
-    from vorotool.types.spacing import as_decimal
+    from vorotool.types.pixels import as_decimal
 
     if value is None:
         return None

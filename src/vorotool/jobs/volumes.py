@@ -40,8 +40,7 @@ from vorotool.numeric.length_units import unit_name
 from vorotool.products.inputs import VOLUME_NAMES
 from vorotool.products.registry import VOLUME_PRODUCTS, Product
 from vorotool.render.label_images.slices import SlicePicture
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.spacing import PixelSides
+from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelGrid
 

@@ -29,7 +29,7 @@ from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
-    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.pixels import PixelGrid
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.discs import Discs
 
@@ -46,7 +46,7 @@ class ReadSites(NamedTuple):
 def _read_sites(run: Run, o: Options, given: JobInput) -> ReadSites:
     """Read points, lines and polygons, each feature a site, or the objects of an image."""
     from vorotool.convert.sites import as_sites
-    from vorotool.types.points.raster import Raster
+    from vorotool.types.images import Raster
 
     with opened_input(o, given, "sites") as source:
         o, value = read_opened(run, o, given, source, columns=o.columns)

@@ -16,17 +16,16 @@ from vorotool.jobs.picture_world import world_of_value
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.numeric.coordinate_grid import coordinates_written
+from vorotool.numeric.coordinates import coordinates_written
 from vorotool.numeric.numbers import Flatten, checked_flatten, shown_number, whole_number
 from vorotool.products.formats import PICTURES, format_named
 from vorotool.products.registry import VOLUME_PRODUCTS, Product, is_of, parts_of
 from vorotool.products.writing import chosen_part, write_product
 from vorotool.render.drawing import Picture, Plot, drawn_part
 from vorotool.render.looks import World, check_layers, looks_of
-from vorotool.types.axis import is_up, y_axis_of
-from vorotool.types.fields import Record, with_y_axis
+from vorotool.types.fields import Record, is_up, with_y_axis, y_axis_of
 from vorotool.types.identity import columns_wanted
-from vorotool.types.pixel_frame import MAX_PIXELS, MAX_SIDE
+from vorotool.types.pixels import MAX_PIXELS, MAX_SIDE
 
 
 def write(
@@ -230,7 +229,7 @@ def _features(value: Any) -> dict[str, Any]:
     import orjson
     import shapely
 
-    from vorotool.convert.geometry import geometry_of_rows
+    from vorotool.convert.frames import geometry_of_rows
     from vorotool.numeric.crs import crs_text, member_of_text
     from vorotool.types.features import Rows, features_of
 

@@ -1,11 +1,75 @@
-"""The types of arrays, for annotations."""
+"""Arrays: their types, and ragged ones, by the lengths of their rows or where these start."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Numbers = NDArray[np.intp]
 Booleans = NDArray[np.bool_]
+
+
+Lengths = NDArray[Any] | Sequence[int]
+
+
+class Nesting(NamedTuple):
+    """Where the vertices of each ring begin, the rings of each polygon, the polygons of each cell; and the ends."""
+
+    rings: NDArray[np.int64]
+    polygons: NDArray[np.int64]
+    cells: NDArray[np.int64]
+
+
+def starts_of(lengths: Lengths) -> Indices:
+    """Where each row begins, and the end of the last."""
+    starts = np.zeros(np.size(lengths) + 1, dtype=np.int64)
+    np.cumsum(lengths, dtype=np.int64, out=starts[1:])
+    return starts
+
+
+def divides(starts: NDArray[Any], count: int, least: int = 0) -> bool:
+    """Whether these are the starts of rows of so many items in all, of at least some each."""
+    return bool(len(starts) and starts[0] == 0 and starts[-1] == count and (np.diff(starts) >= least).all())
+
+
+def owners(lengths: Lengths, dtype: DTypeLike = np.int64) -> NDArray[Any]:
+    """The row of each item."""
+    return np.repeat(np.arange(np.size(lengths), dtype=dtype), lengths)
+
+
+def within(lengths: Lengths) -> Indices:
+    """The place of each item in its row."""
+    return ranges(np.zeros(np.size(lengths), dtype=np.int64), lengths)
+
+
+def ranges(first: NDArray[Any], lengths: Lengths) -> Indices:
+    """Indices of the items of chosen rows, row after row: first, first + 1, … of each."""
+    starts = starts_of(lengths)
+    made: Indices = np.arange(starts[-1]) + np.repeat(first - starts[:-1], lengths)
+    return made
+
+
+def following(starts: NDArray[Any]) -> Indices:
+    """The item after each one in its row, which is a ring: after the last comes the first. Rows have items."""
+    after = np.arange(1, starts[-1] + 1, dtype=np.int64)
+    after[starts[1:] - 1] = starts[:-1]
+    return after
+
+
+def with_length(
+    points: NDArray[np.float64], start: NDArray[Any]
+) -> tuple[NDArray[np.float64], Indices, NDArray[np.bool_]]:
+    """Leave out polylines whose points all are one place: the other points, their starts, and which lines are left."""
+    moves = np.zeros(len(points), dtype=bool)
+    moves[1:] = (points[1:] != points[:-1]).any(axis=1)
+    moves[start[:-1]] = False
+    sizes = np.diff(start)
+    has_length = np.add.reduceat(moves, start[:-1], dtype=np.int64) > 0 if len(sizes) else np.zeros(0, dtype=bool)
+    if has_length.all():
+        return points, start.astype(np.int64), has_length
+    return points[np.repeat(has_length, sizes)], starts_of(sizes[has_length]), has_length

@@ -145,9 +145,9 @@ _POLYGON_FILES = dict.fromkeys(
 )
 """Of features that are polygons."""
 _SHAPE_LAYERS = _pictures(
-    "polygons delaunay interior boundary singular hull points labels", "render.layers.alpha:alpha"
+    "polygons delaunay interior boundary singular hull points labels", "render.layers.mesh:alpha"
 )
-_HULL_LAYERS = _SHAPE_LAYERS._replace(drawn_by="render.layers.alpha:hull")
+_HULL_LAYERS = _SHAPE_LAYERS._replace(drawn_by="render.layers.mesh:hull")
 _EDGES = ("AlphaShape", "csv tsv json geojson npz npy", _SHAPE_LAYERS)
 _POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE_LAYERS)
 _GENERAL = ("AlphaShape", "geojson wkt", _SHAPE_LAYERS)

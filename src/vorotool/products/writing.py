@@ -25,7 +25,7 @@ def write_product(
 ) -> None:
     """Write a result in one of its formats; pictures and pages are none of these."""
     chosen = FORMATS[fmt]
-    resolved("numeric.coordinate_grid:record_value")(value)
+    resolved("numeric.coordinates:record_value")(value)
     options: dict[str, Any] = {"flatten": flatten, "precision": precision, "threads": threads}
     writer = chosen.writers.get(product.what, chosen.writer)
     if writer is None and fmt not in product.data:

@@ -111,9 +111,8 @@ class Drawing:
 
     def _finished(self) -> tuple[Sequence[Layer], Sequence[Layer]]:
         """Give layers in the chosen looks, over an image with edges, and what lies over them: legend and scale bar."""
-        from vorotool.render.canvas.halos import with_halos
-        from vorotool.render.canvas.insets import insets
-        from vorotool.render.canvas.scaled_page import styled_layers
+        from vorotool.render.canvas.insets import insets, styled_layers
+        from vorotool.render.canvas.layers import with_halos
 
         styled = styled_layers(self.layers, self.page.style)
         return styled if self.page.backdrop is None else with_halos(styled), insets(styled, self.page)

@@ -163,7 +163,7 @@ def styled_page(page: Page, looks: Looks, world: World, fmt: str = "svg") -> Pag
 
 def _paper(y_up: bool, shown: tuple[Sides, float], looks: Looks, world: World, fmt: str) -> Page | None:
     """Return the page of a picture to scale: as the options say, else 1:1 of a drawing that fits a page."""
-    from vorotool.render.canvas.scaled_page import ScaledPage
+    from vorotool.render.canvas.insets import ScaledPage
 
     is_chosen = looks.scale is not None or looks.drawing_unit is not None
     if not is_chosen and not (world.is_paper and fmt == "svg"):

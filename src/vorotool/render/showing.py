@@ -17,10 +17,9 @@ from vorotool.numeric.crs import is_geographic
 from vorotool.products.registry import is_of
 from vorotool.render.drawing import Drawing, Wanted, drawing_of, drawn_part
 from vorotool.render.label_images.picture import LabelPicture
-from vorotool.types.axis import is_up
-from vorotool.types.pixel_grid import PixelGrid
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.raster import Raster
+from vorotool.types.fields import is_up
+from vorotool.types.images import LabelImage, Raster
+from vorotool.types.pixels import PixelGrid
 from vorotool.types.table import Table
 
 if TYPE_CHECKING:

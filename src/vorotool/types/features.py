@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, Nesting
 from vorotool.numeric.numbers import Flatten, checked_flatten
-from vorotool.numeric.ragged import Nesting
 from vorotool.plain import plain
 from vorotool.products.registry import is_of
 from vorotool.types.identity import names_of, with_columns_of

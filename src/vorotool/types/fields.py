@@ -6,16 +6,16 @@ that nobody changes, and what becomes of the field in another unit of length.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import MISSING, field, fields, replace
 from enum import Enum
-from typing import Any, TypeVar, dataclass_transform
+from typing import Any, Literal, TypeVar, dataclass_transform
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError
 from vorotool.plain import plain
-from vorotool.types.axis import YAxis, checked_y_axis
 
 _KEY = "declared"
 T = TypeVar("T")
@@ -200,3 +200,38 @@ class Record:
         sizes: dict[str, int] = {}
         for name, each in declared(self).items():
             object.__setattr__(self, name, each.settle(getattr(self, name), name, sizes))
+
+
+YAxis = Literal["up", "down", "none"]
+UP: YAxis = "up"
+"""Maps, drawings of CAD, well-known text: whatever has a coordinate reference system, and what is written as such."""
+DOWN: YAxis = "down"
+"""Images and SVG, and what is made of them."""
+UNSTATED: YAxis = "none"
+"""Bare numbers, which are drawn downwards, as in the paper."""
+
+AXES = (UP, DOWN, UNSTATED)
+MEMBER = "y_axis"
+"""The member of our JSON, GeoJSON and NPZ that says it."""
+
+
+def y_axis_of(y_up: bool | None, usual: YAxis = UNSTATED) -> YAxis:
+    """Return the axis that a caller states by a flag, or the usual one."""
+    return usual if y_up is None else UP if y_up else DOWN
+
+
+def checked_y_axis(given: Any, name: str = MEMBER) -> YAxis:
+    """Return what a file or a caller says of the axis."""
+    if not isinstance(given, str) or given not in AXES:
+        raise InputError(f"{name} is {given!r}: write {', '.join(map(repr, AXES[:2]))} or {AXES[2]!r}")
+    return given
+
+
+def y_axis_member(document: Mapping[str, Any], usual: YAxis) -> YAxis:
+    """Return what a document says of the axis, else the usual one of its form."""
+    return checked_y_axis(document[MEMBER]) if MEMBER in document else usual
+
+
+def is_up(value: Any) -> bool:
+    """Return whether y of a value goes upwards."""
+    return bool(getattr(value, "y_axis", UNSTATED) == UP)

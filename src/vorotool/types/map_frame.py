@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, UsageError, option
-from vorotool.numeric.ragged import within
-from vorotool.types.axis import DOWN, UP, YAxis
-from vorotool.types.pixel_frame import FARTHEST, Frame
-from vorotool.types.pixel_grid import PixelGrid, map_grid
+from vorotool.numeric.arrays import within
+from vorotool.types.fields import DOWN, UP, YAxis
+from vorotool.types.pixels import FARTHEST, Frame, PixelGrid, map_grid
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 

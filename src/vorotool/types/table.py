@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.equality import is_equal
+from vorotool.numeric.checks import is_equal
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.values import Tabular, counted

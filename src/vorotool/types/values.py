@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from numpy.typing import NDArray
 
+from vorotool.numeric.checks import is_equal
 from vorotool.numeric.crs import crs_name
-from vorotool.numeric.equality import is_equal
 from vorotool.products.formats import resolved
-from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.elements import Elements
-from vorotool.types.fields import Record
+from vorotool.types.fields import UNSTATED, Record, YAxis
 
 if TYPE_CHECKING:
     import geopandas
@@ -27,7 +26,7 @@ if TYPE_CHECKING:
     from vorotool.numeric.numbers import Flatten
     from vorotool.types.table import Table
 
-_GEOMETRY = "convert.geometry:geometry_of"
+_GEOMETRY = "convert.frames:geometry_of"
 _FRAMES = "convert.frames"
 _SHOWING = "render.showing"
 

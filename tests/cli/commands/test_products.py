@@ -9,7 +9,7 @@ from vorotool.products.formats import ANIMATIONS, FORMATS
 from vorotool.products.registry import DERIVED, PRODUCTS, all_layers, formats_of, layers_of
 from vorotool.render.label_images import png as label_png
 from vorotool.render.label_images import svg as label_svg
-from vorotool.render.layers import alpha, mesh, polygons, skeleton
+from vorotool.render.layers import mesh, polygons, skeleton
 
 DATA = Path(__file__).parents[3] / "data"
 INPUTS = {
@@ -62,7 +62,7 @@ OF_SEVERAL_KINDS = {("alphashape", "general", "shp"), ("alphashape", "hull", "sh
 def test_layers_are_those_that_are_drawn():
     assert layers_of("tessellate") == {"png": label_png.LAYERS, "svg": label_svg.LAYERS}
     assert all_layers("delaunay") == mesh.LAYERS
-    assert all_layers("alphashape") == alpha.LAYERS
+    assert all_layers("alphashape") == mesh.ALPHA_LAYERS
     own = {what: product.layers.get("svg") for what, product in PRODUCTS["skeleton-exact"].items()}
     assert own["skeleton"] == tuple(layer for layer in skeleton.LAYERS if layer != "exact")
     along = dict.fromkeys(["points", "transects"], skeleton.ALONG_LAYERS)

@@ -23,7 +23,7 @@ from vorotool import (
 )
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement import planar_graph as engine
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 DATA = Path(__file__).parents[3] / "data"
 SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]

@@ -10,8 +10,8 @@ from support.families.polygon_families import FAMILIES, draw
 from vorotool import PolygonSet, planar_graph
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.repaired_polygons import repaired_polygons
-from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]
 

@@ -33,7 +33,7 @@ from vorotool import (
 )
 from vorotool.engines.digital import triangulation as engine
 from vorotool.engines.tessellation import frames as digital
-from vorotool.types.spacing import pixel_sides
+from vorotool.types.pixels import pixel_sides
 
 ARRAYS = ("points", "triangles", "neighbors", "edges", "hull", "first")
 small_images = st.tuples(st.integers(1, 9), st.integers(1, 9), st.integers(1, 9), st.integers(0, 2**32 - 1))

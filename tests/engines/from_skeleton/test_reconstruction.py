@@ -10,7 +10,7 @@ import vorotool
 from support.families.skeleton_shapes import FAMILIES, TOUCHING, small
 from support.few import few
 from support.oracles.offset_oracle import check_rebuilt
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 
 def skeleton_of(shape):

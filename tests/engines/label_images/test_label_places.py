@@ -10,8 +10,8 @@ from vorotool.engines.label_images.label_places import label_places, name_places
 from vorotool.engines.label_images.object_colors import object_colors
 from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.seeding import seeds_from_raster
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 
 

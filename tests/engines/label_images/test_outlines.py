@@ -18,8 +18,8 @@ from support.oracles.outline_oracle import (
 )
 from vorotool.engines.label_images.outlines import gray_level, outlines
 from vorotool.errors import LimitError, UsageError
-from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import HOLE
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 RANDOM = [random_labels(np.random.default_rng(seed)) for seed in range(24)]
 IMAGES = [all_masks(3, 4), all_masks(4, 3), *(image for image in RANDOM if image.any())]

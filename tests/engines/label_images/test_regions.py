@@ -11,8 +11,8 @@ from scipy import ndimage
 
 from vorotool.engines.label_images import regions
 from vorotool.errors import InputError, LimitError
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 
 DTYPES = (np.uint8, np.uint16, np.uint32, np.int32)

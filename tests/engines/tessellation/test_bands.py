@@ -10,9 +10,8 @@ from support.few import few
 from vorotool.engines.tessellation.bands import SeedBand, SeedBands
 from vorotool.engines.tessellation.seeding import seeds_from_points
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.points.point_set import PointSet
-from vorotool.types.spacing import SQUARE, PixelSides
 
 FRAME = Frame(-3, 5, 60, 47)
 

@@ -8,7 +8,7 @@ from support.few import few
 from vorotool import outlines, seeds_from_raster
 from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_mask
 from vorotool.errors import UsageError
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import Raster
 
 RNG = np.random.default_rng(3)
 CORNERS = {4: ndimage.generate_binary_structure(2, 1), 8: ndimage.generate_binary_structure(2, 2)}

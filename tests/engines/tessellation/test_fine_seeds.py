@@ -12,7 +12,7 @@ from support.oracles.oracles import nearest_labels_of_fine_seeds
 from vorotool.engines.tessellation.bands import SeedBands
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_labels
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*seeds (moved|lie)")

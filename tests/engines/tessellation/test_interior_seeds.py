@@ -9,8 +9,8 @@ from vorotool.engines.tessellation.interior_seeds import needed_seeds
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellate import verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import Raster
+from vorotool.types.pixels import Frame
 
 
 def objects(kind, rng):

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from skimage.filters import threshold_otsu
 
 from vorotool.engines.tessellation.raster_objects import foreground_values, otsu_threshold
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import Raster
 
 
 def by_fractions(values):

@@ -9,7 +9,7 @@ import shapely
 from support.few import few
 from vorotool.engines.tessellation.rasterized import rasterized
 from vorotool.errors import InputError
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 
 FRAME = Frame(0, 0, 12, 9)

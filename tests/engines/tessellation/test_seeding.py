@@ -9,7 +9,7 @@ from support.few import few
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellate import tessellate, verify_tessellation
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolWarning
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import Raster
 
 INK = np.array([[200, 0, 200], [0, 0, 0]], dtype=np.uint8)
 

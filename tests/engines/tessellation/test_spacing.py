@@ -11,9 +11,8 @@ from vorotool.engines import peers
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import UsageError, VerificationError
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame, PixelSides, pixel_sides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import PixelSides, pixel_sides
 
 SIDES = [PixelSides((2, 1)), PixelSides((60, 13), Fraction(1, 40)), PixelSides((5, 7)), PixelSides((1000, 1))]
 LEVELS = ("portable", "avx2", "avx512")

@@ -12,8 +12,8 @@ from vorotool.engines.tessellation.propagation import propagate
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import UsageError
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.spacing import SQUARE, PixelSides, pixel_sides
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import SQUARE, PixelSides, pixel_sides
 
 SPACINGS = [(1.5, 0.325), (Fraction(1, 3), 1), (2, 3), 0.1]
 SHAPE = (17, 23)

@@ -16,7 +16,7 @@ from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.streamed_image import StreamedImage
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, VorotoolWarning
-from vorotool.types.spacing import PixelSides
+from vorotool.types.pixels import PixelSides
 
 rng = np.random.default_rng(7)
 

@@ -16,7 +16,7 @@ from vorotool.engines.tessellation.frames import SIMD_LEVELS, as_seeds, default_
 from vorotool.engines.tessellation.tessellate import verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, VerificationError, VorotoolWarning
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 
 LEVELS = SIMD_LEVELS[: SIMD_LEVELS.index(_core.tessellation.widest_simd()) + 1]

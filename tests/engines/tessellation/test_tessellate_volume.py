@@ -10,7 +10,7 @@ from vorotool.engines.tessellation.frames import band_limits
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.volume_seeding import seeds_from_xyz
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.types.spacing import PixelSides, pixel_sides
+from vorotool.types.pixels import PixelSides, pixel_sides
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume_points import VolumePoints
 from vorotool.types.volumes.volume_seeds import VolumeSeeds

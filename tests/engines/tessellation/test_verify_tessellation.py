@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import InputError, UsageError, VerificationError
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 
 

@@ -110,7 +110,7 @@ def test_outer_voxels_give_what_all_voxels_give(window, limit, units):
     assert seeds.filled.any()
     assert len(seeds) < np.count_nonzero(labels)
     frame = seeds.frame if window is None else VoxelFrame(*window)
-    sides = vorotool.types.spacing.PixelSides(units)
+    sides = vorotool.types.pixels.PixelSides(units)
     ours = Tessellator(seeds, frame, sides=sides, max_distance=limit, threads=2)
     every = Tessellator(all_voxels(labels), frame, sides=sides, max_distance=limit)
     assert np.array_equal(ours.labels(), every.labels())

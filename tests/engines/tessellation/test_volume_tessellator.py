@@ -13,7 +13,7 @@ from vorotool.engines import peers
 from vorotool.engines.peers.distance_transform import bare_seeds
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.types.spacing import PixelSides
+from vorotool.types.pixels import PixelSides
 
 LEVELS = ("portable", "avx2", "avx512")
 WAYS = ("rows", "bricks")

@@ -16,7 +16,7 @@ from support.few import few
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.drawing.curves import Curve, Line
 from vorotool.formats.drawing.polygons import joined
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 
 @pytest.fixture

@@ -16,8 +16,8 @@ from support.few import few
 from vorotool.errors import UsageError
 from vorotool.products.registry import PRODUCTS, parts_of
 from vorotool.products.writing import write_product
-from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 SHELL = [[0, 0], [40, 0], [40, 30], [22, 30], [20, 12], [18, 30], [0, 30]]
 SHAPE = [{"shell": SHELL, "holes": [[[4, 4], [9, 4], [4, 9]]]}]

@@ -13,7 +13,7 @@ from support.few import few
 from support.readers.svg_reading import read, shape_of, svg
 from vorotool.errors import InputError
 from vorotool.formats.drawing.fill_rules import filled_polygons
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 
 # ---- shapes --------------------------------------------------------------------------------------

@@ -14,8 +14,8 @@ import vorotool
 from support.families.vector_files import ATTRIBUTES, DRIVERS, SHAPES, frame, load, save
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.numeric.crs import crs_name
-from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 FORMATS = list(DRIVERS)
 

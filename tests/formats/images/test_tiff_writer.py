@@ -15,7 +15,7 @@ from vorotool.errors import LimitError
 from vorotool.formats.images import tiff_writer as tiff
 from vorotool.formats.images.tiff_reader import read_tiff
 from vorotool.formats.images.tiff_writer import write_tiff
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.pixels import PixelGrid
 
 
 def written(bands: object, shape: tuple[int, int], **options: object) -> bytes:

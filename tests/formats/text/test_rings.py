@@ -7,8 +7,8 @@ import shapely
 import vorotool
 from support.few import few
 from vorotool.formats.text.rings import geometry, written_rings
-from vorotool.numeric.coordinate_grid import rounded
-from vorotool.numeric.ragged import Nesting
+from vorotool.numeric.arrays import Nesting
+from vorotool.numeric.coordinates import rounded
 
 DECIMALS = [None, 6, 3, 1, 0]
 

@@ -8,7 +8,7 @@ import pytest
 
 import vorotool
 from vorotool.errors import InputError
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.pixels import PixelGrid
 
 zarr = pytest.importorskip("zarr")
 

@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 import vorotool
-from vorotool.numeric.coordinate_grid import coordinates_written
+from vorotool.numeric.coordinates import coordinates_written
 
 HOUSES = [shapely.box(x, 0, x + 8, 6) for x in (0, 11, 24)]
 FAR = shapely.box(4e5, 3e5, 4e5 + 8, 3e5 + 6)

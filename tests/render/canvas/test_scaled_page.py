@@ -11,11 +11,11 @@ from vorotool.errors import UsageError
 from vorotool.formats.drawing.svg_reader import read_svg
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.render.canvas.insets import ScaledPage, styled_layers
 from vorotool.render.canvas.layers import Arcs, Curves, Lines, Page, Points, Polygons, Texts
-from vorotool.render.canvas.scaled_page import ScaledPage, styled_layers
 from vorotool.render.canvas.styles import WHITE, PictureStyle
 from vorotool.render.canvas.svg import write_layers_svg
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 SQUARE = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]])
 

@@ -18,8 +18,8 @@ from vorotool.render.label_images.crack_outline import crack_loops
 from vorotool.render.label_images.png import disc_radius, picture_bands
 from vorotool.render.label_images.slices import SlicePicture
 from vorotool.render.label_images.svg import write_label_svg
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume_seeds import VolumeSeeds

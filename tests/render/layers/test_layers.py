@@ -30,8 +30,15 @@ from vorotool.formats.images.png_writer import write_png
 from vorotool.render.canvas.layers import Arcs, Curves, Lines, Page, Polygons
 from vorotool.render.canvas.png import layer_bands
 from vorotool.render.canvas.svg import write_layers_svg
-from vorotool.render.layers.alpha import LAYERS, alpha_layers
-from vorotool.render.layers.mesh import cell_lines, cell_page, cell_polygons, mesh_layers, mesh_page
+from vorotool.render.layers.mesh import (
+    ALPHA_LAYERS,
+    alpha_layers,
+    cell_lines,
+    cell_page,
+    cell_polygons,
+    mesh_layers,
+    mesh_page,
+)
 from vorotool.render.layers.skeleton import LAYERS as SKELETON_LAYERS
 from vorotool.render.layers.skeleton import diagram_layers, skeleton_layers, skeleton_page
 from vorotool.render.pages.alpha_plot import CURVES, write_curves_svg
@@ -45,8 +52,8 @@ def test_every_edge_is_in_the_layer_of_its_class():
     family = alpha_complex(draw("uniform", 80, 0))
     shape = alpha_shape(family, r=float(family.spectrum[len(family.spectrum) // 2]))
     hull = alpha_hull(shape)
-    layers = alpha_layers(shape, mesh_page(family.mesh), LAYERS, hull=hull)
-    assert [layer.name for layer in layers] == list(LAYERS)
+    layers = alpha_layers(shape, mesh_page(family.mesh), ALPHA_LAYERS, hull=hull)
+    assert [layer.name for layer in layers] == list(ALPHA_LAYERS)
     counts = {layer.name: len(layer.pairs) for layer in layers if isinstance(layer, Lines)}
     found = np.bincount(shape.edge_classes, minlength=4).tolist()
     assert [counts[name] for name in ("singular", "boundary", "interior")] == found[1:]

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vorotool.engines.tessellation.seed_lattice import finest_scale
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.spacing import PixelSides
+from vorotool.types.pixels import Frame, PixelSides
 
 
 def uniform(rng, width, height, n, scale):

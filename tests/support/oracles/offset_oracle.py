@@ -5,9 +5,8 @@ import re
 import numpy as np
 import shapely
 
-from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import LINE
-from vorotool.types.polygons.used_shapes import RingArrays
+from vorotool.types.polygons.shapely_geometry import RingArrays, to_shapely
 
 QUADRANT = 64
 """Chords of a quarter of shapely's circles."""

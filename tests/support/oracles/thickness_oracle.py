@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool import PolygonSet
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 Floats = NDArray[np.float64]
 NEAR = 1e-9

@@ -9,7 +9,7 @@ from support.readers.sources import read_as
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.results.features import write_polygons
-from vorotool.numeric.coordinate_grid import coordinates_written
+from vorotool.numeric.coordinates import coordinates_written
 
 
 def read(text, name="shapes.json", **options):

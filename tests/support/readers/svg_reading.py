@@ -5,7 +5,7 @@ import shapely
 from vorotool.formats.drawing.svg_reader import read_svg
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 
 
 def svg(body, attributes="", **options):

@@ -5,7 +5,7 @@ import io
 
 import numpy as np
 
-from vorotool.numeric.coordinate_grid import coordinates_written
+from vorotool.numeric.coordinates import coordinates_written
 from vorotool.products.formats import FORMATS
 from vorotool.products.writing import chosen_part, write_product
 

@@ -8,8 +8,7 @@ import shapely
 
 from vorotool import distance, hausdorff, skeleton_exact, verify_distances, verify_voronoi, voronoi
 from vorotool.convert.polygons import as_polygons
-from vorotool.types.polygons.conversion import to_shapely
-from vorotool.types.polygons.used_shapes import used_shapes, with_used_rings
+from vorotool.types.polygons.shapely_geometry import to_shapely, used_shapes, with_used_rings
 
 SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10]]
 SPIKE = [[0, 0], [10, 0], [10, 10], [5, 10], [5, 30], [5, 10], [0, 10]]

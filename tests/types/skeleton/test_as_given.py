@@ -12,7 +12,7 @@ import shapely
 import vorotool
 from support.few import few
 from vorotool import extend_ends, prune, read, skeleton_exact, smooth, verify_skeleton, voronoi, write
-from vorotool.numeric.ragged import with_length
+from vorotool.numeric.arrays import with_length
 from vorotool.types.skeleton.tables import polygon_table
 
 ROOM = [[0.1, 0.1], [0.7, 0.1], [0.7, 0.3], [0.1, 0.3]]

@@ -41,7 +41,7 @@ def test_polygons():
     table = vorotool.polygon_table(MADE)
     import shapely
 
-    from vorotool.types.polygons.conversion import to_shapely
+    from vorotool.types.polygons.shapely_geometry import to_shapely
 
     shapes = to_shapely(SHAPES)
     assert table["area"].tolist() == pytest.approx(shapely.area(shapes).tolist(), rel=1e-14)

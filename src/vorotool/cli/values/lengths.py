@@ -16,7 +16,7 @@ from vorotool.jobs.units import AUTO, AUTO_SPACING, Measured, PixelSize
 from vorotool.numeric.length_units import METERS
 
 if TYPE_CHECKING:
-    from vorotool.types.spacing import PixelSides
+    from vorotool.types.pixels import PixelSides
 
 _NUMBER = r"[-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)(?:[eE][-+]?[0-9]+)?"
 _NAME = r"[^\W\d_]{1,16}"
@@ -231,7 +231,7 @@ def spacing(text: str) -> PixelSize:
 
 
 def _with_common_step(sides: list[Fraction]) -> PixelSides:
-    from vorotool.types.spacing import MOST_STEPS, pixel_sides
+    from vorotool.types.pixels import MOST_STEPS, pixel_sides
 
     try:
         return pixel_sides(sides[::-1], len(sides))

@@ -13,8 +13,7 @@ from vorotool.errors import InputError, UsageError, option
 from vorotool.numeric.curves.inverse_functions import angle_of, cosine_and_sine, hypotenuse, inverse_sine
 from vorotool.numeric.numbers import nearest_double, shown_number
 from vorotool.types.alpha.complex import CLASSES
-from vorotool.types.alpha.hull import AlphaHull
-from vorotool.types.alpha.shape import AlphaShape
+from vorotool.types.alpha.shape import AlphaHull, AlphaShape
 from vorotool.types.arguments import check_value
 
 # Which discs there are is exact. Where their arcs meet is computed in doubles: crossings closer together than this

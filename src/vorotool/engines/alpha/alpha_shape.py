@@ -20,15 +20,14 @@ from vorotool.engines.alpha.few_points import (
 )
 from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.errors import InputError, UsageError, option
+from vorotool.numeric.arrays import ranges, starts_of
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import nearest_double, real_number, shown_number, whole_number
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import ranges, starts_of
 from vorotool.types.alpha.complex import AlphaComplex, Radius, checked_radius
 from vorotool.types.alpha.shape import AlphaShape
 from vorotool.types.arguments import check_value
-from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.mesh.triangulation import DigitalTriangulation, Triangulation
 from vorotool.types.points.point_set import known_of_points
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.table import Table

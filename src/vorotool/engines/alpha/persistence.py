@@ -11,8 +11,7 @@ from vorotool.engines.alpha.alpha_shape import alpha_complex, automatic_rank
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.errors import UsageError
 from vorotool.numeric.parallel import Progress
-from vorotool.types.alpha.complex import AlphaComplex
-from vorotool.types.alpha.persistence import RegionPersistence
+from vorotool.types.alpha.complex import AlphaComplex, RegionPersistence
 
 if TYPE_CHECKING:
     from vorotool.typing import MeshLike

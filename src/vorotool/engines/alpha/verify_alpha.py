@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from vorotool.engines.delaunay.delaunay import verify_triangulation
 from vorotool.errors import VerificationError
+from vorotool.numeric.arrays import owners
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import owners
 from vorotool.types.alpha.complex import CLASSES, AlphaComplex, Radius
 from vorotool.types.alpha.shape import AlphaShape
 from vorotool.types.arguments import check_value

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.ragged import owners
+from vorotool.numeric.arrays import owners
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 
 

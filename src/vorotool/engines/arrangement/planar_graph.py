@@ -14,9 +14,9 @@ from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
 from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.errors import LimitError, VerificationError
+from vorotool.numeric.arrays import divides, owners, ranges
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import divides, owners, ranges
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.box import check_magnitude

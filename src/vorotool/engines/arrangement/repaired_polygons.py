@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes
-from vorotool.numeric.arrays import Indices
-from vorotool.numeric.equality import index_of_rows
-from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
+from vorotool.numeric.checks import index_of_rows
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
-from vorotool.types.polygons.used_shapes import RingArrays
+from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.skeleton import EDGE, VERTEX, SiteTable
 from vorotool.types.skeleton.tables import connected_roots
 

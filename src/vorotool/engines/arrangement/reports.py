@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import STRICT, InputError, RepairWarning, warn
+from vorotool.numeric.arrays import owners, ranges, starts_of
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.types.polygons.planar_graph import REPAIRS
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.values import counted

@@ -18,10 +18,9 @@ from vorotool.engines.centerlines.strip_ends import at_strip_ends
 from vorotool.engines.from_skeleton.boundary_rays import first_hits
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError, UsageError, warn
-from vorotool.numeric.arrays import Booleans, Floats, Numbers
+from vorotool.numeric.arrays import Booleans, Floats, Numbers, starts_of
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import starts_of
 from vorotool.types.arguments import check_value
 from vorotool.types.box import check_lengths
 from vorotool.types.skeleton.centerline import Centerlines, without_centerline

@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.edge_comparisons import is_blunt
-from vorotool.numeric.arrays import Booleans, Floats, Numbers
-from vorotool.numeric.ragged import owners, ranges
+from vorotool.numeric.arrays import Booleans, Floats, Numbers, owners, ranges
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 

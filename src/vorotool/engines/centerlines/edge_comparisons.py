@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.arrays import Floats
-from vorotool.numeric.exact_products import difference, product
+from vorotool.numeric.numbers import difference, product
 
 TIE = 2.0**-20
 """A millionth: far more than equal lengths differ by once vertices are placed on a lattice of 2^-30 of the extent."""

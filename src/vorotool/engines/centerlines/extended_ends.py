@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 from vorotool.engines.centerlines.end_pieces import without_end_pieces
 from vorotool.engines.from_skeleton.boundary_rays import first_crossings, first_hits
 from vorotool.engines.skeleton.parts import with_arcs
-from vorotool.numeric.arrays import Booleans, Floats, Numbers
+from vorotool.numeric.arrays import Booleans, Floats, Numbers, owners, starts_of, within
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import owners, starts_of, within
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.extended_lines import ExtendedSkeleton, LedOn

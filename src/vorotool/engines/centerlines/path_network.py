@@ -11,9 +11,8 @@ from vorotool import _core
 from vorotool.engines.centerlines.edge_comparisons import TIE
 from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
-from vorotool.numeric.arrays import Booleans, Floats
+from vorotool.numeric.arrays import Booleans, Floats, owners, starts_of
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import owners, starts_of
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import Skeleton
 

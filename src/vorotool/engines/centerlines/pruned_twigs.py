@@ -21,9 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.parts import with_straight_arcs
-from vorotool.numeric.arrays import Booleans, Floats, Numbers
+from vorotool.numeric.arrays import Booleans, Floats, Numbers, owners, starts_of, within
 from vorotool.numeric.numbers import is_among
-from vorotool.numeric.ragged import owners, starts_of, within
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.corner_twigs import Branches, Pairs, Twigs
-from vorotool.numeric.arrays import Numbers
-from vorotool.numeric.ragged import starts_of
+from vorotool.numeric.arrays import Numbers, starts_of
 from vorotool.plain import plain
 from vorotool.types.skeleton.tables import connected_roots
 

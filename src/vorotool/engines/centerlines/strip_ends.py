@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from vorotool.engines.centerlines.end_pieces import TIP, Reaches
 from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.centerlines.path_network import Pieces
-from vorotool.numeric.ragged import owners, starts_of
+from vorotool.numeric.arrays import owners, starts_of
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import INTERIOR
 

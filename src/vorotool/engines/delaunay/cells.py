@@ -12,11 +12,10 @@ from vorotool import _core
 from vorotool.convert.polygons import as_geometry
 from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
 from vorotool.errors import InputError, VerificationError, warn
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, owners, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import owners, starts_of
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.box import Box, as_box

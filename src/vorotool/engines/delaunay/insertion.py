@@ -11,8 +11,7 @@ from vorotool import _core
 from vorotool.convert.points import as_points
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, core_mesh, delaunay, report_duplicates
 from vorotool.errors import InputError, LimitError
-from vorotool.numeric.checks import checked_threads, whole_numbers
-from vorotool.numeric.equality import joined_index
+from vorotool.numeric.checks import checked_threads, joined_index, whole_numbers
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.triangulation import Triangulation

@@ -9,7 +9,7 @@ from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.parallel import Progress
-from vorotool.types.mesh.proximity import KINDS, ProximityGraph
+from vorotool.types.mesh.cells import KINDS, ProximityGraph
 from vorotool.types.mesh.triangulation import Triangulation
 
 if TYPE_CHECKING:

@@ -18,10 +18,10 @@ from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.types.arguments import check_value
+from vorotool.types.images import LabelImage
 from vorotool.types.mesh.cells import CellSet
 from vorotool.types.mesh.tables import CellStatistics
 from vorotool.types.mesh.triangulation import Triangulation
-from vorotool.types.points.label_image import LabelImage
 from vorotool.types.table import Table
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import VerificationError
 from vorotool.types.arguments import check_value
-from vorotool.types.mesh.proximity import KINDS, ProximityGraph
+from vorotool.types.mesh.cells import KINDS, ProximityGraph
 
 _NEAR, _NEARER = 1 + 2.0**-30, 2.0**-50
 """What distances are taken larger by, so that rounding leaves out no point: a factor for their own, and of coordinates

@@ -22,10 +22,9 @@ from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.mesh.digital_triangulation import DigitalComparison, DigitalTriangulation
-from vorotool.types.mesh.triangulation import Triangulation
-from vorotool.types.pixel_frame import MAX_PIXELS, Frame
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.mesh.triangulation import DigitalComparison, DigitalTriangulation, Triangulation
+from vorotool.types.pixels import MAX_PIXELS, Frame
 from vorotool.types.table import Table
 
 if TYPE_CHECKING:

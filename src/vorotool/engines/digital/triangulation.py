@@ -26,13 +26,11 @@ from vorotool.errors import InputError, LimitError, UsageError, option, warn
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.types.mesh.triangulation import Triangulation
-from vorotool.types.pixel_frame import MAX_PIXELS
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.mesh.triangulation import DigitalTriangulation, Triangulation
+from vorotool.types.pixels import MAX_PIXELS, PixelSides
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.scaling import scaled
-from vorotool.types.spacing import PixelSides
 
 if TYPE_CHECKING:
     from vorotool.typing import SeedsLike, Spacing

@@ -13,8 +13,8 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import VerificationError
 from vorotool.types.arguments import check_value
-from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.mesh.triangulation import DigitalTriangulation
+from vorotool.types.pixels import Frame
 
 if TYPE_CHECKING:
     from vorotool.typing import SeedsLike, Spacing

@@ -14,17 +14,16 @@ from vorotool.convert.sites import as_sites
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import InputError, RepairWarning
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, ranges
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import ranges
 from vorotool.plain import plain
 from vorotool.types.box import check_magnitude
 from vorotool.types.distances.distances import Distances, PlacePair
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import HOLE, LINE, PolygonSet
-from vorotool.types.polygons.used_shapes import with_used_rings
+from vorotool.types.polygons.shapely_geometry import with_used_rings
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 

@@ -14,7 +14,7 @@ from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.arguments import check_value
 from vorotool.types.distances.distances import FROM_A, FROM_B, SMALLEST, Distances, PlacePair
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
-from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.polygons.shapely_geometry import used_shapes
 
 TOLERANCE = 1e-9
 """Of the extent: shapely computes in floating point, and parts of edges are halved until they are as short."""

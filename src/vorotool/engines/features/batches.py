@@ -23,16 +23,15 @@ from vorotool.engines.arrangement.planar_graph import (
 from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.reports import Found, report_repairs, report_small
 from vorotool.errors import LimitError, warn
-from vorotool.numeric.arrays import Indices
+from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
 from vorotool.numeric.checks import available_threads
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, in_threads
-from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
 from vorotool.types.box import bounds, check_magnitude
 from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
-from vorotool.types.polygons.used_shapes import RingArrays
+from vorotool.types.polygons.shapely_geometry import RingArrays
 
 Result = TypeVar("Result")
 

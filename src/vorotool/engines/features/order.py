@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes
-from vorotool.numeric.arrays import Indices
-from vorotool.numeric.ragged import owners, starts_of, within
+from vorotool.numeric.arrays import Indices, owners, starts_of, within
 from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.polygons.used_shapes import RingArrays
+from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.skeleton import SiteTable
 
 

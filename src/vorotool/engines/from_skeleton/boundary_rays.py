@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats
-from vorotool.numeric.ragged import owners, ranges
+from vorotool.numeric.arrays import Floats, owners, ranges
 from vorotool.types.polygons.polygon_set import PolygonSet
 
 PART = 1 << 18

@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.site_distances import SitePlaces
-from vorotool.numeric.arrays import Indices
+from vorotool.numeric.arrays import Indices, following
 from vorotool.numeric.curves.inverse_functions import angle_of
-from vorotool.numeric.ragged import following
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 from vorotool.types.skeleton.tables import connected_roots

@@ -13,13 +13,12 @@ from vorotool.engines.from_skeleton.disc_places import Candidates, bernstein_roo
 from vorotool.engines.from_skeleton.largest_discs import Axis, check_count
 from vorotool.engines.skeleton.diagrams import diagram_of_all, skeleton_in
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import Floats, Numbers
+from vorotool.numeric.arrays import Floats, Numbers, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import starts_of
 from vorotool.types.box import Box, Extent, as_extent, bounds, corners_of, default_frame, extent_sides, is_extent
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.polygons.shapely_geometry import used_shapes
 from vorotool.types.skeleton.discs import Discs
 from vorotool.types.skeleton.skeleton import Skeleton
 

@@ -12,11 +12,10 @@ from vorotool.engines.skeleton.clearance import clearance_course, is_maximum, pl
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Numbers
+from vorotool.numeric.arrays import Numbers, starts_of, within
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import whole_number
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import starts_of, within
 from vorotool.types.skeleton.discs import Discs
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 

@@ -10,16 +10,15 @@ from vorotool import _core
 from vorotool.engines.from_skeleton.boundary_rays import first_crossings
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.errors import LimitError, UsageError
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, owners, within
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.numbers import finite_double
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import owners, within
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
-from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import Skeleton

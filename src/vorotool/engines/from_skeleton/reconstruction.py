@@ -12,13 +12,11 @@ from vorotool.engines.arrangement.flat_rings import flat_holes
 from vorotool.engines.from_skeleton.contour_walk import Contours, contours_of, site_points
 from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.curves.circular_arcs import chords_of, middles_of
-from vorotool.numeric.curves.flatten import circle_tolerances
+from vorotool.numeric.arrays import Floats, Indices, owners, starts_of
+from vorotool.numeric.checks import index_of_rows
+from vorotool.numeric.curves.flatten import chords_of, circle_tolerances, middles_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.numeric.equality import index_of_rows
 from vorotool.numeric.numbers import Flatten, checked_flatten
-from vorotool.numeric.ragged import owners, starts_of
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet

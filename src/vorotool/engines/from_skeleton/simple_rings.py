@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.ragged import following, owners
+from vorotool.numeric.arrays import Floats, Indices, following, owners
 
 
 def repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:

@@ -14,7 +14,7 @@ from vorotool.errors import InputError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
-from vorotool.types.axis import is_up
+from vorotool.types.fields import is_up
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 SLACK = 46

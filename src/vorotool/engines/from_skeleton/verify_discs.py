@@ -13,7 +13,7 @@ from vorotool.numeric.arrays import Floats
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.polygons.shapely_geometry import used_shapes
 from vorotool.types.skeleton.discs import Discs
 
 if TYPE_CHECKING:

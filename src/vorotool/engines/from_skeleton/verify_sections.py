@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import SitePlaces
-from vorotool.numeric.arrays import Booleans, Floats
+from vorotool.numeric.arrays import Booleans, Floats, owners, starts_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.numeric.ragged import owners, starts_of
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import Skeleton

@@ -15,7 +15,7 @@ from vorotool.numeric.checks import as_array, described
 from vorotool.numeric.numbers import pair_of_doubles, shown_number, whole_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
-from vorotool.types.axis import is_up
+from vorotool.types.fields import is_up
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
 SAMPLES = 128

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
-from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.ragged import ranges
+from vorotool.numeric.arrays import Floats, Indices, ranges
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.skeleton import EDGE, SiteTable, Skeleton

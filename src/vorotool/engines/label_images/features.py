@@ -14,10 +14,10 @@ from vorotool.engines.label_images.outlines import outlines
 from vorotool.engines.label_images.regions import region_table
 from vorotool.plain import plain
 from vorotool.types.features import Rows
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import SQUARE, PixelSides
+from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.scaling import AREAS, LENGTHS, scaled_table
-from vorotool.types.spacing import SQUARE, PixelSides
 from vorotool.types.table import Table
 from vorotool.types.volumes.label_volume import LabelVolume
 

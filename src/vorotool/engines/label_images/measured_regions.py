@@ -17,9 +17,8 @@ from vorotool.errors import InputError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import PixelSides
 from vorotool.types.table import Table
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame

@@ -9,8 +9,8 @@ from vorotool.engines.common import label_array
 from vorotool.engines.label_images.regions import region_colors
 from vorotool.engines.tessellation.interior_seeds import surrounded
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 
 

@@ -23,14 +23,13 @@ from vorotool.engines.tessellation.raster_objects import (
     settled_threshold,
 )
 from vorotool.errors import InputError, LimitError, UsageError, option
+from vorotool.numeric.arrays import following, owners, starts_of, within
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import following, owners, starts_of, within
 from vorotool.plain import plain
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import LabelImage, Raster
+from vorotool.types.pixels import Frame
 from vorotool.types.polygons.polygon_set import PolygonSet
 
 if TYPE_CHECKING:

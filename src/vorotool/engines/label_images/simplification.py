@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Indices
+from vorotool.numeric.arrays import Indices, owners, ranges, starts_of, within
 from vorotool.numeric.numbers import distinct, finite_double, shown_number
-from vorotool.numeric.ragged import owners, ranges, starts_of, within
 from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 

@@ -14,13 +14,12 @@ from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repe
 from vorotool.engines.necks.axis import Ways
 from vorotool.engines.necks.feet import Feet
 from vorotool.engines.necks.necks import FoundNecks, check_neck, found_necks, whole_skeleton
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, following, owners, ranges
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import following, owners, ranges
 from vorotool.plain import plain
 from vorotool.types.polygons.input_vertices import moved_feet, places_as_given
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
-from vorotool.types.polygons.used_shapes import RingArrays
+from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.necks import Necks
 from vorotool.types.skeleton.parts import Parts
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton

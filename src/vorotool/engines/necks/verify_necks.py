@@ -14,10 +14,9 @@ from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.errors import VorotoolWarning
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import owners
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.input_vertices import moved_feet, places_as_given
 from vorotool.types.polygons.planar_graph import PlanarGraph

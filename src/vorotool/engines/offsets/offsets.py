@@ -26,10 +26,10 @@ from vorotool.engines.skeleton.exact import (
 )
 from vorotool.engines.skeleton.per_feature import batch_diagram
 from vorotool.errors import UsageError, VorotoolWarning
+from vorotool.numeric.arrays import ranges, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import finite_double
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import ranges, starts_of
 from vorotool.types.box import check_lengths
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.offsets import Offsets

@@ -19,16 +19,15 @@ from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
 from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
 from vorotool.errors import VorotoolWarning
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, following, ranges, starts_of
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.curves.circular_arcs import middles_of
+from vorotool.numeric.curves.flatten import middles_of
 from vorotool.numeric.numbers import distinct, finite_double
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import following, ranges, starts_of
 from vorotool.types.arguments import check_value
-from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import SHELL
+from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.skeleton.offsets import Offsets
 from vorotool.types.skeleton.skeleton import EDGE, ends_of_sites
 

@@ -18,9 +18,8 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import real_number, shown_number
-from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.pixels import MAX_PIXELS, PixelSides, as_decimal
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import PixelSides, as_decimal
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
 if TYPE_CHECKING:

@@ -19,8 +19,8 @@ from vorotool.engines.tessellation.frames import require_memory
 from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.parallel import Progress
-from vorotool.types.pixel_frame import MAX_PIXELS, Frame
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import Raster
+from vorotool.types.pixels import MAX_PIXELS, Frame
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, OutlineKind, Spacing

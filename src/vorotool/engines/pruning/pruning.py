@@ -14,12 +14,11 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, owners, starts_of
 from vorotool.numeric.checks import available_threads, checked_threads, is_choice
 from vorotool.numeric.curves.inverse_functions import inverse_sine
 from vorotool.numeric.numbers import distinct, finite_double, shown_number
 from vorotool.numeric.parallel import Progress, in_threads
-from vorotool.numeric.ragged import owners, starts_of
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.types.skeleton.skeleton import Skeleton

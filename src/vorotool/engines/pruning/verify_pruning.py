@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
-from vorotool.numeric.arrays import Floats
-from vorotool.numeric.ragged import owners, ranges
+from vorotool.numeric.arrays import Floats, owners, ranges
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.arc_measures import ArcMeasures
 from vorotool.types.skeleton.skeleton import Skeleton

@@ -16,8 +16,8 @@ from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
 from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
 from vorotool.errors import VorotoolWarning
+from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.numeric.ragged import starts_of
 from vorotool.plain import plain
 from vorotool.types.box import Extent, widened
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton

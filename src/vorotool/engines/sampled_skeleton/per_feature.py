@@ -35,10 +35,9 @@ from vorotool.engines.skeleton.contraction import contraction
 from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.engines.skeleton.per_feature import joined_with_places
 from vorotool.errors import LimitError, VorotoolWarning
-from vorotool.numeric.arrays import Indices
+from vorotool.numeric.arrays import Indices, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import starts_of
 from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph

@@ -11,10 +11,9 @@ from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton
 from vorotool.engines.skeleton.verify_bounds import place_error
 from vorotool.engines.skeleton.verify_skeleton import check_arrays, verify_skeleton
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import owners
 from vorotool.types.skeleton.boundary_samples import BoundarySamples
 
 SEED_ERROR = 2.0**-20

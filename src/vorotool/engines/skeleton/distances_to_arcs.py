@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.ragged import owners
+from vorotool.numeric.arrays import owners
 from vorotool.types.skeleton.skeleton import Skeleton
 
 Places = NDArray[np.float64]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.polygons.used_shapes import RingArrays
+from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 PER_ARC = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")

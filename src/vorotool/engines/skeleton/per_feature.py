@@ -20,8 +20,8 @@ from vorotool.engines.skeleton.exact import (
     warn_empty,
 )
 from vorotool.engines.skeleton.open_border import around, opened
+from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import starts_of
 from vorotool.plain import plain
 from vorotool.types.box import Extent
 from vorotool.types.polygons.polygon_set import PolygonSet

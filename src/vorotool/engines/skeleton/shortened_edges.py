@@ -22,12 +22,11 @@ from vorotool.engines.skeleton.exact import (
     whole_diagram,
 )
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import Indices
+from vorotool.numeric.arrays import Indices, following, owners
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import angle_of, hypotenuse
 from vorotool.numeric.numbers import is_among
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import following, owners
 from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph

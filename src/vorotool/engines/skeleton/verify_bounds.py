@@ -16,8 +16,8 @@ from vorotool.engines.skeleton.per_feature import batch_diagram
 from vorotool.engines.skeleton.verify_regions import border_components, with_corners_apart
 from vorotool.numeric.parallel import Progress
 from vorotool.types.box import widened
-from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
 

@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.smoothing.line_samples import LineSamples
-from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of
 from vorotool.plain import plain
 
 ROUNDS = 4

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, owners, starts_of, within
 from vorotool.numeric.curves.flatten import chained, polylines
-from vorotool.numeric.ragged import owners, starts_of, within
 from vorotool.plain import plain
 from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.skeleton import Skeleton

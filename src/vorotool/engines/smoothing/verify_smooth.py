@@ -7,9 +7,8 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.errors import VerificationError
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.curves.flatten import chained, places_at
-from vorotool.numeric.ragged import owners
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.skeleton import Skeleton

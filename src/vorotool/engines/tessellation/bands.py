@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 

@@ -22,11 +22,10 @@ from vorotool.engines.common import described
 from vorotool.engines.tessellation.seeding import FrameOf, moved_to, seeds_from_raster, seeds_in_frame
 from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.numeric.numbers import real_number, shown_number
-from vorotool.types.pixel_frame import MAX_PIXELS, Frame
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import MAX_PIXELS, SQUARE, Frame, PixelSides
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import SQUARE, PixelSides
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame

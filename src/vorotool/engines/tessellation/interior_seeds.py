@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame

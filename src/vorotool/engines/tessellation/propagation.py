@@ -23,8 +23,8 @@ from vorotool.errors import InputError, UsageError, option
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
-from vorotool.types.pixel_frame import MAX_PIXELS, Frame
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import MAX_PIXELS, Frame
 from vorotool.types.points.seed_set import SeedSet
 
 _EXACT = option("--method exact", 'method="exact"')

@@ -15,7 +15,7 @@ from vorotool.errors import OTSU, STRICT, InputError, Kind, Message, VorotoolWar
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import finite_double
 from vorotool.plain import plain
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import Raster
 
 if TYPE_CHECKING:
     from vorotool.types.volumes.volume import Volume

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, option
-from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.ragged import owners, ranges, within
-from vorotool.types.pixel_frame import FARTHEST, Frame
+from vorotool.numeric.arrays import Floats, Indices, owners, ranges, within
+from vorotool.types.pixels import FARTHEST, Frame
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
 _PIXELS = 2**22

@@ -12,11 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import STRICT, InputError, warn
+from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.numeric.equality import index_of_rows
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.points.seed_set import SCALES
-from vorotool.types.spacing import SQUARE, PixelSides
 from vorotool.types.values import counted
 from vorotool.types.volumes.volume_seeds import FINEST_SCALE
 

@@ -33,10 +33,9 @@ from vorotool.errors import LimitError, UsageError, option
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.types.arguments import check_value
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import SQUARE, PixelSides
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, PointsLike, RealLike

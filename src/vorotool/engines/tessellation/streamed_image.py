@@ -26,9 +26,8 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError, option
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import SQUARE, PixelSides
 
 BAND_PIXELS = 2**25
 """Most pixels of a band that is read at a time; for each two lists as wide as the image are kept, in a short form."""

@@ -26,10 +26,9 @@ from vorotool.numeric.checks import is_choice
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
-from vorotool.types.pixel_frame import MAX_PIXELS, Frame
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import MAX_PIXELS, SQUARE, Frame, PixelSides, distance_as_written
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import SQUARE, PixelSides, distance_as_written
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame

@@ -28,9 +28,8 @@ from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
-from vorotool.types.pixel_frame import MAX_SIDE, Frame
+from vorotool.types.pixels import MAX_SIDE, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 

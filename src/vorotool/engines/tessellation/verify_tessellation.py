@@ -12,10 +12,9 @@ from vorotool.engines.common import label_array
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame

@@ -25,7 +25,7 @@ from vorotool.errors import LimitError, UsageError, option
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.numbers import finite_double, shown_number, whole_number
 from vorotool.numeric.parallel import Progress
-from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
 from vorotool.types.volumes.volume_points import VolumePoints

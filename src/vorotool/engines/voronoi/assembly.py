@@ -7,9 +7,8 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import VerificationError
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, ranges, starts_of
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
-from vorotool.numeric.ragged import ranges, starts_of
 from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 

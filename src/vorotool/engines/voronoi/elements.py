@@ -18,8 +18,8 @@ from vorotool.engines.arrangement.planar_graph import (
 from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import LimitError
+from vorotool.numeric.arrays import owners, ranges, starts_of
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
 from vorotool.types.box import check_magnitude
 from vorotool.types.polygons.planar_graph import PlanarGraph

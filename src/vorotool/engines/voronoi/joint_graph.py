@@ -13,10 +13,9 @@ from vorotool.engines.arrangement.flat_rings import with_flat_shells_as_lines
 from vorotool.engines.arrangement.planar_graph import MOST_VERTICES, Placement, arranged, placed_vertices
 from vorotool.engines.voronoi.elements import graph_of_sites
 from vorotool.errors import InputError, LimitError
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
 from vorotool.types.box import Extent, Sides, bounds, check_magnitude, default_frame, extent_sides
 from vorotool.types.polygons.planar_graph import PlanarGraph

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool.engines.voronoi.elements import NOBODY, OwnedGraph
 from vorotool.engines.voronoi.regions import LocalDiagrams
 from vorotool.numeric.arrays import Floats, Indices
-from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.polygons.shapely_geometry import used_shapes
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 

@@ -15,10 +15,9 @@ from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owners_of, packed
 from vorotool.engines.voronoi.joint_graph import JointGraph
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of
 from vorotool.numeric.numbers import distinct, is_among
 from vorotool.numeric.parallel import Progress
-from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.numeric.arrays import Floats
 from vorotool.types.box import bounds, corners_of
-from vorotool.types.polygons.conversion import to_shapely
-from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.polygons.shapely_geometry import to_shapely, used_shapes
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 _BITS = 30

@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.voronoi.verify_cuts import EnclosedFaces, shared_out
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, owners
 from vorotool.numeric.curves.inverse_functions import PI, angle_of
 from vorotool.numeric.numbers import shown_number, whole_number
-from vorotool.numeric.ragged import owners
 from vorotool.types.arguments import check_value
 from vorotool.types.box import corners_of
-from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.polygons.shapely_geometry import used_shapes
 from vorotool.types.voronoi.shapes import flattened_arcs
 from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 

@@ -15,8 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vorotool.numeric.arrays import Floats
-from vorotool.numeric.curves.circular_arcs import chords_of
-from vorotool.numeric.curves.flatten import CURVE_PART, MOST_PIECES
+from vorotool.numeric.curves.flatten import CURVE_PART, MOST_PIECES, chords_of
 from vorotool.numeric.curves.inverse_functions import PI, cosine_and_sine, hypotenuse
 
 Point = tuple[float, float]

@@ -11,7 +11,7 @@ from typing import Any, BinaryIO
 
 from vorotool.convert.extras import needed
 from vorotool.numeric.arrays import Floats
-from vorotool.types.axis import DOWN, YAxis
+from vorotool.types.fields import DOWN, YAxis
 
 UNITS = {
     **{1: "in", 2: "ft", 3: "mi", 4: "mm", 5: "cm", 6: "m", 7: "km", 9: "mil", 10: "yd"},

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vorotool.formats.drawing.dxf_drawing import DxfDrawing
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.types.alpha.hull import AlphaHull
+from vorotool.types.alpha.shape import AlphaHull
 from vorotool.types.skeleton.centerline import Centerlines
 from vorotool.types.skeleton.discs import Discs
 from vorotool.types.skeleton.extended_lines import ExtendedSkeleton, LedOn

@@ -14,10 +14,10 @@ from vorotool.errors import InputError
 from vorotool.formats.drawing.curves import Arc, Bezier, Curve, Line, Piece, Point, extent_of
 from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.length_units import ratio
-from vorotool.numeric.ragged import starts_of
-from vorotool.types.axis import DOWN, YAxis
 from vorotool.types.box import Box
+from vorotool.types.fields import DOWN, YAxis
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 from vorotool.types.values import counted
 

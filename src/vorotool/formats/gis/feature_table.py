@@ -19,10 +19,9 @@ from vorotool.formats.points.tables import rows_of_columns
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS
-from vorotool.types.axis import UP
-from vorotool.types.points.conversion import part_numbers, single_points
-from vorotool.types.polygons.conversion import polygons_of_geometry
+from vorotool.types.fields import UP
 from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.shapely_geometry import part_numbers, polygons_of_geometry, single_points
 
 _POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GEOS
 

@@ -20,9 +20,8 @@ from vorotool.formats.io.sources import StoredParts
 from vorotool.formats.zarr.reader import StoredArray, ZarrImage
 from vorotool.numeric.length_units import ratio
 from vorotool.plain import plain
-from vorotool.types.pixel_frame import MAX_PIXELS
-from vorotool.types.pixel_grid import PixelGrid
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import Raster
+from vorotool.types.pixels import MAX_PIXELS, PixelGrid
 
 
 @plain

@@ -20,7 +20,7 @@ from vorotool.formats.io.sources import GZIP, Source, explained_reading, read_so
 from vorotool.formats.opening import TIFF_MAGIC, open_zarr
 from vorotool.formats.recognition import image_format, looks_like_pnm, picture_format
 from vorotool.plain import plain
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.pixels import PixelGrid
 
 _BYTES = 65_536
 """Within which the header of a PNG, PNM or NPY file ends."""

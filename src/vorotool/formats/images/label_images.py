@@ -11,9 +11,8 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.formats.io.arrays import checked
 from vorotool.products.formats import resolved
-from vorotool.types.pixel_grid import PixelGrid
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import LabelImage, Raster
+from vorotool.types.pixels import PixelGrid
 from vorotool.types.skeleton.arc_measures import ThicknessImage
 
 _ANY_IMAGE = option("-o image.tif or image.npy", "the path image.tif or image.npy")

@@ -19,8 +19,8 @@ from vorotool.formats.io.limits import check_pixels
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.recognition import PICTURES
-from vorotool.types.pixel_grid import PixelGrid
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import Raster
+from vorotool.types.pixels import PixelGrid
 
 
 def read_image(source: Source, options: ReadOptions) -> Raster:

@@ -18,8 +18,8 @@ from vorotool.formats.images.world_file import world_grid
 from vorotool.numeric.crs import crs_member, crs_name, is_geographic
 from vorotool.numeric.length_units import meters
 from vorotool.plain import plain
-from vorotool.types.pixel_grid import GeoKeys, PixelGrid, Transform, map_grid
-from vorotool.types.points.raster import Raster
+from vorotool.types.images import Raster
+from vorotool.types.pixels import GeoKeys, PixelGrid, Transform, map_grid
 
 PIXEL_SCALE, TIEPOINT, TRANSFORMATION = 33550, 33922, 34264
 DIRECTORY, DOUBLES, TEXT, NODATA = 34735, 34736, 34737, 42113

@@ -21,7 +21,7 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.formats.images.tiff_grid import grid_tags, scale_tag
 from vorotool.formats.io.arrays import BLOCK_BYTES, blocks, checked, stored
 from vorotool.numeric.parallel import in_order
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.pixels import PixelGrid
 
 TILE = 512
 """Pixels a side of a tile, as cloud-optimized GeoTIFFs have them."""

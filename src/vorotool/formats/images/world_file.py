@@ -9,7 +9,7 @@ from pathlib import Path
 from vorotool.errors import InputError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import STANDARD_INPUT
-from vorotool.types.pixel_grid import PixelGrid, Transform, map_grid
+from vorotool.types.pixels import PixelGrid, Transform, map_grid
 
 _LARGEST = 4096
 """Bytes; six numbers need some hundred."""

@@ -11,7 +11,7 @@ from vorotool.errors import NO_PROPERTIES, InputError, LimitError, option
 from vorotool.formats.io.sources import Source, check_nesting
 from vorotool.formats.parsing.reader_options import shortened
 from vorotool.numeric.crs import crs_name, same_crs
-from vorotool.types.axis import MEMBER, YAxis, y_axis_member
+from vorotool.types.fields import MEMBER, YAxis, y_axis_member
 
 MOST_CELLS = 10**8
 """Properties times objects: as a table, features that share no names would need memory by the square."""

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
 from vorotool.plain import plain
-from vorotool.types.axis import YAxis
-from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.fields import YAxis
+from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.values import counted
 
 LARGEST_LABEL = 0xFFFFFFFF

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, Kind, Message, UsageError, option
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.numeric.crs import TO_CRS, crs_member, crs_name, crs_text, note_degrees, same_crs
-from vorotool.types.axis import DOWN, UP, YAxis
-from vorotool.types.fields import with_y_axis
+from vorotool.types.fields import DOWN, UP, YAxis, with_y_axis
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.polygons.polygon_set import PolygonSet
 

@@ -40,7 +40,7 @@ from vorotool.formats.points.columns import (
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.numbers import typed_texts
 from vorotool.plain import plain
-from vorotool.types.axis import UNSTATED, UP
+from vorotool.types.fields import UNSTATED, UP
 
 GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
 """Names of columns with geometry."""

@@ -23,7 +23,7 @@ from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.points.columns import PointRows
 from vorotool.formats.points.tables import is_table, points_of_objects
 from vorotool.formats.text.tables import stated_unit
-from vorotool.types.axis import UP
+from vorotool.types.fields import UP
 
 _READER = option("skeleton-exact reads", 'geometry="polygons" reads')
 _ALONG = option("--what points -f csv there", "points_along")

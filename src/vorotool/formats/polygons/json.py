@@ -30,10 +30,10 @@ from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.text.row_writer import Column, RowShape
 from vorotool.formats.text.tables import json_bytes, json_text, stated_unit, write_collection
 from vorotool.products.formats import resolved
-from vorotool.types.axis import MEMBER as Y_AXIS
-from vorotool.types.axis import UNSTATED, UP
-from vorotool.types.polygons.conversion import closed_ring
+from vorotool.types.fields import MEMBER as Y_AXIS
+from vorotool.types.fields import UNSTATED, UP
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.types.polygons.shapely_geometry import closed_ring
 from vorotool.types.table import Computed
 
 _AS_GEOJSON = option("--what offset -f geojson", 'fmt="geojson"')

@@ -15,8 +15,8 @@ from vorotool.formats.text.row_writer import coordinate_text
 from vorotool.numeric.numbers import distinct
 from vorotool.plain import plain
 from vorotool.types.box import bounds
-from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.values import counted
 
 _VERTICES = "<vertices> 2 <attributes> <0 or 1 boundary markers>"

@@ -21,8 +21,8 @@ from vorotool.formats.polygons.json import read_json, write_items
 from vorotool.formats.results.rows import PREFIXES, ArrayRows, JsonRows, Rows, is_number
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows
 from vorotool.formats.text.tables import json_bytes, json_text, write_arrays
-from vorotool.types.axis import MEMBER as Y_AXIS
-from vorotool.types.axis import UNSTATED
+from vorotool.types.fields import MEMBER as Y_AXIS
+from vorotool.types.fields import UNSTATED
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import SiteTable
 from vorotool.types.table import Lookup

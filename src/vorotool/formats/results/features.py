@@ -21,9 +21,9 @@ from vorotool.formats.text.tables import (
     write_collection,
     write_npz,
 )
-from vorotool.numeric.ragged import owners, within
-from vorotool.types.axis import MEMBER as Y_AXIS
+from vorotool.numeric.arrays import owners, within
 from vorotool.types.features import Areas, Mixture, Rows, features_of, parts_of, rows_of
+from vorotool.types.fields import MEMBER as Y_AXIS
 from vorotool.types.mesh.cells import CellSet
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Computed, Lookup

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.formats.text.rings import report_emptied, written_rings
 from vorotool.formats.text.row_writer import Column
-from vorotool.numeric.coordinate_grid import current_decimals, on_grid, record_places
-from vorotool.numeric.ragged import Nesting
+from vorotool.numeric.arrays import Nesting
+from vorotool.numeric.coordinates import current_decimals, on_grid, record_places
 from vorotool.types.features import Areas, Corners, Lines, Rows
 from vorotool.types.table import Computed, Lookup
 

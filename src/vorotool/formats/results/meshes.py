@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
-from vorotool.types.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
-from vorotool.types.mesh.proximity import ProximityGraph
-from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.mesh.cells import ProximityGraph
+from vorotool.types.mesh.triangulation import AnyTriangulation, DigitalTriangulation, Triangulation
 from vorotool.types.table import Lookup
 
 

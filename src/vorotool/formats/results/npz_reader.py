@@ -18,9 +18,9 @@ from vorotool.formats.results.rows import ArrayRows
 from vorotool.formats.results.skeleton_files import read_skeleton
 from vorotool.formats.results.voronoi_files import read_sites as read_map_sites
 from vorotool.formats.results.voronoi_files import read_voronoi
-from vorotool.numeric.ragged import divides, owners
-from vorotool.types.axis import MEMBER as Y_AXIS
-from vorotool.types.axis import UNSTATED
+from vorotool.numeric.arrays import divides, owners
+from vorotool.types.fields import MEMBER as Y_AXIS
+from vorotool.types.fields import UNSTATED
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet, set_of_rings
 
 _CELLS = option("delaunay --what cells", "voronoi_cells")

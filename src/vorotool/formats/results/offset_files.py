@@ -13,7 +13,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results import documents as d
 from vorotool.formats.results.documents import LATTICE_STEP, as_read, as_written
 from vorotool.formats.results.rows import Rows
-from vorotool.numeric.ragged import starts_of
+from vorotool.numeric.arrays import starts_of
 from vorotool.types.skeleton.offsets import PIECE_KINDS, RING_KINDS, Offsets
 
 TYPE = "vorotool.offsets"

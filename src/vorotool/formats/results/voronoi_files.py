@@ -19,7 +19,7 @@ from vorotool.formats.results import documents as d
 from vorotool.formats.results.rows import PREFIXES, ArrayRows, JsonRows, Rows, is_number
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
 from vorotool.formats.text.tables import json_text, write_arrays
-from vorotool.numeric.ragged import owners, starts_of
+from vorotool.numeric.arrays import owners, starts_of
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Lookup
 from vorotool.types.voronoi.tables import KINDS, kinds_of

@@ -6,8 +6,8 @@ from types import TracebackType
 from typing import Any, BinaryIO, Self
 
 from vorotool.formats.text.tables import json_text
-from vorotool.numeric.coordinate_grid import record_system_unread
-from vorotool.types.axis import MEMBER
+from vorotool.numeric.coordinates import record_system_unread
+from vorotool.types.fields import MEMBER
 
 
 class JsonItems:

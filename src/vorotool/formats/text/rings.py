@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import RepairWarning, VerificationError, warn
 from vorotool.formats.text.snapping import is_among, snapped
-from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.coordinate_grid import Grid, current_decimals, is_verified, on_grid, rounded
-from vorotool.numeric.equality import index_of_rows
-from vorotool.numeric.ragged import Nesting, following, owners, ranges, starts_of
+from vorotool.numeric.arrays import Floats, Indices, Nesting, following, owners, ranges, starts_of
+from vorotool.numeric.checks import index_of_rows
+from vorotool.numeric.coordinates import Grid, current_decimals, is_verified, on_grid, rounded
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 
 _UNSOUND, _CLASHES = 1, 2

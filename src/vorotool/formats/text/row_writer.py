@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import UsageError, option
 from vorotool.numeric.checks import is_masked_array
-from vorotool.numeric.coordinate_grid import on_grid
+from vorotool.numeric.coordinates import on_grid
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import in_order
 from vorotool.plain import plain

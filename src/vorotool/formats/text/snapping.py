@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.coordinate_grid import Grid
-from vorotool.numeric.ragged import Nesting, following, owners, starts_of
+from vorotool.numeric.arrays import Floats, Indices, Nesting, following, owners, starts_of
+from vorotool.numeric.coordinates import Grid
 from vorotool.plain import plain
 
 Rings = tuple[Floats, Nesting]

@@ -22,11 +22,11 @@ from vorotool.formats.text.row_writer import (
     write_list_rows,
     write_rows,
 )
-from vorotool.numeric.coordinate_grid import on_grid, record_places
+from vorotool.numeric.coordinates import on_grid, record_places
 from vorotool.numeric.length_units import ascii_unit, is_known
 from vorotool.numeric.numbers import NumberText
 from vorotool.numeric.parallel import in_order
-from vorotool.types.axis import MEMBER, UP, YAxis
+from vorotool.types.fields import MEMBER, UP, YAxis
 from vorotool.types.mesh.tables import MEASURE, unit_of_measure
 from vorotool.types.table import Computed, Lookup, Table
 

@@ -18,7 +18,7 @@ from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.formats.volumes.zarr_volume import ZarrVolume
 from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.products.inputs import VOLUME_NAMES, known_input_format
-from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.volumes.volume import Volume
 
 _HEADS = ((b"II*\x00", "tiff"), (b"MM\x00*", "tiff"), (b"II+\x00", "tiff"), (b"MM\x00+", "tiff"), (MAGIC, "npy"))

@@ -14,7 +14,7 @@ from vorotool.formats.images.tiff_grid import NO_UNIT, NODATA, imagej_unit, rati
 from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, write_pages
 from vorotool.formats.io.arrays import write_npy
 from vorotool.formats.volumes.tiff_stack import PIXEL
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.pixels import PixelGrid
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
 from vorotool.types.volumes.voxel_frame import VoxelGrid

@@ -19,7 +19,7 @@ from vorotool.formats.zarr.multiscales import OME_ENDING, add_scales, has_long_n
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import open_store
 from vorotool.numeric.parallel import in_order, start
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.pixels import PixelGrid
 from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 Result = TypeVar("Result")

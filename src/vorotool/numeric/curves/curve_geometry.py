@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.arrays import Floats
-from vorotool.numeric.curves.circular_arcs import chords_of, middles_of
+from vorotool.numeric.curves.flatten import chords_of, middles_of
 
 PARTS = {
     "POLYGON": "LINEARRING",

@@ -7,11 +7,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.curves.circular_arcs import chords_of
-from vorotool.numeric.curves.flatten import polylines
+from vorotool.numeric.arrays import Floats, Indices, ranges, starts_of
+from vorotool.numeric.curves.flatten import chords_of, polylines
 from vorotool.numeric.curves.inverse_functions import PI, hypotenuse, inverse_sine, inverse_sinh
-from vorotool.numeric.ragged import ranges, starts_of
 from vorotool.plain import plain
 
 _SMALL = 0.25

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.ragged import owners, within
+from vorotool.numeric.arrays import owners, within
 
 HEIGHT, WIDTH, ADVANCE = 7, 5, 6
 """Of a glyph, and from one to the next, in cells."""

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import field
+from dataclasses import field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.curves.circular_arcs import chords_of
-from vorotool.numeric.curves.flatten import polylines
+from vorotool.numeric.arrays import following, owners, starts_of, within
+from vorotool.numeric.curves.flatten import chords_of, cubic_polylines, polylines
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
-from vorotool.numeric.ragged import following, owners, starts_of, within
 from vorotool.plain import plain
-from vorotool.render.canvas.styles import INK, SEED, PictureStyle
+from vorotool.render.canvas.styles import INK, SEED, PictureStyle, edge_color
 from vorotool.types.box import bounds
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.pixels import PixelGrid
 
 MARGIN = 0.02
 """Of the larger side of the data, on each side of the page, where nothing else says."""
@@ -329,3 +328,65 @@ class ImagePage(Page):
     def length(self, distance: float) -> float:
         """Px of a distance."""
         return distance / self._backdrop.side
+
+
+def halo_width(width: float) -> float:
+    """Give the width of a line with an edge of up to 1 px on both sides: many fine lines leave no more room."""
+    return width + min(2.0, 2 * width)
+
+
+def with_halos(layers: Sequence[Layer]) -> list[Layer]:
+    """Put an edge beneath each layer of lines and of points, so that they show on dark and on light ground."""
+    made: list[Layer] = []
+    for layer in layers:
+        name = f"{layer.name}-halo"
+        if isinstance(layer, Arcs):
+            made.append(
+                replace(layer, name=name, width=halo_width(layer.width), edge=edge_color(layer.edge), fill=None)
+            )
+        elif isinstance(layer, Lines | Curves):
+            made.append(replace(layer, name=name, width=halo_width(layer.width), color=edge_color(layer.color)))
+        elif isinstance(layer, Points):
+            made.append(replace(layer, halo=edge_color(layer.color)))
+            continue
+        made.append(layer)
+    return made
+
+
+@plain(eq=False)
+class Circles(Arcs):
+    """Circles, each of two arcs of half of it; see `circles`."""
+
+    @property
+    def radius(self) -> NDArray[np.float64]:
+        """(n,) of the circles."""
+        return np.asarray((self.start[::2, 0] - self.end[::2, 0]) / 2)
+
+
+def circles(name: str, xy: NDArray[np.float64], radius: NDArray[np.float64], edge: str, width: float) -> Circles:
+    """Give a layer of circles that are not filled."""
+    right, left = (xy + way * radius[:, None] * (1, 0) for way in (1, -1))
+    start, end = (np.stack(ends, axis=1).reshape(-1, 2) for ends in ((right, left), (left, right)))
+    rings = np.arange(0, 2 * len(xy) + 1, 2)
+    return Circles(name, start, end, np.repeat(xy, 2, axis=0), rings, None, edge, width, np.ones(2 * len(xy), bool))
+
+
+@plain(eq=False)
+class CubicCurves(Curves):
+    """Cubic Bézier curves."""
+
+    second: NDArray[np.int32] = field(kw_only=True)  # (m,) int32 array: its second one
+
+    def polylines(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """As of `Curves`."""
+        return cubic_polylines(self._curves(self.points), tolerance)
+
+    def flattened(self, places: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """As of `Curves`."""
+        points, start = cubic_polylines(self._curves(places), tolerance)
+        first = np.delete(np.arange(len(points)), start[1:] - 1)
+        return points, np.stack([first, first + 1], axis=1).astype(np.int32)
+
+    def _curves(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(m, 4, 2) control points."""
+        return places[np.stack([self.pairs[:, 0], self.control, self.second, self.pairs[:, 1]], axis=1)]

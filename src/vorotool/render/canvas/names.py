@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from vorotool.render.canvas.layers import Texts
-from vorotool.types.named_columns import column_of
+from vorotool.types.identity import column_of
 
 
 def column_texts(properties: Mapping[str, Sequence[Any]], column: str | None, ids: Iterable[Any]) -> list[str]:

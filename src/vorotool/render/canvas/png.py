@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError, option
-from vorotool.numeric.ragged import owners, ranges
+from vorotool.numeric.arrays import owners, ranges
 from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.glyphs import ADVANCE, HEIGHT, text_cells
+from vorotool.render.canvas.insets import PixelPage
 from vorotool.render.canvas.layers import Arcs, CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts
-from vorotool.render.canvas.scaled_page import PixelPage
 from vorotool.render.canvas.styles import edge_color
 
 FINE = 4

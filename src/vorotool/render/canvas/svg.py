@@ -11,13 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.curves.circular_arcs import middles_of
+from vorotool.numeric.curves.flatten import middles_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.xml_text import xml_characters
-from vorotool.render.canvas.curve_layers import Circles, CubicCurves
+from vorotool.render.canvas.insets import PixelPage
 from vorotool.render.canvas.layers import (
     Arcs,
     Backdrop,
+    Circles,
+    CubicCurves,
     CurvedPolygons,
     Curves,
     Layer,
@@ -27,7 +29,6 @@ from vorotool.render.canvas.layers import (
     Polygons,
     Texts,
 )
-from vorotool.render.canvas.scaled_page import PixelPage
 
 PATH_ROWS = 4096
 """Lines or polygons of one path: viewers slow down with longer ones, and with many elements."""

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.plain import plain
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
 
 if TYPE_CHECKING:
     from vorotool.products.registry import Product

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.numeric.ragged import ranges
+from vorotool.numeric.arrays import ranges
 from vorotool.render.canvas.glyphs import text_cells
 from vorotool.render.canvas.layers import Backdrop
 from vorotool.render.canvas.styles import PicturePalette
-from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 
 LAYERS = ("cells", "diagram", "objects", "seeds", "labels")

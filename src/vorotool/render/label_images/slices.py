@@ -4,24 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.interior_seeds import inner_runs
 from vorotool.errors import LimitError, UsageError
-from vorotool.numeric.ragged import ranges
+from vorotool.numeric.arrays import ranges
 from vorotool.plain import plain
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.images import LabelImage
+from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
-
-if TYPE_CHECKING:
-    pass
 
 Z, Y, X = range(3)
 

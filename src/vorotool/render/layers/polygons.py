@@ -9,14 +9,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.ragged import starts_of
-from vorotool.render.canvas.curve_layers import circles
-from vorotool.render.canvas.layers import Arcs, Layer, Lines, Page, Points, Polygons, Texts, bounds_of, name_size
+from vorotool.numeric.arrays import starts_of
+from vorotool.render.canvas.layers import (
+    Arcs,
+    Layer,
+    Lines,
+    Page,
+    Points,
+    Polygons,
+    Texts,
+    bounds_of,
+    circles,
+    name_size,
+)
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.styles import FAINT, LIGHT, RESULT, SEED, WHITE
 from vorotool.render.label_images.png import checked_layers
-from vorotool.types.axis import is_up
 from vorotool.types.distances.distances import Distances
+from vorotool.types.fields import is_up
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.discs import Discs
 from vorotool.types.skeleton.offsets import Offsets
@@ -99,7 +109,7 @@ def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
     """Names of features: inside the largest polygon, in the middle of the longest line, on the first point."""
     import shapely
 
-    from vorotool.types.polygons.conversion import to_shapely
+    from vorotool.types.polygons.shapely_geometry import to_shapely
 
     assert polygons.feature is not None  # PolygonSet has filled it in
     shapes = np.asarray(to_shapely(polygons), dtype=object)

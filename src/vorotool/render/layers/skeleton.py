@@ -10,14 +10,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.render.canvas.curve_layers import CubicCurves
-from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Polygons, Texts, bounds_of, name_size
+from vorotool.render.canvas.layers import (
+    CubicCurves,
+    Curves,
+    Layer,
+    Lines,
+    Page,
+    Points,
+    Polygons,
+    Texts,
+    bounds_of,
+    name_size,
+)
 from vorotool.render.canvas.names import without_empty
 from vorotool.render.canvas.styles import EDGE as CELL_EDGE
 from vorotool.render.canvas.styles import FAINT, INK, RESULT, SEED, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import feature_names, names_of_features, polygon_layers, polygon_page
-from vorotool.types.axis import is_up
+from vorotool.types.fields import is_up
 from vorotool.types.skeleton.centerline import Centerlines
 from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.necks import Necks

@@ -16,8 +16,8 @@ from vorotool.render.canvas.styles import EDGE, INK, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.mesh import cell_ids
 from vorotool.render.layers.polygons import polygon_layers
-from vorotool.types.axis import is_up
 from vorotool.types.box import extent_sides
+from vorotool.types.fields import is_up
 from vorotool.types.voronoi.tables import neighbor_pairs, site_shapes
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 

@@ -14,20 +14,20 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from vorotool.errors import LimitError, option
+from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.numbers import nearest_double
-from vorotool.numeric.ragged import starts_of
 from vorotool.products.formats import AS_PICTURE, AS_SVG
 from vorotool.render.canvas.styles import cell_color
 from vorotool.render.label_images.crack_outline import crack_loops
 from vorotool.render.pages.alpha_plot import CURVES
 from vorotool.types.alpha.complex import AlphaComplex, Radius
-from vorotool.types.axis import is_up
 from vorotool.types.box import bounds
+from vorotool.types.fields import is_up
+from vorotool.types.images import LabelImage
 from vorotool.types.mesh.cells import CellSet
-from vorotool.types.points.label_image import LabelImage
+from vorotool.types.pixels import SQUARE, PixelSides
 from vorotool.types.skeleton.critical_values import ArcProfiles, CriticalValues
 from vorotool.types.skeleton.skeleton import Skeleton
-from vorotool.types.spacing import SQUARE, PixelSides
 from vorotool.types.table import Table
 from vorotool.types.voronoi.shapes import cell_rings
 from vorotool.types.voronoi.voronoi_map import VoronoiMap

@@ -1,20 +1,26 @@
-"""One alpha shape of points: edges, regions, polygons."""
+"""Alpha shapes of points, and alpha hulls."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
+from math import sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import owners, starts_of, within
+from vorotool.numeric.curves.inverse_functions import PI, cosine_and_sine, hypotenuse, inverse_sine
 from vorotool.numeric.numbers import nearest_double
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.alpha.complex import CLASSES, AlphaComplex, Radius
+from vorotool.types.features import Mixture, Rows, of_points
 from vorotool.types.fields import record
-from vorotool.types.polygons.polygon_set import HOLE, PolygonSet
-from vorotool.types.values import Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet, set_of_rings
+from vorotool.types.table import Lookup, Table
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, WithParts, counted, placed
 
 if TYPE_CHECKING:
     from vorotool.types.features import Mixture, Rows
@@ -181,3 +187,153 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
         sizes = (counted(len(self.points), "point"), counted(self.region_count, "region"))
         text = f"r = {nearest_double(self.r):.6g}, {', '.join(sizes)}, {counted(len(self.edge_index), 'edge')}"
         return placed(text, self.family.mesh.crs)
+
+
+FINENESS = 7.529816085545908e-05
+"""Of the radius: how far the chords of flattened hulls may be from their arcs: 1 - cos(π/256), 256 to a circle."""
+
+
+@record
+class AlphaHull(Value, Tabular, Geometric, Pictured):
+    """Alpha hull: the complement of all open discs of radius r that contain no point.
+
+    Arcs run clockwise around their centers, with the hull on their left. The arcs of each ring are consecutive: each
+    begins where another one ends.
+
+    Parameters
+    ----------
+    shape : AlphaShape
+        The shape of the same radius.
+    start, end, center : (k, 2) float64 array
+        Ends of the arcs, and centers of their circles, in input units.
+    edge : (k,) int32 array
+        The boundary edge of the family that each arc belongs to.
+    ring_starts : (q + 1,) int64 array
+        The first arc of each ring, and k.
+    points : (p,) int32 array
+        Isolated points of the hull: those neither on an arc nor inside.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.3; Edelsbrunner, Kirkpatrick and Seidel 1983.
+    """
+
+    shape: AlphaShape = f.nested()
+    start: NDArray[np.float64] = f.position("arcs", 2)
+    end: NDArray[np.float64] = f.position("arcs", 2)
+    center: NDArray[np.float64] = f.position("arcs", 2)
+    edge: NDArray[np.int32] = f.index("arcs")
+    ring_starts: NDArray[np.int64] = f.starts("rings", "arcs", least=1)
+    points: NDArray[np.int32] = f.index("points")
+
+    def __len__(self) -> int:
+        return len(self.start)
+
+    @property
+    def r(self) -> float:
+        """Radius of all arcs."""
+        return float(self.shape.r)
+
+    @cached_property
+    def angles(self) -> NDArray[np.float64]:
+        """(k,) angle of each arc at its center, in radians: at most π, since an arc is less than half a circle."""
+        return 2 * inverse_sine(hypotenuse(*(self.end - self.start).T) / 2 / self.r)
+
+    @property
+    def perimeter(self) -> float:
+        """Length of all arcs."""
+        return float(self.angles.sum() * self.r)
+
+    def flattened(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Return the rings as polygons, with chords within a tolerance of the arcs.
+
+        Returns
+        -------
+        xy : (n, 2) float64 array
+            Vertices of all rings, each once.
+        ring_starts : (q + 1,) int64 array
+            The first vertex of each ring, and n.
+        """
+        if not len(self):  # of an image without foreground the radius is infinite
+            return np.empty((0, 2)), np.zeros(1, np.int64)
+        # A chord over an angle a is off by r (1 - cos(a / 2)), which is 2 r times the square of sin(a / 4).
+        widest = 4 * float(inverse_sine(sqrt(tolerance / self.r / 2))) or PI / 512
+        counts = np.maximum(np.ceil(self.angles / widest), 1).astype(np.int64)
+        arc, step = owners(counts), within(counts)
+        turned = self.angles[arc] * (step / counts[arc])
+        offset = self.start[arc] - self.center[arc]
+        cosine, sine = cosine_and_sine(turned)
+        x = offset[:, 0] * cosine + offset[:, 1] * sine
+        y = offset[:, 1] * cosine - offset[:, 0] * sine
+        xy = np.where((step == 0)[:, None], self.start[arc], self.center[arc] + np.stack([x, y], axis=1))
+        return xy, starts_of(counts)[self.ring_starts]
+
+    def polygons(self) -> list[list[NDArray[np.float64]]]:
+        """Return the flattened rings of each polygon: the counter-clockwise shell, then its clockwise holes."""
+        import shapely
+
+        xy, starts = self.flattened(self.r * FINENESS)
+        exponent = int(np.frexp(np.abs(xy).max(initial=0.0))[1])
+        near_one = np.ldexp(xy, -exponent)  # of any magnitude areas are floating-point numbers then
+        spans = [slice(a, b) for a, b in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
+        rings, small = [xy[span] for span in spans], [near_one[span] for span in spans]
+        areas = np.array([_signed_area(ring) for ring in small])
+        shells = sorted(np.flatnonzero(areas > 0).tolist(), key=lambda k: (areas[k], k))
+        polygons = {k: [rings[k]] for k in shells}
+        for k in np.flatnonzero(areas < 0).tolist():
+            middle = shapely.Polygon(small[k]).representative_point()
+            for shell in shells:
+                if areas[shell] > -areas[k] and shapely.contains(shapely.Polygon(small[shell]), middle):
+                    polygons[shell].append(rings[k])
+                    break
+        return [polygons[k] for k in sorted(polygons)]
+
+    def table(self) -> Table:
+        """Return a table of the arcs: ``x0, y0, x1, y1, cx, cy, r, label_a, label_b, ring``.
+
+        The labels are those of the points on the circle of the arc; rings count from 1.
+        """
+        family = self.shape.family
+        labels = family.mesh.label_array
+        ends = family.edges[self.edge]
+        rings = owners(np.diff(self.ring_starts)) + 1
+        ends_of_arcs = {"0": self.start, "1": self.end}
+        return Table(
+            {
+                **{f"{axis}{end}": places[:, k] for end, places in ends_of_arcs.items() for k, axis in enumerate("xy")},
+                "cx": self.center[:, 0],
+                "cy": self.center[:, 1],
+                "r": np.full(len(self), self.r),
+                "label_a": Lookup(labels, np.ascontiguousarray(ends[:, 0])),
+                "label_b": Lookup(labels, np.ascontiguousarray(ends[:, 1])),
+                "ring": rings,
+            }
+        )
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        return Rows(self.table())
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Mixture:
+        mesh, polygons = self.shape.family.mesh, self.polygons()
+        counts = np.array([len(rings) for rings in polygons], dtype=np.int64)
+        rings = [ring for each in polygons for ring in each]
+        kinds = np.where(within(counts) == 0, SHELL, HOLE)
+        xy = np.concatenate([np.empty((0, 2)), *rings])
+        shapes = set_of_rings(xy, [len(ring) for ring in rings], kinds, owners(counts))
+        named = {"class": ["hull"] * len(polygons)}
+        points = {"class": ["point"] * len(self.points), "label": mesh.label_array[self.points]}
+        return Mixture(
+            (
+                Rows(named, {}, mesh, None, replace(shapes, properties=named)),
+                Rows(points, {}, mesh, self.points, of_points(mesh.points[self.points])),
+            )
+        )
+
+    def _summary(self) -> str:
+        rings = counted(len(self.ring_starts) - 1, "ring")
+        return placed(f"r = {self.r:.6g}, {counted(len(self), 'arc')}, {rings}", self.shape.family.mesh.crs)
+
+
+def _signed_area(ring: NDArray[np.float64]) -> float:
+    x, y = (ring - ring[0]).T
+    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum()) / 2

@@ -15,9 +15,8 @@ from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.features import Corners, Rows, chosen, point_rows, without_places
 from vorotool.types.identity import with_ends
-from vorotool.types.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
-from vorotool.types.mesh.proximity import ProximityGraph
-from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.mesh.cells import ProximityGraph
+from vorotool.types.mesh.triangulation import AnyTriangulation, DigitalTriangulation, Triangulation
 from vorotool.types.table import Computed, Lookup, Table
 from vorotool.types.values import Tabular, Value, counted
 

@@ -9,13 +9,11 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.checks import whole_numbers
+from vorotool.numeric.checks import check_index, whole_numbers
 from vorotool.numeric.coordinates import coordinate_rows
-from vorotool.numeric.equality import check_index
 from vorotool.types import fields as f
-from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.box import Box
-from vorotool.types.fields import record
+from vorotool.types.fields import UNSTATED, YAxis, record
 from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
 
 if TYPE_CHECKING:

@@ -10,14 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.checks import whole_numbers
-from vorotool.numeric.equality import check_index
+from vorotool.numeric.checks import check_index, whole_numbers
 from vorotool.types import fields as f
-from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.features import Rows, point_rows
-from vorotool.types.fields import record
-from vorotool.types.pixel_frame import Frame
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.fields import UNSTATED, YAxis, record
+from vorotool.types.pixels import Frame, PixelGrid
 from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted
 
 SCALES = tuple(2**k for k in range(41))

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats
-from vorotool.numeric.ragged import owners
+from vorotool.numeric.arrays import Floats, owners
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import Skeleton, ends_of_sites
 

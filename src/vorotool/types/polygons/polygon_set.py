@@ -11,13 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import InputError
+from vorotool.numeric.arrays import divides, following, starts_of, within
+from vorotool.numeric.checks import check_index
 from vorotool.numeric.coordinates import coordinate_rows
-from vorotool.numeric.equality import check_index
-from vorotool.numeric.ragged import divides, following, starts_of, within
 from vorotool.types import fields as f
-from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.box import Box
-from vorotool.types.fields import record
+from vorotool.types.fields import UNSTATED, YAxis, record
 from vorotool.types.identity import feature_labels, names_of, other_columns
 from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
 

@@ -12,7 +12,7 @@ from vorotool.numeric.curves.inverse_functions import inverse_sinh
 from vorotool.plain import plain
 from vorotool.types import fields as f
 from vorotool.types.fields import Record, record
-from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.pixels import PixelGrid
 
 _FLAT = 0.125
 """Slopes that differ by less along an arc: 8 Gauss nodes integrate it to 2^-60, where closed forms cancel."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.ragged import owners
+from vorotool.numeric.arrays import owners
 from vorotool.plain import plain
 from vorotool.types.identity import names_of, part_table
 from vorotool.types.polygons.planar_graph import PlanarGraph

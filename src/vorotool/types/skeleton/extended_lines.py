@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.curves.flatten import chained
-from vorotool.numeric.exact_products import difference, product
-from vorotool.numeric.ragged import owners
+from vorotool.numeric.numbers import difference, product
 from vorotool.plain import plain
 from vorotool.types import fields as f
 from vorotool.types.features import Lines, Rows, of_polygons

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.curves.circular_arcs import chords_of
-from vorotool.numeric.curves.flatten import circle_tolerances
+from vorotool.numeric.arrays import owners
+from vorotool.numeric.checks import index_of_rows
+from vorotool.numeric.curves.flatten import chords_of, circle_tolerances
 from vorotool.numeric.curves.inverse_functions import inverse_sine
-from vorotool.numeric.equality import index_of_rows
 from vorotool.numeric.numbers import checked_flatten
-from vorotool.numeric.ragged import owners
 from vorotool.types import fields as f
 from vorotool.types.features import Rows, of_shapes
 from vorotool.types.fields import record

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.curves.flatten import chained, cubic_polylines, curve_tolerances
 from vorotool.numeric.numbers import checked_flatten
-from vorotool.numeric.ragged import owners
 from vorotool.types import fields as f
 from vorotool.types.features import Lines, Rows, of_polygons
 from vorotool.types.fields import record

@@ -15,8 +15,8 @@ from vorotool.numeric.parallel import in_chunks
 from vorotool.types.arguments import check_value
 from vorotool.types.features import Rows
 from vorotool.types.identity import names_of, part_table
-from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, KINDS, SIDES, Skeleton
 from vorotool.types.table import Lookup, Table
 

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.elements import Elements
-from vorotool.types.points.label_image import check_labels
-from vorotool.types.spacing import PixelSides
+from vorotool.types.images import check_labels
+from vorotool.types.pixels import PixelSides
 from vorotool.types.values import Graph, Tabular, Value
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame, VoxelGrid

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from vorotool.numeric.equality import check_index
+from vorotool.numeric.checks import check_index
 from vorotool.types import fields as f
 from vorotool.types.fields import record
 from vorotool.types.points.point_set import checked_labels, finite_rows

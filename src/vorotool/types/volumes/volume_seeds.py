@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.checks import whole_numbers
-from vorotool.numeric.equality import check_index
+from vorotool.numeric.checks import check_index, whole_numbers
 from vorotool.types import fields as f
 from vorotool.types.fields import record
 from vorotool.types.values import Value, counted

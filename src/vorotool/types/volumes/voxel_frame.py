@@ -8,8 +8,7 @@ from typing import Literal
 from vorotool.errors import LimitError, option
 from vorotool.numeric.length_units import unit_name
 from vorotool.plain import plain
-from vorotool.types.pixel_frame import MAX_SIDE, check_frame
-from vorotool.types.pixel_grid import ALIKE
+from vorotool.types.pixels import ALIKE, MAX_SIDE, check_frame
 
 
 @plain

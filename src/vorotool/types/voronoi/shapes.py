@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, Nesting, owners, starts_of, within
 from vorotool.numeric.curves.flatten import circle_tolerances, curve_tolerances, least_focal_distances
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.ragged import Nesting, owners, starts_of, within
 from vorotool.products.formats import resolved
 from vorotool.types.features import Areas, Lines, Rows, without_places
 from vorotool.types.voronoi.tables import border_table, cell_table
@@ -62,7 +61,7 @@ def cell_rings(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indi
 
 def cell_polygons(cells: VoronoiMap, tolerance: float | None) -> NDArray[Any]:
     """(s,) each cell as a polygon or multipolygon of shapely; what two cells share is the same in both, bit for bit."""
-    made: NDArray[Any] = resolved("convert.geometry:shapely_of")(map_features(cells, "cells", tolerance).geometry)
+    made: NDArray[Any] = resolved("convert.frames:shapely_of")(map_features(cells, "cells", tolerance).geometry)
     return made
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.types.features import Rows
 from vorotool.types.identity import with_ends
-from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.polygons.shapely_geometry import used_shapes
 from vorotool.types.table import Computed, Lookup, Table
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
-from vorotool.numeric.ragged import owners
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.fields import record
