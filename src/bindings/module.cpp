@@ -35,6 +35,7 @@ constexpr Room rooms[] = {
     {"skeleton", bind_skeleton, "From segment Voronoi diagrams to skeletons."},
     {"spatial", bind_spatial, "What is nearest, and which boxes are disjoint."},
     {"tessellation", bind_tessellation, "The tessellation of frames, and its check."},
+    {"tetrahedra", bind_tetrahedra, "Delaunay triangulations of space, and their exact predicates."},
     {"text", bind_text,
      "Numbers, fields and polygons as text, read and written: a delimiter is one of , ; tab and blank."},
     {"thickness", bind_thickness, "The largest disc inside an outline that covers each pixel."},

@@ -23,6 +23,7 @@ void bind_segment_voronoi(nanobind::module_& room);
 void bind_skeleton(nanobind::module_& room);
 void bind_spatial(nanobind::module_& room);
 void bind_tessellation(nanobind::module_& room);
+void bind_tetrahedra(nanobind::module_& room);
 void bind_text(nanobind::module_& room);
 void bind_thickness(nanobind::module_& room);
 void bind_voronoi(nanobind::module_& room);

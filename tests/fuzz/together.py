@@ -39,6 +39,7 @@ ENGINES = (
     Share("spacing.py", ("--pixels", MORE)),
     Share("volumes.py", ("--voxels", MORE)),
     Share("predicates.py", ("--calls", MORE)),
+    Share("space_predicates.py", ("--calls", MORE)),
     Share("delaunay.py"),
     Share("cells.py"),
     Share("written.py"),

@@ -19,6 +19,7 @@ from vorotool._core import (
     skeleton as skeleton,
     spatial as spatial,
     tessellation as tessellation,
+    tetrahedra as tetrahedra,
     text as text,
     thickness as thickness,
     volumes as volumes,
