@@ -80,3 +80,22 @@ def run_families(
         family, random = families[case % len(families)], cases.random(case)
         cases.judge(case, family.__name__, failure(family(random), random))
     return cases.end(what)
+
+
+def compare(
+    unit: str, check: Callable[[np.random.Generator, int], tuple[str, int, int]], side: Callable[[int], int]
+) -> int:
+    """Check configurations, each of a largest side, until enough pixels or voxels were compared; give an exit code."""
+    arguments = options(10**8, unit).parse_args()
+    cases, wrong = Cases(arguments), 0
+    compared: Counter[str] = Counter()
+    for case in cases:
+        if compared.total() >= arguments.count:
+            break
+        name, count, bad = check(cases.random(case), side(case))
+        compared[name] += count
+        wrong += bad
+        cases.judge(case, name, f"{bad} {unit}s" if bad else None)
+    for name, count in sorted(compared.items()):
+        print(f"{name:14} {count:12,} {unit}s")
+    return cases.end(f"configurations, {compared.total():,} {unit}s, {wrong} wrong")

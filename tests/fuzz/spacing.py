@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import os
 import sys
-from collections import Counter
 from fractions import Fraction
 from math import gcd, isqrt
 from pathlib import Path
@@ -19,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import compare
 from support.families.families import random_case
 from vorotool import _core
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
@@ -113,22 +112,5 @@ def check(random: np.random.Generator, side: int) -> tuple[str, int, int]:
     return case.name, wrong.size, int(wrong.sum())
 
 
-def main() -> int:
-    """Run until enough pixels were compared; exit 1 if any was wrong or none was compared."""
-    arguments = options(10**8, "pixel").parse_args()
-    cases, wrong = Cases(arguments), 0
-    compared: Counter[str] = Counter()
-    for case in cases:
-        if compared.total() >= arguments.count:
-            break
-        name, pixels, bad = check(cases.random(case), side=600 if case % 8 == 0 else SMALL)
-        compared[name] += pixels
-        wrong += bad
-        cases.judge(case, name, f"{bad} pixels" if bad else None)
-    for name, pixels in sorted(compared.items()):
-        print(f"{name:14} {pixels:12,} pixels")
-    return cases.end(f"configurations, {compared.total():,} pixels, {wrong} wrong")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(compare("pixel", check, lambda case: 600 if case % 8 == 0 else SMALL))

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import os
 import sys
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import compare
 from support.families.families import fine_case, random_case
 from support.oracles.oracles import nearest_labels, nearest_labels_of_fine_seeds
 from vorotool import _core
@@ -48,22 +47,5 @@ def check(rng: np.random.Generator, side: int) -> tuple[str, int, int]:
     return name, right.size, int(wrong.sum())
 
 
-def main() -> int:
-    """Run until enough pixels were compared; exit 1 if any was wrong or none was compared."""
-    arguments = options(10**8, "pixel").parse_args()
-    cases, wrong = Cases(arguments), 0
-    compared: Counter[str] = Counter()
-    for case in cases:
-        if compared.total() >= arguments.count:
-            break
-        name, pixels, bad = check(cases.random(case), side=1000 if case % 8 == 0 else 40)
-        compared[name] += pixels
-        wrong += bad
-        cases.judge(case, name, f"{bad} pixels" if bad else None)
-    for name, pixels in sorted(compared.items()):
-        print(f"{name:14} {pixels:12,} pixels")
-    return cases.end(f"configurations, {compared.total():,} pixels, {wrong} wrong")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(compare("pixel", check, lambda case: 1000 if case % 8 == 0 else 40))

@@ -9,7 +9,6 @@ comparison takes the least of a distance and a label axis by axis, or seed by se
 from __future__ import annotations
 
 import sys
-from collections import Counter
 from math import isqrt
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -18,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import compare
 from vorotool import _core
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
 
@@ -150,22 +149,5 @@ def check(random: np.random.Generator, side: int) -> tuple[str, int, int]:
     return case.family, wrong.size, int(wrong.sum())
 
 
-def main() -> int:
-    """Run until enough voxels were compared; exit 1 if any was wrong or none was compared."""
-    arguments = options(10**8, "voxel").parse_args()
-    cases, wrong = Cases(arguments), 0
-    compared: Counter[str] = Counter()
-    for case in cases:
-        if compared.total() >= arguments.count:
-            break
-        name, voxels, bad = check(cases.random(case), side=150 if case % 4 == 0 else 40)
-        compared[name] += voxels
-        wrong += bad
-        cases.judge(case, name, f"{bad} voxels" if bad else None)
-    for name, voxels in sorted(compared.items()):
-        print(f"{name:14} {voxels:12,} voxels")
-    return cases.end(f"configurations, {compared.total():,} voxels, {wrong} wrong")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(compare("voxel", check, lambda case: 150 if case % 4 == 0 else 40))
