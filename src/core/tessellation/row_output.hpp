@@ -1,4 +1,4 @@
-// Output of the envelope of a row: labels, squared distances, distances.
+// What the envelope of a row gives: labels, squared distances, distances.
 #pragma once
 
 #include <algorithm>
@@ -24,18 +24,6 @@ template <class Arithmetic>
 void fill_labels(const RowKernel<Arithmetic>& kernel, const Envelope<Arithmetic>& envelope,
                  std::uint32_t* row) {
   kernel.fill32(envelope, row);
-}
-
-// All candidates equally near to a pixel are neighbors in the envelope, and the pixel holds the label of one
-// of them: the smallest over the ties at that pixel is the smallest of all.
-template <class Arithmetic, class Label>
-void settle_ties(const Envelope<Arithmetic>& envelope, Label* row) {
-  for (std::int32_t t = 0; t < envelope.tie_count; ++t) {
-    const std::int32_t i = envelope.ties[t];
-    const std::uint32_t smaller = std::min(envelope.label_of(i), envelope.label_of(i + 1));
-    Label& pixel = row[envelope.end[i]];
-    pixel = std::min(pixel, static_cast<Label>(smaller));
-  }
 }
 
 // Calls span(first pixel, last pixel, x, dy^2, label) for each candidate that is nearest on some pixel.

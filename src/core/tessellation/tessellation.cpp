@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/parallel.hpp"
+#include "core/tessellation/label_ties.hpp"
 #include "core/tessellation/row_output.hpp"
 #include "core/tessellation/row_sweep.hpp"
 #include "core/tessellation/watch.hpp"

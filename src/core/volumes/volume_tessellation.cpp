@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/parallel.hpp"
+#include "core/tessellation/label_ties.hpp"
 #include "core/tessellation/row_output.hpp"
 #include "core/tessellation/watch.hpp"
 #include "core/volumes/brick_sweep.hpp"
