@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/flat_map.hpp"
+#include "core/base/groups.hpp"
 #include "core/base/parallel.hpp"
 #include "core/tessellation/watch.hpp"
 #include "core/volumes/slab_scan.hpp"
@@ -21,7 +22,7 @@ using label_images::Run;
 namespace {
 
 // Voxels of a piece of parallel work: some milliseconds.
-constexpr std::size_t piece_voxels = std::size_t{1} << 21;
+constexpr std::size_t piece_voxels = std::size_t{1} << 19;
 
 // Called for the interfaces done, of which noise has millions.
 class Poll {
@@ -78,13 +79,8 @@ class SlabJoiner {
         if (side == 0) continue;
         for (std::size_t axis = 0; axis < 3; ++axis) all.regions[rank[side]].faces[axis] += each.faces[axis];
       }
-      const auto [least, most] = std::minmax(rank[each.a], rank[each.b]);
-      if (each.a != 0 && each.b != 0) all.interfaces.push_back({least, most, each.faces});
     }
-    std::sort(all.interfaces.begin(), all.interfaces.end(), [&](const Interface& p, const Interface& q) {
-      poll();
-      return p.a != q.a ? p.a < q.a : p.b < q.b;
-    });
+    all.interfaces = sort_interfaces(rank, poll);
     return all;
   }
 
@@ -171,6 +167,25 @@ class SlabJoiner {
       all.regions.push_back(regions_[order[k]]);
     }
     return rank;
+  }
+
+  // Those between two regions, by the places of both: in groups by the first, which are short as a rule.
+  std::vector<Interface> sort_interfaces(const std::vector<std::uint32_t>& rank, Poll& poll) const {
+    base::Groups<Interface> groups(labels_.size() - 1, [&](const auto& add) {
+      for (const Interface& each : interfaces_) {
+        poll();
+        if (each.a == 0 || each.b == 0) continue;
+        const auto [least, most] = std::minmax(rank[each.a], rank[each.b]);
+        add(least, Interface{least, most, each.faces});
+      }
+    });
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      std::sort(groups[k].begin(), groups[k].end(), [&](const Interface& p, const Interface& q) {
+        poll();
+        return p.b < q.b;
+      });
+    }
+    return groups.take();
   }
 
   // By number, in order of appearance; 0 is the background.

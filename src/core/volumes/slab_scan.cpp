@@ -48,7 +48,8 @@ std::span<SlabScan::Run> SlabScan::cut(std::span<const Label> row) {
   return runs;
 }
 
-// A row and its neighbor across an axis.
+// A row and its neighbor across an axis. The boundaries kept are those of the row above, which is that of the slice
+// before where a slice has one row.
 template <std::size_t Axis>
 void SlabScan::join_row(std::span<const Run> other, std::span<Run> row) {
   const std::size_t last = row.size() - 2;
@@ -56,7 +57,7 @@ void SlabScan::join_row(std::span<const Run> other, std::span<Run> row) {
     const Run& one = other[i];
     if (one.label == row[j].label) {
       if (one.label != 0) join(one, row[j]);
-      if (Axis == 1 && i > 0 && j > 0 && other[i - 1].label == row[j - 1].label)
+      if ((Axis == 1 || height_ == 1) && i > 0 && j > 0 && other[i - 1].label == row[j - 1].label)
         boundaries_[j].interface = last_boundaries_[i].interface;
     } else if (const bool right = (j < last) & (one.label == row[j + 1].label);
                right | ((j > 0) & (one.label == row[j - (j > 0)].label))) {  // which one is unpredictable
