@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from vorotool.types.pixels import Frame, PixelGrid
     from vorotool.types.polygons.polygon_set import PolygonSet
 
-UNPRUNED = {"diagram", "discs", "elements", "necks", "offset", "parts", "shape", "thickness"}
+UNPRUNED = {"diagram", "discs", "elements", "necks", "offset", "parts", "thickness"}
 """Results that pruning does not change."""
 
 PRUNE_CURVES = ", whose corners each have a branch: --prune angle=20 removes these branches"
