@@ -77,7 +77,7 @@ _HOME = {
     "outlines": "vorotool.engines.label_images.outlines",
     "planar_graph": "vorotool.engines.arrangement.planar_graph",
     "verify_planar_graph": "vorotool.engines.arrangement.planar_graph",
-    "Centerlines": "vorotool.types.skeleton.centerline",
+    "Centerlines": "vorotool.types.skeleton.extended_lines",
     "centerline": "vorotool.engines.centerlines.centerline",
     "ExtendedSkeleton": "vorotool.types.skeleton.extended_lines",
     "extend_ends": "vorotool.engines.centerlines.extended_ends",

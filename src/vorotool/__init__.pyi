@@ -311,14 +311,14 @@ from vorotool.types.polygons.planar_graph import (
 from vorotool.types.polygons.polygon_set import (
     PolygonSet as PolygonSet,
 )
-from vorotool.types.skeleton.centerline import (
-    Centerlines as Centerlines,
-)
 from vorotool.types.skeleton.critical_values import (
     CriticalValues as CriticalValues,
 )
 from vorotool.types.skeleton.discs import (
     Discs as Discs,
+)
+from vorotool.types.skeleton.extended_lines import (
+    Centerlines as Centerlines,
 )
 from vorotool.types.skeleton.extended_lines import (
     ExtendedSkeleton as ExtendedSkeleton,

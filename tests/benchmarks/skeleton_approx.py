@@ -17,7 +17,7 @@ import shapely
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
 from benchmarks.timing import in_own_process, timed
-from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
+from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
 
 RUNS = 3
 seconds = partial(timed, runs=RUNS)

@@ -29,8 +29,8 @@ from vorotool.engines.sampled_skeleton.approximate import (
 )
 from vorotool.engines.sampled_skeleton.hausdorff import deviation, exact_skeleton
 from vorotool.engines.sampled_skeleton.per_feature import skeleton_within
-from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
 from vorotool.engines.skeleton.shortened_edges import corner_sectors
+from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
 from vorotool.types.polygons.shapely_geometry import to_shapely
 
 DATA = Path(__file__).parents[2] / "data"

@@ -16,8 +16,8 @@ from vorotool.types.images import LabelImage
 from vorotool.types.mesh.cells import ProximityGraph
 from vorotool.types.mesh.triangulation import AnyTriangulation, DigitalTriangulation, Triangulation
 from vorotool.types.polygons.planar_graph import PlanarGraph
-from vorotool.types.skeleton.graph import skeleton_graph
 from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.tables import skeleton_graph
 from vorotool.types.table import Table
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.voronoi.tables import neighbor_pairs

@@ -9,7 +9,7 @@ from support.oracles.centerline_oracle import expected
 from vorotool.engines.centerlines.ends import unforked
 from vorotool.engines.centerlines.path_network import Network
 from vorotool.engines.centerlines.strip_ends import at_strip_ends
-from vorotool.engines.from_skeleton.boundary_rays import first_hits
+from vorotool.engines.from_skeleton.points_along import first_hits
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 
 RECTANGLE = [[0, 0], [10, 0], [10, 4], [0, 4]]

@@ -16,7 +16,7 @@ from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
-from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
+from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
 from vorotool.errors import LimitError, UsageError
 
 SHAPES = random_shapes(np.random.default_rng(1))

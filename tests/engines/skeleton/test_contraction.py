@@ -15,8 +15,8 @@ from vorotool.engines.sampled_skeleton import per_feature
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
-from vorotool.engines.skeleton.contraction import contraction
 from vorotool.engines.skeleton.diagrams import all_edges, diagram_of_all
+from vorotool.engines.skeleton.parts import contraction
 from vorotool.engines.skeleton.verify_skeleton import check_branches
 from vorotool.errors import VorotoolWarning
 

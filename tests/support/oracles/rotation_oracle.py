@@ -22,9 +22,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vorotool import offset, prune, skeleton_exact
-from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
+from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.engines.skeleton.parts import with_polygons
-from vorotool.engines.skeleton.site_distances import SitePlaces
+from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
 
 ANGLES = (30, 60, 90, 120)
 """Degrees that skeletons are pruned by."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.polygons import as_polygons
-from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
+from vorotool.engines.arrangement.repaired_polygons import flat_holes, with_flat_shells_as_lines
 from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.errors import LimitError, VerificationError
 from vorotool.numeric.arrays import divides, owners, ranges

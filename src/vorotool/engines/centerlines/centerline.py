@@ -15,7 +15,7 @@ from vorotool.engines.centerlines.ends import Unforked, forked, unforked
 from vorotool.engines.centerlines.extended_ends import led_on, rounded
 from vorotool.engines.centerlines.path_network import Network, Paths, Pieces, geometry_of
 from vorotool.engines.centerlines.strip_ends import at_strip_ends
-from vorotool.engines.from_skeleton.boundary_rays import first_hits
+from vorotool.engines.from_skeleton.points_along import first_hits
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError, UsageError, warn
 from vorotool.numeric.arrays import Booleans, Floats, Numbers, starts_of
@@ -23,7 +23,7 @@ from vorotool.numeric.checks import is_choice
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.box import check_lengths
-from vorotool.types.skeleton.centerline import Centerlines, without_centerline
+from vorotool.types.skeleton.extended_lines import Centerlines, without_centerline
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.end_pieces import without_end_pieces
-from vorotool.engines.from_skeleton.boundary_rays import first_crossings, first_hits
+from vorotool.engines.from_skeleton.points_along import first_crossings, first_hits
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.numeric.arrays import Booleans, Floats, Numbers, owners, starts_of, within
 from vorotool.numeric.parallel import Progress

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.centerlines.edge_comparisons import TIE
+from vorotool.engines.centerlines.corner_twigs import TIE
 from vorotool.engines.centerlines.ends import Unforked
-from vorotool.engines.skeleton.core_skeleton import core_skeleton
+from vorotool.engines.skeleton.parts import core_skeleton
 from vorotool.numeric.arrays import Booleans, Floats, owners, starts_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.arrangement.flat_rings import with_flat_shells_as_lines
 from vorotool.engines.arrangement.planar_graph import (
     MOST_VERTICES,
     Arrangement,
@@ -20,7 +19,7 @@ from vorotool.engines.arrangement.planar_graph import (
     arranged,
     placed_vertices,
 )
-from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
+from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes, with_flat_shells_as_lines
 from vorotool.engines.arrangement.reports import Found, report_repairs, report_small
 from vorotool.errors import LimitError, warn
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.convert.polygons import as_polygons
 from vorotool.convert.sites import as_sites
-from vorotool.engines.from_skeleton.disc_places import Candidates, bernstein_roots
-from vorotool.engines.from_skeleton.largest_discs import Axis, check_count
+from vorotool.engines.from_skeleton.largest_discs import Axis, Candidates, bernstein_roots, check_count
 from vorotool.engines.skeleton.diagrams import diagram_of_all, skeleton_in
 from vorotool.errors import InputError
 from vorotool.numeric.arrays import Floats, Numbers, starts_of

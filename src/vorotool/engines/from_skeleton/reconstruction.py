@@ -8,9 +8,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.arrangement.flat_rings import flat_holes
-from vorotool.engines.from_skeleton.contour_walk import Contours, contours_of, site_points
-from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
+from vorotool.engines.arrangement.repaired_polygons import flat_holes
+from vorotool.engines.from_skeleton.contour_walk import (
+    Contours,
+    contours_of,
+    cut_at_repetitions,
+    repeats,
+    site_points,
+    twice_areas,
+)
 from vorotool.errors import UsageError
 from vorotool.numeric.arrays import Floats, Indices, owners, starts_of
 from vorotool.numeric.checks import index_of_rows

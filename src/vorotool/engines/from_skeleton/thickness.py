@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.skeleton.core_skeleton import core_skeleton
-from vorotool.engines.skeleton.parts import with_arcs
+from vorotool.engines.skeleton.parts import core_skeleton, with_arcs
 from vorotool.errors import InputError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
-from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
+from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value

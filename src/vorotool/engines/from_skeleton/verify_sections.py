@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
-from vorotool.engines.skeleton.site_distances import SitePlaces
+from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.numeric.arrays import Booleans, Floats, owners, starts_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.polygons.shapely_geometry import to_shapely

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.skeleton.core_skeleton import core_skeleton
+from vorotool.engines.skeleton.parts import core_skeleton
 from vorotool.numeric.arrays import Floats, Indices, ranges
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value

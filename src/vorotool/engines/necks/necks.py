@@ -1,26 +1,27 @@
-"""Necks of polygons: where the clearance is least along the skeleton, and the largest clearances beside."""
+"""Necks of polygons: where the clearance is least along the skeleton, their feet, and the clearances beside."""
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from vorotool.engines.necks.axis import Ways, clearance_flow, ways_from_necks
-from vorotool.engines.necks.feet import Feet, by_width, feet_of
+from vorotool.engines.skeleton.clearance import clearance_course, plateaus
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError, option
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.polygons.input_vertices import moved_feet
+from vorotool.types.polygons.input_vertices import moved_feet, projected
+from vorotool.types.skeleton.arc_measures import ClearanceCourse
 from vorotool.types.skeleton.necks import Necks
-from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, PolygonsLike
-
 
 NARROW = 0.95
 """The ratio of `necks` by default: in bends of constant width each facet has a neck above 0.99."""
@@ -170,3 +171,217 @@ def _found(root: list[int], place: int) -> int:
         root[place] = root[root[place]]
         place = root[place]
     return place
+
+
+@plain(eq=False)
+class Ways:
+    """The two ways that lead on from each neck."""
+
+    # (n, 2) int64 array: the arc that each way begins with: the same twice where the neck is inside an arc
+    arc: Indices
+    # (n, 2) int64 array: which end of it, or of the half of it that the way takes, is at the neck: 0 the source, 1
+    # the target
+    end: Indices
+    # (n, 2) float64 array: the place half-way along a plateau of several nodes; NaN of other necks
+    middle: NDArray[np.float64]
+    top: Indices  # (n, 2) int64 array: the plateau up to which the clearance grows along each way
+
+    def __len__(self) -> int:
+        return len(self.arc)
+
+    @property
+    def is_inside(self) -> NDArray[np.bool_]:
+        """(n,) whether each neck is inside an arc, not at a node."""
+        return np.equal(self.arc[:, 0], self.arc[:, 1])
+
+    def taken(self, chosen: NDArray[np.bool_] | Indices) -> Ways:
+        """Those of some necks."""
+        return Ways(self.arc[chosen], self.end[chosen], self.middle[chosen], self.top[chosen])
+
+
+@plain(eq=False)
+class Flow:
+    """How the clearance grows from plateau to plateau, most of which are single nodes."""
+
+    course: ClearanceCourse
+    plateau: NDArray[np.int32]  # (v,) int32 array: that of each node
+    top: Indices  # (p,) int64 array: the local maximum that the clearance grows to from each plateau
+
+
+def clearance_flow(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> Flow:
+    """Follow the clearance upwards from everywhere."""
+    course = clearance_course(skeleton, threads=threads, progress=progress)
+    plateau = plateaus(skeleton, course)
+    top = np.arange(int(plateau.max(initial=-1)) + 1)
+    source, target = plateau[skeleton.arcs].T.astype(np.int64)
+    rises, falls = (_has(course, signs) for signs in ((1, -1), (-1, 1)))
+    top[source[rises]] = target[rises]
+    top[target[falls]] = source[falls]
+    while True:
+        further = top[top]
+        if (further == top).all():
+            return Flow(course, plateau, top)
+        top = further
+
+
+def ways_from_necks(skeleton: Skeleton, flow: Flow) -> Ways:
+    """Find the necks: places inside arcs, and plateaus from which the clearance grows both ways."""
+    inside = np.flatnonzero(_has(flow.course, (-1, -1)))
+    between, between_end = _rising_pairs(skeleton, flow)
+    arc = np.concatenate([np.stack([inside, inside], axis=1), between])
+    end = np.concatenate([np.tile([1, 0], (len(inside), 1)), between_end])
+    top = flow.top[flow.plateau[skeleton.arcs[arc, 1 - end]]]
+    made = Ways(arc, end, np.full((len(arc), 2), np.nan), top)
+    node = skeleton.arcs[arc, end]
+    is_long = ~made.is_inside & (node[:, 0] != node[:, 1])
+    _to_middles(skeleton, flow, made, np.flatnonzero(is_long))
+    return made
+
+
+def _has(course: ClearanceCourse, signs: tuple[int, int]) -> NDArray[np.bool_]:
+    found: NDArray[np.bool_] = (course.slope == signs).all(axis=1)
+    return found
+
+
+def _rising_pairs(skeleton: Skeleton, flow: Flow) -> tuple[Indices, Indices]:
+    """(n, 2) arcs along which the clearance grows from plateaus that it does not shrink from, and their ends there."""
+    slope, plateau = flow.course.slope, flow.plateau[skeleton.arcs]
+    falls = np.zeros(len(flow.top), dtype=bool)
+    falls[plateau[slope < 0]] = True
+    falls[flow.plateau[skeleton.radius == 0]] = True
+    arc, end = np.nonzero((slope > 0) & ~falls[plateau])
+    own = plateau[arc, end]
+    order = np.lexsort((end, arc, own))
+    first = np.flatnonzero(np.diff(own[order]) == 0)
+    pairs = order[np.stack([first, first + 1], axis=1)]
+    return arc[pairs], end[pairs]
+
+
+def _to_middles(skeleton: Skeleton, flow: Flow, ways: Ways, long: Indices) -> None:
+    """Have necks on plateaus of several nodes half-way along these: they are straight lines between parallel edges."""
+    if not len(long):
+        return
+    neck = np.full(len(flow.top), -1)
+    ends = skeleton.arcs[ways.arc[long], ways.end[long]]
+    neck[flow.plateau[ends[:, 0]]] = np.arange(len(long))
+    flat = np.flatnonzero(_has(flow.course, (0, 0)))
+    flat = flat[neck[flow.plateau[skeleton.arcs[flat, 0]]] >= 0]
+    own = neck[flow.plateau[skeleton.arcs[flat, 0]]]
+    begin, way = skeleton.vertices[ends[:, 0]], skeleton.vertices[ends[:, 1]] - skeleton.vertices[ends[:, 0]]
+    places = skeleton.vertices[skeleton.arcs[flat]] - begin[own, None]
+    along = (places * way[own, None]).sum(axis=2) / np.square(way).sum(axis=1)[own, None]
+    beyond = np.maximum(np.abs(along.mean(axis=1) - 0.5) - np.abs(along[:, 1] - along[:, 0]) / 2, 0)
+    order = np.lexsort((along.min(axis=1), beyond, own))
+    chosen = order[np.flatnonzero(np.diff(own[order], prepend=-1))]
+    is_forward = (along[chosen, 0] <= along[chosen, 1]).astype(np.int64)
+    ways.arc[long] = flat[chosen, None]
+    ways.end[long] = np.stack([is_forward, 1 - is_forward], axis=1)
+    ways.middle[long] = begin + way / 2
+
+
+_CLOSE = 2.0**-50
+"""Part of a width: as a double it is rounded by at most 4 units of 2^-53."""
+
+_SNAP = 4
+"""Ulp of the largest coordinate by which the projection of a place half-way along a plateau is rounded at most."""
+
+
+@plain(eq=False)
+class Feet:
+    """Feet of necks: left and right of the way from the first of their ways to the second."""
+
+    site: Indices  # (n, 2) int64 array: what each foot is on
+    xy: Floats  # (n, 2, 2) float64 array: where they are
+    width: Floats  # (n,) float64 array: between them
+    # (n, 2) int64 array: the exact square of the width in steps of the lattice. Between two vertices it is the first
+    # number, the second is 0. Else one is on an edge: it is the square of the first number over the second, the
+    # square of the length of that edge
+    square: Indices
+
+    def taken(self, chosen: NDArray[np.bool_] | Indices) -> Feet:
+        """Those of some necks."""
+        return Feet(self.site[chosen], self.xy[chosen], self.width[chosen], self.square[chosen])
+
+
+def feet_of(skeleton: Skeleton, ways: Ways) -> Feet:
+    """Find both feet: a vertex, where one is touched; on an edge, the place nearest to the other foot."""
+    site = _sites(skeleton, ways)
+    ends, is_edge = skeleton.site_ends[site], _is_edge(skeleton)[site]
+    xy = ends[:, :, 0].copy()
+    both = is_edge.all(axis=1)
+    tolerance = _SNAP * float(np.spacing(np.abs(skeleton.polygons.xy).max(initial=1.0)))
+    for hand in (0, 1):
+        alone = is_edge[:, hand] & ~both
+        xy[alone, hand] = projected(ends[alone, hand], ends[alone, 1 - hand, 0])
+        xy[both, hand] = _at_ends(projected(ends[both, hand], ways.middle[both]), ends[both, hand], tolerance)
+    width, square = _widths(skeleton, ends, is_edge)
+    return Feet(site, xy, width, square)
+
+
+def _is_edge(skeleton: Skeleton) -> NDArray[np.bool_]:
+    found: NDArray[np.bool_] = skeleton.site_table.kind == EDGE
+    return found
+
+
+def _sites(skeleton: Skeleton, ways: Ways) -> Indices:
+    """(n, 2) the sites left and right of each neck; where they change there, the vertex."""
+    is_edge = _is_edge(skeleton)
+    sites = skeleton.sites[ways.arc].astype(np.int64)  # (n, way, hand)
+    # from the first way to the second: the first is walked towards its end at the neck, the second from there
+    turned = ways.end == (0, 1)
+    sites = np.where(turned[:, :, None], sites[:, :, ::-1], sites)
+    first, second = sites[:, 0], sites[:, 1]
+    return np.where(is_edge[first] & ~is_edge[second], second, first)
+
+
+def _at_ends(foot: Floats, edge: Floats, tolerance: float) -> Floats:
+    """Feet, but the end of the edge where this is where rounding may have kept them from."""
+    for end in (0, 1):
+        is_off = np.abs(foot - edge[:, end]).max(axis=1, keepdims=True) > tolerance
+        foot = np.where(is_off, foot, edge[:, end])
+    return foot
+
+
+def _widths(skeleton: Skeleton, ends: Floats, is_edge: NDArray[np.bool_]) -> tuple[Floats, Indices]:
+    """Distances between the sites of each neck: products of coordinates below 2^30 in magnitude fit in 64 bits."""
+    step = skeleton.scale or 1.0
+    places = np.rint((ends - np.asarray(skeleton.origin)) / step).astype(np.int64)
+    turned = is_edge[:, 1]
+    edge = np.where(turned[:, None, None], places[:, 1], places[:, 0])
+    point = np.where(turned[:, None], places[:, 0, 0], places[:, 1, 0])
+    way, to_point = edge[:, 1] - edge[:, 0], point - edge[:, 0]
+    cross = np.abs(way[:, 0] * to_point[:, 1] - way[:, 1] * to_point[:, 0])
+    between, along = np.square(to_point).sum(axis=1), np.square(way).sum(axis=1)
+    has_edge = is_edge[:, 0] | is_edge[:, 1]
+    square = np.where(has_edge[:, None], np.stack([cross, along], axis=1), np.stack([between, 0 * between], axis=1))
+    length = np.sqrt(np.maximum(along, 1).astype(np.float64))
+    width = np.where(has_edge, cross / length, np.sqrt(between.astype(np.float64)))
+    return step * width, square
+
+
+def by_width(square: Indices) -> Indices:
+    """Give the numbers of necks from the widest to the narrowest, of equal ones the last first."""
+    kinds, of = np.unique(square, axis=0, return_inverse=True)
+    rank = _ranks(kinds)[of.reshape(-1)]
+    return np.lexsort((np.arange(len(rank)), rank))[::-1]
+
+
+def _ranks(kinds: Indices) -> Indices:
+    """Numbers that rise with squares, the same for equal ones."""
+    length = np.sqrt(np.maximum(kinds[:, 1], 1).astype(np.float64))
+    rounded = np.where(kinds[:, 1] > 0, kinds[:, 0] / length, np.sqrt(kinds[:, 0].astype(np.float64)))
+    order = np.argsort(rounded, kind="stable")
+    is_apart = np.diff(rounded[order]) > _CLOSE * rounded[order[1:]]
+    group = np.concatenate([[0], np.cumsum(is_apart)])[: len(order)]
+    rank = np.empty(len(kinds), dtype=np.int64)
+    rank[order] = group << 32
+    for members in np.split(order, np.flatnonzero(is_apart) + 1):
+        if len(members) > 1:
+            exact = [_exact(*kind) for kind in kinds[members].tolist()]
+            number = {value: k for k, value in enumerate(sorted(set(exact)))}
+            rank[members] += [number[value] for value in exact]
+    return rank
+
+
+def _exact(number: int, over: int) -> Fraction:
+    return Fraction(number * number, over) if over else Fraction(number)

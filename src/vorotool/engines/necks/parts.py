@@ -9,11 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.from_skeleton.contour_walk import contours_of, site_points
-from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
-from vorotool.engines.necks.axis import Ways
-from vorotool.engines.necks.feet import Feet
-from vorotool.engines.necks.necks import FoundNecks, check_neck, found_necks, whole_skeleton
+from vorotool.engines.from_skeleton.contour_walk import (
+    contours_of,
+    cut_at_repetitions,
+    repeats,
+    site_points,
+    twice_areas,
+)
+from vorotool.engines.necks.necks import Feet, FoundNecks, Ways, check_neck, found_necks, whole_skeleton
 from vorotool.numeric.arrays import Floats, Indices, following, owners, ranges
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain

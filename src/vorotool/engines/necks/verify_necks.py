@@ -12,7 +12,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
-from vorotool.engines.skeleton.site_distances import SitePlaces
+from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.checks import checked_threads

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.skeleton.core_skeleton import core_skeleton
+from vorotool.engines.skeleton.parts import core_skeleton
 from vorotool.errors import UsageError
 from vorotool.numeric.arrays import Floats, owners, starts_of
 from vorotool.numeric.checks import available_threads, checked_threads, is_choice

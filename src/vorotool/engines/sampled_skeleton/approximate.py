@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.repaired_polygons import PlacedShapes
-from vorotool.engines.skeleton.contraction import without_equal_nodes
 from vorotool.engines.skeleton.exact import (
     check_skeleton_options,
     face_groups,
@@ -20,6 +19,7 @@ from vorotool.engines.skeleton.exact import (
     skeleton_of_arrays,
     warn_empty,
 )
+from vorotool.engines.skeleton.parts import without_equal_nodes
 from vorotool.errors import LimitError, UsageError
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton, approximate_skeleton
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
-from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
 from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
+from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse

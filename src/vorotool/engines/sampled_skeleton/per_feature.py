@@ -30,9 +30,9 @@ from vorotool.engines.sampled_skeleton.approximate import (
     skeleton_of_samples,
     told_together,
 )
-from vorotool.engines.skeleton.both_sides import joined_sides
-from vorotool.engines.skeleton.contraction import contraction
+from vorotool.engines.skeleton.diagrams import joined_sides
 from vorotool.engines.skeleton.exact import warn_empty
+from vorotool.engines.skeleton.parts import contraction
 from vorotool.engines.skeleton.per_feature import joined_with_places
 from vorotool.errors import LimitError, VorotoolWarning
 from vorotool.numeric.arrays import Indices, starts_of

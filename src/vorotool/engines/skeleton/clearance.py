@@ -1,4 +1,4 @@
-"""How the clearance goes along skeletons: exact signs along arcs, plateaus, and local maxima."""
+"""Distances from the sites of skeletons, and how the clearance goes along arcs: exact signs, plateaus, maxima."""
 
 from __future__ import annotations
 
@@ -6,12 +6,55 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.skeleton.site_distances import SitePlaces
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.types.skeleton.arc_measures import ClearanceCourse
 from vorotool.types.skeleton.segment_voronoi import LATTICE_LIMIT
-from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
+
+ULPS = 32
+"""Of the largest coordinate: by how much distances may differ. A node is right to 8 ulp of the radius and 2 of its
+coordinates, in each of which the radius is at most the extent; placing it rounds once more; the distance is wrong by
+four roundings. Inside an arc the control point's error counts half, along the tangents, which changes no distance but
+in second order.
+
+The coordinates of a node are doubles on the lattice, whose step is a power of two: relative to its origin. This is near
+the middle of all that was placed there; where polygons are a small part of that, as when a hole ends far beyond its
+shell, what they have largest is how far they are from it."""
+
+
+def largest_coordinate(origin: tuple[float, float], *places: Floats) -> float:
+    """The largest of some coordinates, and of those that they have from the origin of a lattice: see `ULPS`."""
+    return max(float(np.abs(xy - near).max(initial=0.0)) for xy in places for near in ((0.0, 0.0), origin))
+
+
+class SitePlaces:
+    """The places of sites, and distances from them, as exact as those of the `whole` that the skeleton is a part of."""
+
+    def __init__(self, skeleton: Skeleton, whole: SitePlaces | None = None) -> None:
+        self.is_edge = skeleton.site_table.kind == EDGE
+        self.ends = skeleton.site_ends
+        self.largest = largest_coordinate(skeleton.origin, skeleton.polygons.xy, skeleton.vertices) or 1.0
+        self.tolerance = ULPS * float(np.spacing(self.largest))
+        if skeleton.gap:  # ends of shortened edges are on the lattice, within 0.71 steps of where they should be
+            extent = float(np.ptp(skeleton.polygons.xy, axis=0).max())
+            self.tolerance += max(extent * 2.0**-28, skeleton.scale)
+        if whole is not None:
+            self.largest, self.tolerance = max(self.largest, whole.largest), max(self.tolerance, whole.tolerance)
+
+    def feet(self, site: NDArray[np.int32], place: Floats) -> Floats:
+        """The nearest place on each closed site."""
+        a, way = self.ends[site, 0], self.ends[site, 1] - self.ends[site, 0]
+        square = (way * way).sum(axis=1)
+        t = np.divide(((place - a) * way).sum(axis=1), square, out=np.zeros(len(site)), where=square > 0)
+        feet: Floats = a + np.clip(t, 0, 1)[:, None] * way
+        return np.where((t > 1)[:, None], self.ends[site, 1], feet)
+
+    def distances(self, site: NDArray[np.int32], place: Floats) -> Floats:
+        """How far each place is from its closed site."""
+        way = place - self.feet(site, place)
+        return np.asarray(np.sqrt((way * way).sum(axis=1)))
 
 
 def clearance_course(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ClearanceCourse:

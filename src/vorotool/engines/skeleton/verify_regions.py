@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
+from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.engines.skeleton.shortened_edges import corner_sectors
-from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import distinct, is_among
 from vorotool.types.polygons.planar_graph import PlanarGraph

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vorotool.engines.smoothing.cubic_fits import Stretches, fitted
-from vorotool.engines.smoothing.line_samples import LineSamples, sampled_lines
+from vorotool.engines.smoothing.cubic_fits import LineSamples, Stretches, fitted, sampled_lines
 from vorotool.errors import InputError
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import checked_tolerance

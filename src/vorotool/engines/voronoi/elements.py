@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
 from vorotool.engines.arrangement.planar_graph import (
     MOST_VERTICES,
     Placement,
     arranged,
     placed_vertices,
 )
+from vorotool.engines.arrangement.repaired_polygons import flat_holes, with_flat_shells_as_lines
 from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import LimitError

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.polygons import as_polygons
-from vorotool.engines.arrangement.flat_rings import with_flat_shells_as_lines
 from vorotool.engines.arrangement.planar_graph import MOST_VERTICES, Placement, arranged, placed_vertices
+from vorotool.engines.arrangement.repaired_polygons import with_flat_shells_as_lines
 from vorotool.engines.voronoi.elements import graph_of_sites
 from vorotool.errors import InputError, LimitError
 from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of

@@ -14,9 +14,8 @@ from vorotool.formats.drawing.dxf_drawing import DxfDrawing
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.alpha.shape import AlphaHull
-from vorotool.types.skeleton.centerline import Centerlines
 from vorotool.types.skeleton.discs import Discs
-from vorotool.types.skeleton.extended_lines import ExtendedSkeleton, LedOn
+from vorotool.types.skeleton.extended_lines import Centerlines, ExtendedSkeleton, LedOn
 from vorotool.types.skeleton.offsets import Offsets
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import Skeleton

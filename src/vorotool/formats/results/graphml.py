@@ -16,8 +16,8 @@ from vorotool.formats.text.row_writer import Column, RowShape, check_precision, 
 from vorotool.formats.text.tables import json_text
 from vorotool.numeric.xml_text import xml_characters
 from vorotool.types.features import Lines
-from vorotool.types.skeleton.graph import SkeletonGraph, skeleton_graph
 from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.tables import SkeletonGraph, skeleton_graph
 
 _NODE_KEYS = {"x": "double", "y": "double", "r": "double", "degree": "long"}
 _HEAD = (

@@ -37,8 +37,7 @@ from vorotool.types.skeleton.skeleton import EXTERIOR, Skeleton
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
     from vorotool.types.polygons.polygon_set import PolygonSet
-    from vorotool.types.skeleton.centerline import Centerlines
-    from vorotool.types.skeleton.extended_lines import ExtendedSkeleton, LedOn
+    from vorotool.types.skeleton.extended_lines import Centerlines, ExtendedSkeleton, LedOn
     from vorotool.types.skeleton.smooth_lines import SmoothLines
 
 LINES = ("skeleton", "centerline")
@@ -270,7 +269,7 @@ class SkeletonProducts(Results, ABC):
         value, o = super().written(what, fmt), self.options
         if what != "table":
             return value
-        from vorotool.types.skeleton.centerline import centerline_columns
+        from vorotool.types.skeleton.extended_lines import centerline_columns
         from vorotool.types.skeleton.tables import polygon_table
 
         columns = centerline_columns(in_units(o.pixel_size, self._longest))

@@ -28,8 +28,7 @@ from vorotool.render.canvas.styles import FAINT, INK, RESULT, SEED, WHITE, cell_
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import feature_names, names_of_features, polygon_layers, polygon_page
 from vorotool.types.fields import is_up
-from vorotool.types.skeleton.centerline import Centerlines
-from vorotool.types.skeleton.extended_lines import LedOn
+from vorotool.types.skeleton.extended_lines import Centerlines, LedOn
 from vorotool.types.skeleton.necks import Necks
 from vorotool.types.skeleton.parts import Parts
 from vorotool.types.skeleton.points_along import SkeletonPoints

@@ -302,7 +302,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         return rows
 
     def _features(self, what: str | None = None, flatten: float | None = None) -> Rows:
-        features: Rows = resolved("types.skeleton.graph:skeleton_features")(self, what, flatten)
+        features: Rows = resolved("types.skeleton.tables:skeleton_features")(self, what, flatten)
         return features
 
     def _summary(self) -> str:
