@@ -13,7 +13,7 @@ from vorotool import InputError, UsageError
 from vorotool.numeric.checks import is_equal
 from vorotool.types import fields as f
 from vorotool.types.fields import Meaning, Record, declared, record, with_y_axis
-from vorotool.types.scaling import scaled, scaled_table
+from vorotool.types.scaling import scaled, scaled_table, stretched
 from vorotool.types.table import Table
 from vorotool.types.values import Value
 
@@ -164,3 +164,15 @@ def test_missing_fields_stay_missing():
 def test_what_has_no_size():
     with pytest.raises(UsageError, match="a list cannot be scaled"):
         scaled([1, 2], THIRD)
+
+
+def test_mirrored_places():
+    frame = vorotool.Frame(2, 3, 10, 4)
+    seeds = stretched(vorotool.SeedSet([1, 2], [3, 4], [1, 2], scale=2, frame=frame, y_axis="down"), 1, -1)
+    assert (seeds.x.tolist(), seeds.y.tolist(), seeds.y_axis) == ([1, 2], [-3, -4], "up")
+    assert (seeds.frame, seeds.sites.tolist()) == (vorotool.Frame(2, -6, 10, 4), [[0.5, -1.5], [1, -2]])
+    with pytest.raises(UsageError, match="a SeedSet cannot be scaled"):
+        scaled(seeds, THIRD)
+    ring = np.array([[0, 0], [3, 0], [3, 2]])
+    shape = stretched(vorotool.skeleton_exact(ring).polygons, 1, -1)
+    assert shape.xy.tolist() == [[0, 0], [3, -2], [3, 0]]

@@ -27,7 +27,7 @@ MOST_NAMED = 5
 def seeds_on_map(run: Run, o: Options, given: JobInput, value: PointSet | PolygonSet) -> tuple[Options, SeedSet]:
     """Lay cells over a map, and find the seeds in them: points, or the cells of lines and polygons."""
     from vorotool.engines.tessellation.seeding import seeds_in_frame
-    from vorotool.types.map_frame import in_cells
+    from vorotool.types.pixels import in_cells
     from vorotool.types.points.point_set import PointSet
 
     is_empty = not len(value.xy)
@@ -59,7 +59,7 @@ def _cells(o: Options, value: PointSet | PolygonSet) -> tuple[Frame, PixelGrid]:
     import numpy as np
 
     from vorotool.types.box import bounds
-    from vorotool.types.map_frame import map_frame
+    from vorotool.types.pixels import map_frame
 
     assert o.cell_size is not None
     if not 1e-100 < o.cell_size < 1e100:

@@ -21,6 +21,7 @@ from vorotool.jobs.units import (
 )
 from vorotool.products.options import flag, options_of
 from vorotool.types.fields import UP
+from vorotool.types.scaling import stretched
 
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
@@ -137,14 +138,10 @@ def _mirrored_places(o: Options) -> Options:
 def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
     """Give outlines of an image as they lie on its map, in pixels; in steps where these have sides."""
     if size is not None and size.sides is not None:
-        steps = (size.sides.x, size.sides.y)
-        frame = None if polygons.frame is None else polygons.frame.stretched(*steps)
-        polygons = replace(polygons, xy=polygons.xy * steps, frame=frame)
+        polygons = stretched(polygons, size.sides.x, size.sides.y)
     if size is None or size.origin is None:
         return polygons
-    from vorotool.types.map_frame import mirrored_polygons
-
-    return replace(mirrored_polygons(polygons) if size.y_up else polygons, y_axis=UP, crs=size.crs)
+    return replace(stretched(polygons, 1, -1) if size.y_up else polygons, y_axis=UP, crs=size.crs)
 
 
 def placed_sites(
@@ -158,9 +155,7 @@ def placed_sites(
     o = lengths_in_steps(with_pixel_size(run, o, given, points.grid))
     if o.pixel_size is None or not o.pixel_size.y_up:
         return o, points
-    from vorotool.types.map_frame import mirrored_seeds
-
-    return o, mirrored_seeds(points)
+    return o, stretched(points, 1, -1)
 
 
 def in_steps(o: Options, points: PointSet | SeedSet) -> PointSet:
@@ -168,10 +163,7 @@ def in_steps(o: Options, points: PointSet | SeedSet) -> PointSet:
     from vorotool.convert.points import as_points
 
     sides = sides_of(o)
-    steps = (sides.x, sides.y)
-    placed = as_points(points)
-    frame = None if placed.frame is None else placed.frame.stretched(*steps)
-    return replace(placed, xy=placed.xy * steps, frame=frame)
+    return stretched(as_points(points), sides.x, sides.y)
 
 
 def written_grid(size: PixelSize | None, grid: PixelGrid | None) -> PixelGrid | None:

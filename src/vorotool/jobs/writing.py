@@ -204,15 +204,22 @@ def to_geojson(
     >>> to_geojson(square)["features"][0]["geometry"]
     {'type': 'LineString', 'coordinates': [[0, 0], [2, 2]]}
     """
+    tolerance = checked_flatten(flatten)
+    with columns_wanted(with_columns):
+        return _geojson(value, _part(value, "geojson", what, tolerance), tolerance)
+
+
+def _geojson(value: Any, product: Product, flatten: float | None = None) -> dict[str, Any]:
+    """Give a result as GeoJSON."""
     import io
 
     import orjson
 
     from vorotool.numeric.length_units import own_unit
 
-    out, tolerance = io.BytesIO(), checked_flatten(flatten)
-    with columns_wanted(with_columns), unit_member(own_unit(value)):
-        write_product(out, value, _part(value, "geojson", what, tolerance), "geojson", flatten=tolerance)
+    out = io.BytesIO()
+    with unit_member(own_unit(value)):
+        write_product(out, value, product, "geojson", flatten=flatten)
     made: dict[str, Any] = orjson.loads(out.getvalue())
     return made
 
@@ -221,45 +228,7 @@ def feature_collection(value: Any) -> dict[str, Any]:
     """Give a value as a feature collection of GeoJSON: as `to_geojson` does, of triangulations the triangles."""
     if any("geojson" in each.written for each in parts_of(value).values()):
         return to_geojson(value, what="triangles" if is_of(value, "Triangulation", "DigitalTriangulation") else None)
-    return _features(value)
-
-
-def _features(value: Any) -> dict[str, Any]:
-    """Of what has no format of its own."""
-    import orjson
-    import shapely
-
-    from vorotool.convert.frames import geometry_of_rows
-    from vorotool.numeric.crs import crs_text, member_of_text
-    from vorotool.types.features import Rows, features_of
-
-    features = features_of(value)
-    assert isinstance(features, Rows)  # alpha hulls have GeoJSON of their own
-    columns = {name: _json_values(column) for name, column in features.table().items()}
-    geometry = geometry_of_rows(features)
-    texts = zip(shapely.to_geojson(geometry), ~shapely.is_empty(geometry), strict=True)
-    shapes = [orjson.loads(text) if text is not None and is_there else None for text, is_there in texts]
-    rows = zip(*columns.values(), strict=True)
-    made: dict[str, Any] = {
-        "type": "FeatureCollection",
-        "features": [
-            {"type": "Feature", "properties": dict(zip(columns, row, strict=True)), "geometry": shape}
-            for row, shape in zip(rows, shapes, strict=True)
-        ],
-    }
-    crs = getattr(features.source, "crs", None)
-    if crs is None:
-        return made
-    return {**made, "crs": crs if isinstance(crs, dict) else member_of_text(crs_text(crs))}
-
-
-def _json_values(column: Any) -> list[Any]:
-    """A column as lists of JSON have it: None for what is no finite number."""
-    import numpy as np
-
-    if isinstance(column, np.ndarray) and column.dtype.kind == "f":
-        column = np.ma.masked_invalid(column)
-    return column.tolist() if isinstance(column, np.ndarray) else list(column)
+    return _geojson(value, Product("", data=("geojson",)))
 
 
 def _part(value: Any, fmt: str, what: str | None, flatten: float | None) -> Product:

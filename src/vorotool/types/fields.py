@@ -29,6 +29,7 @@ class Meaning(Enum):
     LENGTH = "length"
     AREA = "area"
     POSITION = "position"
+    STEPS = "steps"
     NUMBER = "number"
     AXIS = "axis"
     VALUE = "value"
@@ -41,6 +42,7 @@ class Declared:
     meaning: Meaning
     shape: tuple[Axis, ...] = ()  # of an array; () for a single number, or a value
     dtype: DTypeLike | None = None
+    along: int = 0  # of steps of a grid: the axis
     rows_of: Axis | None = None  # of starts of rows: how many items the rows have together
     least: int = 0  # items of each row
     is_optional: bool = False
@@ -123,6 +125,11 @@ def input_box() -> Any:
     return _field(Meaning.POSITION, (), None, None, compare=False)
 
 
+def steps(along: int, *shape: Axis) -> Any:
+    """Declare places on a grid along an axis, 0 for x, as whole numbers of its steps."""
+    return field(metadata={_KEY: Declared(Meaning.STEPS, shape, np.int64, along=along)})
+
+
 def length(*shape: Axis, default: Any = MISSING, kw_only: bool = False) -> Any:
     """Declare lengths: an array, or one number without a shape."""
     return _field(Meaning.LENGTH, shape, np.float64, default, kw_only=kw_only)
@@ -186,7 +193,7 @@ def with_y_axis(value: T, axis: YAxis) -> T:
 @dataclass_transform(
     eq_default=False,
     frozen_default=True,
-    field_specifiers=(field, position, length, area, numbers, index, starts, nested, y_axis),
+    field_specifiers=(field, position, steps, length, area, numbers, index, starts, nested, y_axis),
 )
 def record(kind: type[T]) -> type[T]:
     """Make a frozen data class of one with declared fields."""

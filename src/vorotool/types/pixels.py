@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from fractions import Fraction
-from math import gcd, isfinite, lcm, sqrt
+from math import ceil, floor, gcd, isfinite, lcm, sqrt
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
-from vorotool.errors import InputError, UsageError, option
+from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.length_units import unit_name
 from vorotool.numeric.numbers import real_number, shown_number
 from vorotool.plain import plain
+from vorotool.types.fields import DOWN, UP, YAxis
 
 if TYPE_CHECKING:
     from vorotool.types.box import Box
@@ -286,6 +288,10 @@ class Frame:
         """Return the frame of some rows."""
         return Frame(self.x, self.y + first, self.width, count)
 
+    def mirrored(self) -> Frame:
+        """Return the frame of the same pixels where y goes the other way."""
+        return replace(self, y=-(self.y + self.height - 1))
+
     @property
     def box(self) -> Box:
         """The rectangle that the pixels cover, with their centers at integers."""
@@ -320,3 +326,58 @@ MAX_PIXELS = 2**31
 
 MAX_SIDE = 2**30
 """Pixels a side at most: rows and columns are counted in 32-bit integers."""
+
+
+MapWindow = tuple[Fraction, Fraction, Fraction, Fraction]
+
+MOST_UNASKED = 2**28
+"""Cells that a frame may have which follows from the bounds alone."""
+
+
+def map_frame(
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    side: Fraction,
+    *,
+    window: MapWindow | None,
+    y_axis: YAxis = UP,
+    crs: Any = None,
+) -> tuple[Frame, PixelGrid]:
+    """Lay cells over what lies between two corners, or over a window; rows go southwards, or down as y does."""
+    if window is not None:
+        left, bottom = window[:2]
+        columns, rows = window[2] / side, window[3] / side
+        if columns.denominator != 1 or rows.denominator != 1:
+            nearest = ",".join(f"{float(max(1, round(number)) * side):.17g}" for number in (columns, rows))
+            raise UsageError(
+                f"{option('--window')} is {float(window[2]):.17g} x {float(window[3]):.17g}, not a whole number of "
+                f"cells of {float(side):.17g}: the nearest W,H is {nearest}"
+            )
+        width, height = int(columns), int(rows)
+    else:
+        first = [floor(Fraction(float(value)) / side) for value in low]
+        last = [ceil(Fraction(float(value)) / side) for value in high]
+        if max(map(abs, [*first, *last])) > FARTHEST:
+            raise InputError(
+                f"coordinates are more than 2^44 cells of {float(side):.17g} from 0: use a larger "
+                f"{option('--cell-size', 'side')}"
+            )
+        width, height = (max(1, b - a) for a, b in zip(first, last, strict=True))
+        left, bottom = first[0] * side, first[1] * side
+        if width * height > MOST_UNASKED:
+            raise LimitError(
+                f"the input needs {width} x {height} cells of {float(side):.17g}, more than {MOST_UNASKED}: use a "
+                f"larger {option('--cell-size', 'side')}, or choose a part with "
+                f"{option('--window X,Y,W,H', 'window=(x, y, w, h)')}"
+            )
+    top = bottom + height * side
+    step = float(side)
+    down = (step, float(bottom)) if y_axis == DOWN else (-step, float(top))
+    return Frame(0, 0, width, height), map_grid((step, 0.0, float(left), 0.0, *down), crs=crs)
+
+
+def in_cells(xy: NDArray[np.float64], grid: PixelGrid) -> NDArray[np.float64]:
+    """Coordinates in cells: (0, 0) is the center of the first one, y goes down."""
+    assert grid.transform is not None
+    a, _, c, _, e, f = grid.transform
+    return (xy - (c, f)) / (a, e) - 0.5

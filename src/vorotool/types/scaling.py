@@ -5,17 +5,21 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import fields, replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.numeric.arrays import within
 from vorotool.types.box import Box
-from vorotool.types.fields import Declared, Meaning, Record, declared
-from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.fields import UP, Declared, Meaning, Record, declared
+from vorotool.types.pixels import Frame
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 from vorotool.types.table import Table
 
 Place = tuple[float, float] | None
+T = TypeVar("T")
 
 LENGTHS = frozenset(
     {
@@ -34,7 +38,7 @@ def scaled(
 ) -> Any:
     """Return a result in units of which one is ``1 / factor`` of the old."""
     measures = {name: each for name, each in _declared(value).items() if each.meaning not in _UNSCALED}
-    if not measures:
+    if not measures or any(each.meaning is Meaning.STEPS for each in measures.values()):
         raise UsageError(f"a {type(value).__name__} cannot be scaled")
     parts: dict[str, Any] = {}
     for name, each in measures.items():
@@ -55,6 +59,36 @@ def scaled(
         return made
     as_given = _scaled(value.as_given.xy, factor, origin, of_steps=of_steps)
     return replace(made, xy=as_given).moved(made.xy)
+
+
+def stretched(value: T, x: int, y: int) -> T:
+    """Multiply coordinates of points, seeds or polygons; a y below 0 mirrors them, and goes upwards then."""
+    parts: dict[str, Any] = {}
+    for name, each in _declared(value).items():
+        part = getattr(value, name)
+        if isinstance(part, Box):
+            parts[name] = part.stretched(x, y)
+        elif isinstance(part, Frame):
+            parts[name] = part.mirrored()
+        elif each.meaning is Meaning.STEPS:
+            parts[name] = part * (x, y)[each.along]
+        elif each.meaning is Meaning.POSITION and part is not None:
+            parts[name] = part * (x, y) + 0.0
+        elif each.meaning is Meaning.AXIS and y < 0:
+            parts[name] = UP
+    if y < 0 and isinstance(value, PolygonSet):
+        parts["xy"] = parts["xy"][_reversed_rings(value)]
+    made: T = replace(value, **parts)  # type: ignore[type-var]
+    return made
+
+
+def _reversed_rings(polygons: PolygonSet) -> NDArray[np.integer]:
+    """Indices of vertices: closed rings begin at the same one and run the other way, so that areas keep their signs."""
+    sizes = np.diff(polygons.ring_starts)
+    place = within(sizes)
+    size, first = np.repeat(sizes, sizes), np.repeat(polygons.ring_starts[:-1], sizes)
+    is_line = np.repeat(polygons.ring_kind == LINE, sizes)
+    return np.asarray(first + np.where(is_line, place, (size - place) % np.maximum(size, 1)))
 
 
 def _declared(value: Any) -> dict[str, Declared]:

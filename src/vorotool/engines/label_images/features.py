@@ -14,6 +14,7 @@ from vorotool.engines.label_images.outlines import outlines
 from vorotool.engines.label_images.regions import region_table
 from vorotool.plain import plain
 from vorotool.types.features import Rows
+from vorotool.types.fields import UP, YAxis
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import SQUARE, PixelSides
 from vorotool.types.polygons.shapely_geometry import to_shapely
@@ -28,6 +29,7 @@ class _Map:
 
     index: Any
     crs: Any
+    y_axis: YAxis
 
 
 def region_rows(image: LabelImage | LabelVolume) -> Rows:
@@ -43,7 +45,8 @@ def region_features(image: LabelImage) -> Rows:
     rows, seeds = region_rows(image), image.seeds
     own = {} if seeds is None else seeds.properties
     table = _on_map(rows.table(), image, own)
-    source = _Map(getattr(seeds, "index", None), None if image.grid is None else image.grid.crs)
+    is_on_map = image.grid is not None and image.grid.transform is not None
+    source = _Map(getattr(seeds, "index", None), image.crs, UP if is_on_map else image.y_axis)
     return replace(rows, columns=table, source=source, geometry=_regions(image, _labels(table, own)))
 
 

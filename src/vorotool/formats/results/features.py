@@ -51,8 +51,10 @@ def write_features(
         for rows in parts_of(features):
             _write_wkt(out, rows, threads)
     else:
-        blocks = [_features(rows, precision) for rows in parts_of(features)]
-        write_collection(out, blocks, crs=value.crs, y_axis=value.y_axis, precision=precision, threads=threads)
+        parts = list(parts_of(features))
+        blocks = [_features(rows, precision) for rows in parts]
+        y_axis = getattr(parts[0].source, "y_axis", value.y_axis)
+        write_collection(out, blocks, crs=value.crs, y_axis=y_axis, precision=precision, threads=threads)
 
 
 def _write_wkt(out: BinaryIO, rows: Rows, threads: int) -> None:

@@ -105,6 +105,11 @@ def geometry_text(rows: Rows, style: str) -> GeometryText:
         return _of_corners(rows.geometry, style)
     if isinstance(rows.geometry, Lines):
         return _of_lines(rows.geometry, style)
+    if isinstance(rows.geometry, np.ndarray):
+        import shapely
+
+        texts = shapely.to_geojson(rows.geometry).tolist()
+        return GeometryText([Column("", [text or "null" for text in texts])], ("", ""), "null")
     assert isinstance(rows.geometry, Areas)
     return _of_areas(rows.geometry, style)
 

@@ -66,12 +66,12 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
     (1, 2)
     """
 
-    x: NDArray[np.int64] = f.numbers(np.int64, "seeds")
-    y: NDArray[np.int64] = f.numbers(np.int64, "seeds")
+    x: NDArray[np.int64] = f.steps(0, "seeds")
+    y: NDArray[np.int64] = f.steps(1, "seeds")
     labels: NDArray[np.uint32] = f.numbers(np.uint32, "seeds")
     scale: int = 1
-    frame: Frame | None = None
-    sites: NDArray[np.float64] | None = f.numbers(np.float64, "sites", 2, default=None)
+    frame: Frame | None = f.position(default=None)
+    sites: NDArray[np.float64] | None = f.position("sites", 2, default=None)
     site_labels: NDArray[np.uint32] | None = f.numbers(np.uint32, "sites", default=None)
     object_area: NDArray[np.int64] | None = f.numbers(np.int64, "sites", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
