@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,6 @@ from vorotool.errors import VerificationError
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import distinct
 from vorotool.plain import plain
-from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
@@ -58,12 +57,10 @@ def borders_of(
 ) -> Borders:
     """Choose the borders among the edges of a diagram and the segments of its graph."""
     whole = core_diagram(diagram, owned.graph.segment_faces)
-    limit = None
-    if np.isfinite(level):
-        faces, is_own, alias = _core.voronoi.edge_faces(whole, threads, None)
-        limit = Limit(owned.graph, diagram, level, faces, is_own.view(bool), owned.face < 0)
+    limit = Limit(owned, diagram, whole, level, threads) if np.isfinite(level) else None
+    reach = None if limit is None else (limit.is_near().view(np.uint8), limit.vertices().astype(np.int32))
     try:
-        made = _core.voronoi.site_borders(whole, owned.element, owned.face, _reach(limit), threads, None)
+        made = _core.voronoi.site_borders(whole, owned.element, owned.face, reach, threads, None)
         added = made["added"]
         borders = Borders(
             made["ends"],
@@ -76,46 +73,9 @@ def borders_of(
             np.full(made["ends"].shape, np.nan),
             level,
         )
-        return borders if limit is None else _limited(borders, owned, limit, made | {"alias": alias}, whole)
+        return borders if limit is None else limit.applied(borders, made)
     except RuntimeError as error:
         raise VerificationError(f"internal error in vorotool: {error}; please report it with the input") from None
-
-
-# ---- the limit of distance --------------------------------------------------------------------------
-def _reach(limit: Limit | None) -> tuple[NDArray[np.uint8], NDArray[np.int32]] | None:
-    """Of each edge whether it is within the limit, and the vertices that ends of other pieces are at."""
-    if limit is None:
-        return None
-    count = len(limit.diagram.edges)
-    is_near = limit.is_near(np.arange(count), np.zeros(count, dtype=bool))
-    return is_near.view(np.uint8), limit.vertices().astype(np.int32)
-
-
-def _limited(
-    borders: Borders, owned: OwnedGraph, limit: Limit, made: dict[str, Any], whole: _core.segment_voronoi.Diagram
-) -> Borders:
-    """Borders up to a limit, edges first, and the arcs along it."""
-    edges, first = len(made["edge"]), len(borders.places)
-    arcs = limit.arcs(first, lambda vertex, element: _core.voronoi.ranks_around(whole, vertex, element))
-    is_first = made["is_first"].view(bool)
-    is_half = made["point"] >= 0
-    has_end = np.stack([~is_half | is_first, ~is_half | ~is_first], axis=1)
-    ends, order = borders.ends.copy(), STEP * borders.order
-    ends[:edges], order[:edges] = limit.cut(ends[:edges], order[:edges], made["edge"].astype(np.int64), has_end, first)
-    element = _aliased(arcs.element, made["alias"])
-    beyond = np.full(len(element), OUTSIDE)
-    part = made["root"][_parts_of_elements(owned, element, arcs.face)]
-    return Borders(
-        np.concatenate([ends, arcs.ends]),
-        np.concatenate([borders.elements, np.repeat(arcs.element[:, None], 2, axis=1)]),
-        np.concatenate([borders.sites, np.stack([owned.element[element], beyond], axis=1)]).astype(np.int32),
-        np.concatenate([borders.parts, np.stack([part, beyond], axis=1)]),
-        np.concatenate([order, arcs.order]),
-        np.concatenate([borders.places, arcs.places]),
-        np.concatenate([borders.radius, np.full(len(arcs.places), limit.level)]),
-        np.concatenate([borders.center, arcs.center]),
-        limit.level,
-    )
 
 
 def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, level: float = np.inf, threads: int = 0) -> Borders:
@@ -158,78 +118,63 @@ def _parts_of_elements(owned: OwnedGraph, element: Indices, face: NDArray[np.int
     return parts
 
 
-def sides_of_segments(owned: OwnedGraph) -> tuple[NDArray[np.bool_], NDArray[np.int32], Indices]:
-    """Of each segment whether it is a border, and left and right its sites and parts."""
-    graph, count = owned.graph, len(owned.graph.points)
-    covering = owned.face[graph.segment_faces]
-    is_free = covering < 0
-    sites = np.where(is_free, owned.element[count:, None], covering)
-    side = count + 2 * np.arange(len(graph))[:, None] + np.arange(2)
-    parts = np.where(is_free, side, count + 2 * len(graph) + graph.segment_faces.astype(np.int64))
-    return sites[:, 0] != sites[:, 1], sites, parts
+def sites_beside_segments(owned: OwnedGraph) -> NDArray[np.int32]:
+    """(m, 2) the sites left and right of each segment."""
+    covering = owned.face[owned.graph.segment_faces]
+    return np.where(covering < 0, owned.element[len(owned.graph.points) :, None], covering)
 
 
-# ---- the curves of a limit ---------------------------------------------------------------------------
-@plain(eq=False)
-class LimitArcs:
-    """Arcs of a limit, each in the cell of an element of the graph, which is on its left."""
-
-    ends: Indices  # (k, 2) int64 array: source and target: nodes
-    element: Indices  # (k,) int64 array: the point or segment that they are at the distance from
-    # (k,) int32 array: of the graph, which they are in; that of circles around points is not told
-    face: NDArray[np.int32]
-    order: Indices  # (k, 2) int64 array: around source and target
-    # (k, 2) float64 array: on the lattice; NaN of straight lines. Circular arcs are at most half a circle
-    center: Floats
-    places: Floats  # (n, 2) float64 array: those of new nodes
-
-
+# ---- the limit of distance --------------------------------------------------------------------------
 class Limit:
     """The curves at one distance from all sites, by their crossings with the edges of a diagram."""
 
     def __init__(
         self,
-        graph: PlanarGraph,
+        owned: OwnedGraph,
         diagram: SegmentVoronoiDiagram,
+        whole: _core.segment_voronoi.Diagram,
         level: float,
-        edge_faces: NDArray[np.int32],
-        is_own: NDArray[np.bool_],
-        is_free: NDArray[np.bool_],
+        threads: int,
     ) -> None:
-        self.graph, self.diagram, self.level, self.edge_faces = graph, diagram, level, edge_faces
-        found = _core.offsets.level_crossings(
-            core_diagram(diagram, graph.segment_faces),
-            np.where(is_own, -1, edge_faces[:, 0]).astype(np.int32),
-            np.where(is_free, -1, 0).astype(np.int32),
-            level,
-            None,
-        )
-        self.half_edge = found["half_edge"].astype(np.int64)
-        self.across = found["across"].astype(np.int64)
-        self.ending, self.arc, self.middle = found["ending"], found["arc"], found["middle"]
-        self.is_lost = self._lost(found["place"])
-        self.place = self._places(found["place"])
-        self.cycle = _core.graphs.connected_components(self._onward(np.arange(len(self.across))), len(self.across))
-        self.around = self._around_pinholes()
-        self.circles = found["circles"].astype(np.int64)
+        self.owned, self.diagram, self.whole, self.level = owned, diagram, whole, level
+        faces, is_own, self.alias = _core.voronoi.edge_faces(whole, threads, None)
+        edge_face = np.where(is_own.view(bool), -1, faces[:, 0]).astype(np.int32)
+        free = np.where(owned.face < 0, -1, 0).astype(np.int32)
+        found = _core.offsets.level_crossings(whole, edge_face, free, level, None)
+        half_edge = found["half_edge"].astype(np.int64)
         self.number = np.full(2 * len(diagram.edges), -1, dtype=np.int64)
-        self.number[self.half_edge] = np.arange(len(self.half_edge))
+        self.number[half_edge] = np.arange(len(half_edge))
+        # of each crossing: its edge, the end that it cuts off, the vertex at the other end, the elements that the curve
+        # comes from and goes on to, and their face
+        self.edge, self.end = half_edge >> 1, half_edge & 1
+        self.vertex = diagram.edges[self.edge, 1 - self.end].astype(np.int64)
+        self.behind, self.ahead = (
+            diagram.edge_sites[self.edge, end].astype(np.int64) for end in (self.end, 1 - self.end)
+        )
+        self.face = faces[self.edge, self.end]
+        self.across = found["across"].astype(np.int64)  # the crossing where its arc ends
+        self.ending, self.middle, self.circles = found["ending"], found["middle"], found["circles"].astype(np.int64)
+        self.is_aligned = found["arc"] == _ALIGNED
+        self.is_lost = self._lost(found["place"]) | (found["arc"] == _LOST)
+        self.place = self._places(found["place"])
+        self.cycle = self._joined(np.arange(len(self.across)))
+        self.around = self._around_pinholes()
 
-    def _onward(self, chosen: Indices) -> NDArray[np.int32]:
-        """(k, 2) crossings, and those that arcs from there lead to."""
-        return np.stack([chosen, self.across[chosen]], axis=1).astype(np.int32)
+    def _joined(self, chosen: Indices) -> NDArray[np.int32]:
+        """(c,) the same number for crossings that arcs from some of them join."""
+        pairs = np.stack([chosen, self.across[chosen]], axis=1).astype(np.int32)
+        return _core.graphs.connected_components(pairs, len(self.across))
 
     def _lost(self, places: Floats) -> NDArray[np.bool_]:
         """Of each crossing, whether rounding leaves nothing of the arc from there."""
         step = np.abs(places - places[self.across]).max(axis=1)
-        largest = np.maximum(np.abs(places).max(axis=1), np.abs(self.graph.points).max(initial=0))
-        is_short = (step <= ROUNDING * largest) & np.isnan(self.middle[:, 0]) & (self.arc != _ALIGNED)
-        lost: NDArray[np.bool_] = is_short | (self.arc == _LOST)
+        largest = np.maximum(np.abs(places).max(axis=1), np.abs(self.owned.graph.points).max(initial=0))
+        lost: NDArray[np.bool_] = (step <= ROUNDING * largest) & np.isnan(self.middle[:, 0]) & ~self.is_aligned
         return lost
 
     def _places(self, places: Floats) -> Floats:
         """Of crossings: both ends of arcs that are lost are at one place, that of a vertex if there is one."""
-        group = _core.graphs.connected_components(self._onward(np.flatnonzero(self.is_lost)), len(places))
+        group = self._joined(np.flatnonzero(self.is_lost))
         kept = np.arange(len(places))
         fixed = np.flatnonzero(self.ending != _INSIDE)
         kept[group[fixed]] = fixed
@@ -237,7 +182,7 @@ class Limit:
 
     def _around_pinholes(self) -> Indices:
         """(c,) the number of each crossing, from 1, around what is far where rounding leaves a place of it; else 0."""
-        is_seen = ~(self.is_lost | (self.arc == _ALIGNED)) | (self.ending != _INSIDE)
+        is_seen = ~(self.is_lost | self.is_aligned) | (self.ending != _INSIDE)
         is_hole = np.bincount(self.cycle, is_seen, minlength=len(self.across)) == 0
         around = np.zeros(len(self.across), dtype=np.int64)
         for first in distinct(self.cycle[is_hole[self.cycle]]).tolist():
@@ -247,99 +192,94 @@ class Limit:
                 at, number = int(self.across[at]), number + 1
         return around
 
-    # ---- borders -----------------------------------------------------------------------------------
-    def is_near(self, edge: Indices, is_half: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """(k,) whether more than a place of edges is within the limit; halves that end at a point always are."""
+    def is_near(self) -> NDArray[np.bool_]:
+        """(e,) whether more than a place of each edge is within the limit."""
         radius = np.append(self.diagram.radius, np.inf)  # that of -1, at infinity
-        is_far = (radius[self.diagram.edges[edge]] > self.level).all(axis=1) & (self.number[2 * edge] < 0)
-        ending = np.append(self.ending, _INSIDE)  # that of -1, no crossing
-        for hand in (0, 1):
-            is_far |= ending[self.number[2 * edge + hand]] != _INSIDE
-        near: NDArray[np.bool_] = ~is_far | is_half
+        near: NDArray[np.bool_] = radius[self.diagram.edges].min(axis=1) <= self.level
+        near[self.edge[self.end == 0]] = True
+        near[self.edge[self.ending != _INSIDE]] = False
         return near
 
-    def nodes(self, first: int) -> tuple[Indices, Floats]:
-        """(c,) the node of each crossing, a vertex or counted from a first number on, and the places of the latter."""
-        edge, hand = self.half_edge >> 1, self.half_edge & 1
-        same = np.arange(len(edge))
+    def vertices(self) -> Indices:
+        """Vertices of the diagram that crossings are at."""
+        return distinct(self.vertex[self.ending == _AT_VERTEX])
+
+    def applied(self, borders: Borders, made: dict[str, Any]) -> Borders:
+        """Cut borders where they go beyond the limit, edges of the diagram first, and add the arcs along it."""
+        node, is_new = self._nodes(len(borders.places))
+        ends, order = borders.ends.copy(), STEP * borders.order
+        edge, is_whole, is_first = made["edge"].astype(np.int64), made["point"] < 0, made["is_first"].view(bool)
+        for end, has_end in enumerate((is_whole | is_first, is_whole | ~is_first)):
+            crossing = self.number[2 * edge + end]
+            cut = np.flatnonzero(has_end & (crossing >= 0))
+            crossing = crossing[cut]
+            ends[cut, end] = node[crossing]
+            # before the arcs there; of two that come to one place beside the end of a segment, the left one is second
+            first_or_second = -1 + self.is_aligned[crossing]
+            around = self.around[crossing]  # clockwise
+            order[cut, end] = np.where(around > 0, -around, first_or_second)
+        cut_borders = replace(borders, ends=ends, order=order)
+        arcs = self._arcs(node, len(borders.places), self.place[is_new], made["root"])
+        columns: dict[str, Any] = {
+            name: np.concatenate([getattr(cut_borders, name), getattr(arcs, name)])
+            for name in Borders.__dataclass_fields__
+            if name != "level"
+        }
+        return replace(arcs, **columns)
+
+    def _nodes(self, first: int) -> tuple[Indices, NDArray[np.bool_]]:
+        """(c,) the node of each crossing, a vertex or counted from a first number on, and whether it is counted."""
+        same = np.arange(len(self.edge))
         touching = self.ending == _TOUCHING
-        same[touching] = self.number[2 * edge[touching]]
-        aligned = np.flatnonzero(self.arc == _ALIGNED)
+        same[touching] = self.number[2 * self.edge[touching]]
+        aligned = np.flatnonzero(self.is_aligned)
         same[self.across[aligned]] = aligned
         same[self.around > 0] = self.cycle[self.around > 0]
         at_vertex = self.ending == _AT_VERTEX
         is_new = (same == np.arange(len(same))) & ~at_vertex
         number = np.cumsum(is_new) - 1 + first
-        node = np.where(at_vertex, self.diagram.edges[edge, 1 - hand], number[same])
-        return node.astype(np.int64), self.place[is_new]
+        return np.where(at_vertex, self.vertex, number[same]), is_new
 
-    def vertices(self) -> Indices:
-        """Vertices of the diagram that crossings are at."""
-        edge, hand = self.half_edge >> 1, self.half_edge & 1
-        at = self.ending == _AT_VERTEX
-        return distinct(self.diagram.edges[edge[at], 1 - hand[at]]).astype(np.int64)
-
-    def cut(
-        self, ends: Indices, order: Indices, edge: Indices, has_end: NDArray[np.bool_], first: int
-    ) -> tuple[Indices, Indices]:
-        """Move ends of pieces of edges from beyond the limit to their crossings."""
-        node, _ = self.nodes(first)
-        ends, order = ends.copy(), order.copy()
-        for hand in (0, 1):
-            crossing = self.number[2 * edge + hand]
-            cut = np.flatnonzero(has_end[:, hand] & (crossing >= 0))
-            ends[cut, hand] = node[crossing[cut]]
-            # before the arcs there; of two that come to one place beside the end of a segment, the left one is second
-            first_or_second = -1 + (self.arc[crossing[cut]] == _ALIGNED)
-            around = self.around[crossing[cut]]  # clockwise
-            order[cut, hand] = np.where(around > 0, -around, first_or_second)
-        return ends, order
-
-    # ---- arcs --------------------------------------------------------------------------------------
-    def arcs(self, first: int, rank: Callable[[Indices, Indices], Indices]) -> LimitArcs:
+    def _arcs(self, node: Indices, first: int, places: Floats, root: NDArray[np.int32]) -> Borders:
         """Give the arcs between crossings, those over half a circle in two, and the whole circles."""
-        node, places = self.nodes(first)
-        edge, hand = self.half_edge >> 1, self.half_edge & 1
-        coming, leaving = self._orders(node, rank)
         is_long = ~np.isnan(self.middle[:, 0])
-        kept = np.flatnonzero((self.arc != _ALIGNED) & (is_long | (node != node[self.across])))
-        onward = self.across[kept]
-        element = self.diagram.edge_sites[edge, 1 - hand].astype(np.int64)[kept]
-        ends = np.stack([node[kept], node[onward]], axis=1)
-        order = np.stack([leaving[kept], coming[onward]], axis=1)
-        split = np.flatnonzero(is_long[kept])
+        kept = np.flatnonzero(~self.is_aligned & (is_long | (node != node[self.across])))
+        onward, split = self.across[kept], np.flatnonzero(is_long[kept])
+        coming, leaving = self._orders(node)
+        ends, order = np.stack([node[kept], node[onward]], axis=1), np.stack([leaving[kept], coming[onward]], axis=1)
         middle = first + len(places) + np.arange(len(split))
-        second = np.stack([middle, ends[split, 1]], axis=1), np.stack([np.full(len(split), 1), order[split, 1]], axis=1)
+        second_ends = np.stack([middle, ends[split, 1]], axis=1)
+        second_order = np.stack([np.ones_like(middle), order[split, 1]], axis=1)
         ends[split, 1], order[split, 1] = middle, 0
-        around, of_circles = self._circles(first + len(places) + len(split))
-        element = np.concatenate([element, element[split], np.repeat(self.circles, 2)])
-        is_lost = np.zeros(len(element), dtype=bool)
-        is_lost[: len(kept)] = self.is_lost[kept]
-        is_arc = (element < len(self.graph.points)) & ~is_lost
-        face = self.edge_faces[edge, hand][kept]
-        return LimitArcs(
-            np.concatenate([ends, second[0], around]),
-            element,
-            np.concatenate([face, face[split], np.zeros(len(around), dtype=np.int32)]),
-            np.concatenate([order, second[1], np.tile([[0, 1]], (len(around), 1))]),
-            np.where(is_arc[:, None], self.graph.points[np.where(is_arc, element, 0)], np.nan),
-            np.concatenate([places, self.middle[kept[split]], of_circles]),
+        right = first + len(places) + len(split) + 2 * np.arange(len(self.circles))
+        circles = np.stack([right, right + 1, right + 1, right], axis=1).reshape(-1, 2)
+        center = self.owned.graph.points[self.circles].astype(np.float64)
+        aside = np.array([[self.level, 0.0], [-self.level, 0.0]])
+        own = np.concatenate([kept, kept[split]])
+        element = np.concatenate([self.ahead[own], np.repeat(self.circles, 2)])
+        face = np.concatenate([self.face[own], np.zeros(len(circles), dtype=np.int32)])
+        is_arc = element < len(self.alias)
+        is_arc[: len(kept)] &= ~self.is_lost[kept]
+        places = np.concatenate([places, self.middle[kept[split]], (center[:, None] + aside).reshape(-1, 2)])
+        aliased, beyond = _aliased(element, self.alias), np.full(len(element), OUTSIDE)
+        part = root[_parts_of_elements(self.owned, aliased, face)]
+        return Borders(
+            np.concatenate([ends, second_ends, circles]),
+            np.stack([element, element], axis=1),
+            np.stack([self.owned.element[aliased], beyond], axis=1).astype(np.int32),
+            np.stack([part, beyond], axis=1),
+            np.concatenate([order, second_order, np.tile([[0, 1]], (len(circles), 1))]),
+            places,
+            np.full(len(places), self.level),
+            np.where(is_arc[:, None], self.owned.graph.points[np.where(is_arc, element, 0)], np.nan),
+            self.level,
         )
 
-    def _orders(self, node: Indices, rank: Callable[[Indices, Indices], Indices]) -> tuple[Indices, Indices]:
+    def _orders(self, node: Indices) -> tuple[Indices, Indices]:
         """(c,) the orders around nodes of the arc that comes to each crossing, and of that which leaves it."""
-        edge, hand = self.half_edge >> 1, self.half_edge & 1
-        is_other = (self.ending == _TOUCHING) & (hand == 1)
+        is_other = (self.ending == _TOUCHING) & (self.end == 1)
         coming, leaving = np.where(is_other, 3, 1), np.where(is_other, 0, 2)
         at = np.flatnonzero(self.ending == _AT_VERTEX)
-        far = STEP * (2 * rank(node[at], self.diagram.edge_sites[edge[at], hand[at]].astype(np.int64)) + 1)
+        far = STEP * (2 * _core.voronoi.ranks_around(self.whole, node[at], self.behind[at]) + 1)
         coming[at], leaving[at] = far - 1, far + 1
         return coming, leaving
-
-    def _circles(self, first: int) -> tuple[Indices, Floats]:
-        """(2 k, 2) ends of the halves of whole circles, and (2 k, 2) places of their nodes."""
-        right = first + 2 * np.arange(len(self.circles))
-        ends = np.stack([right, right + 1, right + 1, right], axis=1).reshape(-1, 2)
-        center = self.graph.points[self.circles].astype(np.float64)
-        aside = np.array([[self.level, 0.0], [-self.level, 0.0]])
-        return ends, (center[:, None] + aside).reshape(-1, 2)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.voronoi.borders import Borders, sides_of_segments
+from vorotool.engines.voronoi.borders import Borders, sites_beside_segments
 from vorotool.engines.voronoi.crossings import SLACK, Crossings, EdgeLines, crossings_of
 from vorotool.engines.voronoi.cut_curves import controls_of
 from vorotool.engines.voronoi.elements import packed
@@ -245,7 +245,7 @@ class RegionOverlay(Overlay):
         row = _rows_of(packed(edges.points.astype(np.int64))[edges.ends], packed(graph.points)[graph.segments])
         chosen = np.flatnonzero(row >= 0)
         edge = row[chosen]
-        _, sites, _ = sides_of_segments(local.owned)
+        sites = sites_beside_segments(local.owned)
         same = (graph.points[graph.segments[chosen, 0]] == edges.points[edges.ends[edge, 0]]).all(axis=1)
         told = np.full((len(edges.ends), 2), UNKNOWN, dtype=np.int64)
         for hand in (0, 1):
