@@ -5,27 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import Borders
-from vorotool.engines.voronoi.cut_curves import FAR, CutCurves, cut_curves
+from vorotool.engines.voronoi.cut_curves import FAR, SLACK, CutCurves, CutEdges, cut_curves
 from vorotool.engines.voronoi.elements import packed
-from vorotool.engines.voronoi.regions import CutEdges, LocalDiagrams
+from vorotool.engines.voronoi.regions import LocalDiagrams
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Pairs = tuple[Indices, Indices]
-
-SLACK = 2.0**-12
-"""Of a step of the lattice: a place is on an edge that it misses by less. It is a thousand times what the coordinates
-there, below 2^30, are rounded by, and what is drawn to an edge so moves by 2^-43 of the extent."""
-
-ROUNDING = 2.0**-42
-"""Of coordinates on the lattice: a thousand times what they are rounded by, of those of frames beyond 2^30, too."""
-
-ROUNDING_GIVEN = 2.0**-51
-"""Of coordinates in input units: what differs by less may be the same number there, or come from the same one."""
 
 
 @plain(eq=False)
@@ -59,59 +48,16 @@ class Crossings:
     radius: Floats  # (v,) float64 array: distances from sites, on the lattice; NaN where no border is
 
 
-class EdgeLines:
-    """Cut edges as straight lines on the lattice."""
-
-    def __init__(self, edges: CutEdges) -> None:
-        self.source, self.target = edges.points[edges.ends[:, 0]], edges.points[edges.ends[:, 1]]
-        way = self.target - self.source
-        self.length = np.sqrt((way * way).sum(axis=1))
-        self.forward = way / np.where(self.length > 0, self.length, 1)[:, None]  # beyond all borders both ends are one
-        self.normal = np.stack([-self.forward[:, 1], self.forward[:, 0]], axis=1)
-        # what coordinates are rounded by: of a side of a frame the one that it is at tells
-        off = np.maximum(SLACK, ROUNDING * np.abs(edges.points))
-        if edges.scale is not None:
-            with np.errstate(over="ignore"):
-                given = ROUNDING_GIVEN * np.abs(edges.places) / edges.scale
-            off = np.maximum(off, np.minimum(given, np.abs(edges.points)))
-        same = self.source == self.target
-        self.slack = np.where(same, off[edges.ends[:, 0]], np.inf).min(axis=1)  # (m,) that places may miss edges by
-        self.slack = np.where(same.any(axis=1), self.slack, off[edges.ends].max(axis=(1, 2)))
-        self.end_slack = off.max(axis=1)[edges.ends]  # (m, 2) and their ends
-
-    def along(self, edge: Indices, places: Floats) -> Floats:
-        """(k,) how far along edges places are."""
-        far: Floats = (self.forward[edge] * (places - self.source[edge])).sum(axis=1)
-        return far
-
-    def beside(self, edge: Indices, places: Floats) -> Floats:
-        """(k,) how far from the lines of edges."""
-        near: Floats = np.abs((self.normal[edge] * (places - self.source[edge])).sum(axis=1))
-        return near
-
-    def place(self, ends: Floats, edge: Indices, far: Floats) -> Floats:
-        """(k, 2) places along edges with such ends (m, 2, 2); between ends of one coordinate they have that too."""
-        a, b = ends[edge].swapaxes(0, 1)
-        part = (far / self.length[edge])[:, None]
-        made: Floats = np.where(part < 1 / 2, a + part * (b - a), b - (1 - part) * (b - a))
-        return made
-
-    def at_ends(self, edge: Indices, far: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Whether what is so far along edges is at their sources, or before, and at their targets, or beyond."""
-        slack = self.end_slack[edge].T
-        return far <= slack[0], far >= self.length[edge] - slack[1]
-
-
 def crossings_between(
-    borders: Borders, edges: CutEdges, lines: EdgeLines, drawn: Drawn, pieces: Indices, curves: CutCurves, pairs: Pairs
+    borders: Borders, edges: CutEdges, drawn: Drawn, pieces: Indices, curves: CutCurves, pairs: Pairs
 ) -> Crossings:
     """Find where pieces of borders meet cut edges, given pairs of these: rows of the pieces, and edges."""
     count = len(borders.places)
-    stops, anchors = _stops_at_corners(borders.ends[pieces], curves, lines, edges, pairs, (drawn, count))
-    row, at, t = _roots(curves, lines, pairs, anchors)
+    stops, anchors = _stops_at_corners(borders.ends[pieces], curves, edges, pairs, (drawn, count))
+    row, at, t = _roots(curves, edges, pairs, anchors)
     place = curves[row].place(t)
-    inner = lines.along(at, place)
-    beyond = lines.at_ends(at, inner)
+    inner = edges.along(at, place)
+    beyond = edges.at_ends(at, inner)
     new = np.flatnonzero(~(beyond[0] | beyond[1]))
     number = np.empty(len(row), dtype=np.int64)
     for end, hit in enumerate(beyond):
@@ -121,7 +67,7 @@ def crossings_between(
     edge, far = np.concatenate([drawn.edge, at[new]]), np.concatenate([drawn.far, inner[new]])
     stop_row, stop_node = np.concatenate([stops[0], row]), np.concatenate([stops[1], number])
     stop_t = np.concatenate([stops[2], t])
-    _join_along_edges(node, edge, far, lines.slack)
+    _join_along_edges(node, edge, far, edges.slack)
     radius = np.concatenate([borders.radius, np.full(len(node) - count, np.nan)])
     is_limit = borders.sites[pieces[stop_row], 1] == OUTSIDE
     radius[stop_node] = np.where(is_limit, borders.level, curves[stop_row].radius(stop_t))
@@ -135,19 +81,17 @@ def crossings_of(local: LocalDiagrams, edges: CutEdges) -> Crossings:
     """Find where borders meet the cut edges of their region, on whose lattice walls are cut already."""
     import shapely
 
-    borders, lines = local.borders, EdgeLines(edges)
+    borders = local.borders
     drawn = Drawn.nowhere(len(borders.places) + len(edges.points))
-    tree = shapely.STRtree(shapely.linestrings(np.stack([lines.source, lines.target], axis=1)))
+    tree = shapely.STRtree(shapely.linestrings(edges.lines))
     region = local.region
-    _draw_places(local, edges, lines, tree, region, drawn)
+    _draw_places(local, edges, tree, region, drawn)
     is_wall = (borders.elements[:, 0] == borders.elements[:, 1]) & (borders.sites[:, 1] != OUTSIDE)
     *pairs, pieces, curves = _pairs(local, edges, tree, np.flatnonzero(~is_wall), region)
-    return crossings_between(borders, edges, lines, drawn, pieces, curves, (pairs[0], pairs[1]))
+    return crossings_between(borders, edges, drawn, pieces, curves, (pairs[0], pairs[1]))
 
 
-def _draw_places(
-    local: LocalDiagrams, edges: CutEdges, lines: EdgeLines, tree: Any, region: Indices, drawn: Drawn
-) -> None:
+def _draw_places(local: LocalDiagrams, edges: CutEdges, tree: Any, region: Indices, drawn: Drawn) -> None:
     """Tell which places of borders are at ends of cut edges or on these; places of sites are so exactly or not."""
     import shapely
 
@@ -170,11 +114,11 @@ def _draw_places(
     point = free[point]
     own = (edges.regions[near] == of_place[point][:, None]).any(axis=1)
     point, near = point[own], near[own]
-    along = lines.along(near, borders.places[point])
-    miss = lines.beside(near, borders.places[point])
+    along = edges.along(near, borders.places[point])
+    miss = edges.beside(near, borders.places[point])
     sorting = np.argsort(-miss, kind="stable")  # the nearest comes last, and stays
     edge[point[sorting]], far[point[sorting]] = near[sorting], along[sorting]
-    for end, is_at in enumerate(lines.at_ends(near, along)):
+    for end, is_at in enumerate(edges.at_ends(near, along)):
         node[point[is_at]] = count + edges.ends[near[is_at], end]
     edge[:count][node[:count] >= count] = -1
 
@@ -219,7 +163,6 @@ def _boxes(edges: CutEdges, region: Indices) -> tuple[Floats, Floats]:
 def _stops_at_corners(
     ends: Indices,
     curves: CutCurves,
-    lines: EdgeLines,
     edges: CutEdges,
     pairs: Pairs,
     known: tuple[Drawn, int],
@@ -236,11 +179,11 @@ def _stops_at_corners(
         is_corner = (at[:, None] == count + edges.ends[cut]).any(axis=1)
         hit = np.flatnonzero(on_edge | is_corner)
         anchors.append((hit, t[row[hit]]))
-    for end, corner in ((0, lines.source), (1, lines.target)):
-        t, miss = curves[row].nearest(corner[cut])
+    for end in (0, 1):
+        t, miss = curves[row].nearest(edges.lines[cut, end])
         at = count + edges.ends[cut, end]
         is_own = (own[row] == at[:, None]).any(axis=1)
-        hit = np.flatnonzero((miss <= lines.end_slack[cut, end]) & (t > low[row]) & (t < high[row]) & ~is_own)
+        hit = np.flatnonzero((miss <= edges.end_slack[cut, end]) & (t > low[row]) & (t < high[row]) & ~is_own)
         anchors.append((hit, t[hit]))
         stops.append((row[hit], at[hit], t[hit]))
     found = tuple(np.concatenate(each) for each in zip(*stops, strict=True))
@@ -250,14 +193,14 @@ def _stops_at_corners(
 
 
 def _roots(
-    curves: CutCurves, lines: EdgeLines, pairs: Pairs, anchors: tuple[Indices, Floats]
+    curves: CutCurves, edges: CutEdges, pairs: Pairs, anchors: tuple[Indices, Floats]
 ) -> tuple[Indices, Indices, Floats]:
     """Where else pieces meet edges: rows, edges and parameters."""
     row, cut = pairs
     if not len(row):
         return row, cut, np.empty(0)
     own = curves[row]
-    roots = own.meets(lines.source[cut], lines.normal[cut], lines.slack[cut])
+    roots = own.meets(edges.lines[cut, 0], edges.normal[cut], edges.slack[cut])
     order = np.argsort(anchors[0], kind="stable")
     pair, t = anchors[0][order], anchors[1][order]
     while pair.size:  # one anchor of each pair at a time takes the root nearest to it
@@ -270,9 +213,9 @@ def _roots(
     low, high = np.minimum(own.first, own.last), np.maximum(own.first, own.last)
     found, which = np.nonzero((roots > low[:, None]) & (roots < high[:, None]))
     t = roots[found, which]
-    far = lines.along(cut[found], own[found].place(t))
-    slack = lines.end_slack[cut[found]].T
-    is_on = (far > -slack[0]) & (far < lines.length[cut[found]] + slack[1])
+    far = edges.along(cut[found], own[found].place(t))
+    slack = edges.end_slack[cut[found]].T
+    is_on = (far > -slack[0]) & (far < edges.length[cut[found]] + slack[1])
     return row[found[is_on]], cut[found[is_on]], t[is_on]
 
 

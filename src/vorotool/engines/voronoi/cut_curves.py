@@ -1,4 +1,4 @@
-"""The curves of borders (paper, section 3.2), with parameters along them: straight lines, parabolas, circles."""
+"""The curves of borders (paper, section 3.2), with parameters along them, and the straight lines that cut them."""
 
 from __future__ import annotations
 
@@ -15,6 +15,20 @@ from vorotool.types.polygons.planar_graph import PlanarGraph
 
 FAR = 2.0**34
 """Beyond all that is on the lattice: ends that are farther away tell less of a line than its two elements do."""
+
+
+NOBODY = -1
+"""The region of what no cell may have."""
+
+SLACK = 2.0**-12
+"""Of a step of the lattice: a place is on an edge that it misses by less. It is a thousand times what the coordinates
+there, below 2^30, are rounded by, and what is drawn to an edge so moves by 2^-43 of the extent."""
+
+ROUNDING = 2.0**-42
+"""Of coordinates on the lattice: a thousand times what they are rounded by, of those of frames beyond 2^30, too."""
+
+ROUNDING_GIVEN = 2.0**-51
+"""Of coordinates in input units: what differs by less may be the same number there, or come from the same one."""
 
 
 @plain(eq=False)
@@ -161,6 +175,61 @@ class CutCurves:
         t[is_round] = np.where(ahead > 0, beside[is_round] / np.where(ahead > 0, ahead, 1), np.inf)
         miss[is_round] = np.abs(size - self.round[is_round])
         return t, miss
+
+
+class CutEdges:
+    """Segments between regions, as straight lines on the lattice."""
+
+    def __init__(
+        self,
+        points: Floats,  # (n, 2): their ends there
+        places: Floats,  # (n, 2): in input units
+        given: Floats,  # (n, 2): the same, as the input has them: see `_as_given`
+        ends: Indices,  # (m, 2): source and target, numbers of points
+        regions: Indices,  # (m, 2): left and right, two different ones; `NOBODY` where nothing is shared out
+        is_enclosure: NDArray[np.bool_],  # (m,) whether an enclosure runs along it
+        scale: float | None = None,  # the step of the lattice, where places are given in input units, and not on it
+    ) -> None:
+        self.points, self.places, self.given = points, places, given
+        self.ends, self.regions, self.is_enclosure = ends, regions, is_enclosure
+        self.lines = points[ends]  # (m, 2, 2)
+        way = self.lines[:, 1] - self.lines[:, 0]
+        self.length = np.sqrt((way * way).sum(axis=1))
+        self.forward = way / np.where(self.length > 0, self.length, 1)[:, None]  # beyond all borders both ends are one
+        self.normal = np.stack([-self.forward[:, 1], self.forward[:, 0]], axis=1)
+        # what coordinates are rounded by: of a side of a frame the one that it is at tells
+        off = np.maximum(SLACK, ROUNDING * np.abs(points))
+        if scale is not None:
+            with np.errstate(over="ignore"):
+                off = np.maximum(off, np.minimum(ROUNDING_GIVEN * np.abs(places) / scale, np.abs(points)))
+        same = way == 0
+        across = np.where(same, off[ends[:, 0]], np.inf).min(axis=1)
+        self.slack = np.where(
+            same.any(axis=1), across, off[ends].max(axis=(1, 2))
+        )  # (m,) that places may miss edges by
+        self.end_slack = off.max(axis=1)[ends]  # (m, 2) and their ends
+
+    def along(self, edge: Indices, places: Floats) -> Floats:
+        """(k,) how far along edges places are."""
+        far: Floats = (self.forward[edge] * (places - self.lines[edge, 0])).sum(axis=1)
+        return far
+
+    def beside(self, edge: Indices, places: Floats) -> Floats:
+        """(k,) how far from the lines of edges."""
+        near: Floats = np.abs((self.normal[edge] * (places - self.lines[edge, 0])).sum(axis=1))
+        return near
+
+    def place(self, ends: Floats, edge: Indices, far: Floats) -> Floats:
+        """(k, 2) places along edges with such ends (m, 2, 2); between ends of one coordinate they have that too."""
+        a, b = ends[edge].swapaxes(0, 1)
+        part = (far / self.length[edge])[:, None]
+        made: Floats = np.where(part < 1 / 2, a + part * (b - a), b - (1 - part) * (b - a))
+        return made
+
+    def at_ends(self, edge: Indices, far: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Whether what is so far along edges is at their sources, or before, and at their targets, or beyond."""
+        slack = self.end_slack[edge].T
+        return far <= slack[0], far >= self.length[edge] - slack[1]
 
 
 def controls_of(borders: Borders, graph: PlanarGraph) -> Floats:

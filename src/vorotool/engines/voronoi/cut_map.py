@@ -143,7 +143,7 @@ def _directions(overlay: Overlay, half: Indices, count: int) -> Floats:
     borders, pieces, found = overlay.borders, overlay.pieces, overlay.found
     ways = np.empty((len(half), 2))
     is_border, end = half < 2 * count, half & 1
-    forward = overlay.lines.forward[overlay.cuts.edge[(half[~is_border] >> 1) - count]]
+    forward = overlay.edges.forward[overlay.cuts.edge[(half[~is_border] >> 1) - count]]
     ways[~is_border] = np.where(end[~is_border, None] == 0, forward, -forward)
     piece, end = half[is_border] >> 1, end[is_border]
     own = borders.ends[pieces.piece[piece]]

@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import Borders
-from vorotool.engines.voronoi.crossings import Drawn, EdgeLines, crossings_between
-from vorotool.engines.voronoi.cut_curves import controls_of, cut_curves
+from vorotool.engines.voronoi.crossings import Drawn, crossings_between
+from vorotool.engines.voronoi.cut_curves import NOBODY, CutEdges, controls_of, cut_curves
 from vorotool.engines.voronoi.overlay import Overlay, Pieces, cut_pieces, pieces_between
-from vorotool.engines.voronoi.regions import NOBODY, CutEdges
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.types.box import Extent, corners_of
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -73,21 +72,20 @@ class FrameOverlay(Overlay):
     def __init__(self, borders: Borders, graph: PlanarGraph, frame: Extent) -> None:
         self.box = box = FrameBox(frame, graph)
         edges = box.edges()
-        lines = EdgeLines(edges)
         places = graph.coordinates(borders.places).reshape(-1, 2)
         at = np.flatnonzero(borders.radius == 0)
         given = graph.places_as_given(borders.places[at])
         on_side = _all_of((given >= box.low) & (given <= box.high)) & ~box.is_inside(given)
         places[at[on_side]] = given[on_side]  # the lattice may have them beside it
-        side = box.side_of(places, borders.places, borders.radius == 0, lines.slack)
-        drawn = _drawn(box, borders, places, side, lines)
+        side = box.side_of(places, borders.places, borders.radius == 0, edges.slack)
+        drawn = _drawn(box, borders, places, side, edges)
         control = controls_of(borders, graph)
         state = _states(borders, places, graph, control, box)
         is_drawn = np.append(side >= 0, False)
         rows = np.flatnonzero((state == _CROSSING) | ((state == _WITHIN) & is_drawn[borders.ends].any(axis=1)))
         crossing = np.flatnonzero(state[rows] == _CROSSING)
         pairs = np.repeat(crossing, SIDES), np.tile(np.arange(SIDES), len(crossing))
-        found = crossings_between(borders, edges, lines, drawn, rows, cut_curves(borders, graph, rows), pairs)
+        found = crossings_between(borders, edges, drawn, rows, cut_curves(borders, graph, rows), pairs)
         super().__init__(borders, graph, edges, np.broadcast_to(np.int64(0), len(borders.ends)), control, found)
         state[rows] = _CROSSING
         self.of_places, self.given = places, (at, given)
@@ -137,14 +135,14 @@ class FrameOverlay(Overlay):
         return kept
 
 
-def _drawn(box: FrameBox, borders: Borders, places: Floats, side: Indices, lines: EdgeLines) -> Drawn:
+def _drawn(box: FrameBox, borders: Borders, places: Floats, side: Indices, edges: CutEdges) -> Drawn:
     """Note the places of borders that are on sides of a frame, or at its corners."""
     count = len(places)
     drawn = Drawn.nowhere(count + SIDES)
     at = np.flatnonzero(side >= 0)
-    far = lines.along(side[at], borders.places[at])
+    far = edges.along(side[at], borders.places[at])
     drawn.edge[at], drawn.far[at] = side[at], far
-    near = (np.abs(borders.places[at] - box.on_lattice[side[at]]) <= lines.end_slack[side[at], :1]).all(axis=1)
+    near = (np.abs(borders.places[at] - box.on_lattice[side[at]]) <= edges.end_slack[side[at], :1]).all(axis=1)
     corner = at[(places[at] == box.corners[side[at]]).all(axis=1) | (near & (borders.radius[at] > 0))]
     drawn.node[corner], drawn.edge[corner] = count + side[corner], -1
     return drawn

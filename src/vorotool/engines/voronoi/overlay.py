@@ -7,11 +7,12 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders, sites_beside_segments
-from vorotool.engines.voronoi.crossings import SLACK, Crossings, EdgeLines, crossings_of
-from vorotool.engines.voronoi.cut_curves import controls_of
+from vorotool.engines.voronoi.crossings import Crossings, crossings_of
+from vorotool.engines.voronoi.cut_curves import NOBODY, SLACK, CutEdges, controls_of
 from vorotool.engines.voronoi.elements import packed
-from vorotool.engines.voronoi.regions import NOBODY, CutEdges, LocalDiagrams, faces_of_sides
-from vorotool.numeric.arrays import Floats, Indices, owners, starts_of
+from vorotool.engines.voronoi.regions import LocalDiagrams, faces_of_sides
+from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.ragged import owners, starts_of
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
@@ -108,7 +109,6 @@ class Overlay:
         self.region = region  # (b,) of each border
         self.control = control  # (b, 2) of each border, on the lattice
         self.count = len(borders.places)
-        self.lines = EdgeLines(edges)
         # (v + 1,) whether places are on cuts, the last one of -1, at infinity
         self.is_cut = np.append((found.edge >= 0) & (found.node == np.arange(len(found.node))), False)
         self.is_cut[self.count : self.count + len(edges.points)] = True
@@ -168,7 +168,7 @@ class Overlay:
         """How far along an edge a place on it is."""
         is_inner = self.found.edge[node] == edge
         is_source = node == self.count + self.edges.ends[edge, 0]
-        far: Floats = np.where(is_inner, self.found.far[node], np.where(is_source, 0, self.lines.length[edge]))
+        far: Floats = np.where(is_inner, self.found.far[node], np.where(is_source, 0, self.edges.length[edge]))
         return far
 
     def _tell_borders(self, pieces: Pieces, along: Indices) -> None:
@@ -200,8 +200,9 @@ class Overlay:
         edge = self.cuts.edge[part]
         first, last = (self._far(node, edge) for node in self.cuts.ends[part].T)
         far = first[:, None] + (last - first)[:, None] * np.array(shares)
-        way = (self.lines.target - self.lines.source)[edge]
-        places: Floats = self.lines.source[edge, None] + (far / self.lines.length[edge, None])[..., None] * way[:, None]
+        source, target = self.edges.lines[edge].swapaxes(0, 1)
+        along = far / self.edges.length[edge, None]
+        places: Floats = source[:, None] + along[..., None] * (target - source)[:, None]
         return places, last - first
 
 
@@ -233,7 +234,7 @@ class RegionOverlay(Overlay):
         places = np.full((len(found.node), 2), np.nan)
         places[: self.count] = of_borders
         places[self.count : self.count + len(of_cuts)] = of_cuts
-        places[inner] = self.lines.place(of_cuts[self.edges.ends], found.edge[inner], found.far[inner])
+        places[inner] = self.edges.place(of_cuts[self.edges.ends], found.edge[inner], found.far[inner])
         return places
 
     def _tell_walls(self) -> None:
@@ -272,7 +273,7 @@ class RegionOverlay(Overlay):
         reaches[group[(pieces.ends < 0).any(axis=1)]] = True
         order = np.lexsort((length, group))
         longest = order[np.append(np.diff(group[order]) > 0, True)] if count else order
-        names, shapes = faces_of_sides(np.stack([self.lines.source, self.lines.target], axis=1), self.edges.regions)
+        names, shapes = faces_of_sides(self.edges.lines, self.edges.regions)
         at = longest[~reaches[group[longest]]]
         row, place = shapely.STRtree(shapely.points(middle[at])).query(shapes, predicate="intersects")
         inside = np.zeros(groups, dtype=bool)

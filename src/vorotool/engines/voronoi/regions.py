@@ -12,6 +12,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import Placement, arranged
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi_of_groups
 from vorotool.engines.voronoi.borders import Borders, borders_of
+from vorotool.engines.voronoi.cut_curves import NOBODY, CutEdges
 from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owners_of, packed
 from vorotool.engines.voronoi.joint_graph import JointGraph
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
@@ -24,22 +25,6 @@ from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 
 Sites = NDArray[np.int32]
-
-NOBODY = -1
-"""The region of what no cell may have."""
-
-
-@plain(eq=False)
-class CutEdges:
-    """Segments between regions, on the lattice."""
-
-    points: Floats  # (n, 2) float64 array: their ends there
-    places: Floats  # (n, 2) float64 array: in input units
-    given: Floats  # (n, 2) float64 array: the same, as the input has them: see `_as_given`
-    ends: Indices  # (m, 2) int64 array: source and target, numbers of points
-    regions: Indices  # (m, 2) int64 array: left and right, two different ones; `NOBODY` where nothing is shared out
-    is_enclosure: NDArray[np.bool_]  # (m,) bool array: whether an enclosure runs along it
-    scale: float | None = None  # the step of the lattice, where places are given in input units, and not on it
 
 
 @plain(eq=False)
