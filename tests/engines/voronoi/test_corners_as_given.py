@@ -8,7 +8,7 @@ import shapely
 
 from support.few import few
 from vorotool import read, verify_voronoi, voronoi, write
-from vorotool.engines.voronoi.assembly import Arcs, Moves, Rings, moved_vertices
+from vorotool.engines.voronoi.assembly import Arcs, Rings, moved_vertices
 
 FAR = shapely.box(500000.1, 3.3, 500010.7, 9.9)
 CLIP = shapely.Polygon([(-3.3, -3.1), (70.7, -2.2), (69.9, 66.6), (-5.5, 61.1)], [[(41, 30.3), (42.1, 30.9), (41, 31)]])
@@ -88,7 +88,7 @@ def test_a_ring_that_might_turn_over_stays():
     thin, wide = [[0, 0], [4, 1e-3], [4, 0]], [[9, 0], [12, 0], [12, 4]]
     ends = np.array([[0, 1], [1, 2], [0, 2], [3, 4], [4, 5], [3, 5]])
     none, sides, cut = np.full((6, 2), np.nan), np.zeros((6, 2), dtype=np.int64), np.zeros(6, dtype=bool)
-    moves = Moves(np.array([1, 4]), np.array([[4, -1e-3], [12, 1e-3]]))
+    moves = np.array([1, 4]), np.array([[4, -1e-3], [12, 1e-3]])
     arcs = Arcs(np.array([*thin, *wide], dtype=float), np.zeros(6), ends, none, none, sides, sides, sides, cut, moves)
     half_edges = np.array([1, 4, 3, 6, 8, 11])
     rings = Rings(np.array([0, 3, 6]), half_edges, np.array([0, 1]), np.array([0, 1]), np.array([2e-3, 6.0]))

@@ -216,17 +216,12 @@ def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, threads: int,
 
 
 def _check_orientation(offsets: Offsets, tolerance: float) -> None:
-    single = Offsets(
-        offsets.start,
-        offsets.end,
-        offsets.center,
-        offsets.site,
-        offsets.ring_starts,
-        np.arange(len(offsets.ring_starts)),
-        offsets.distance[offsets.shape_of_ring],
-        offsets.polygon[offsets.shape_of_ring],
-        offsets.site_table,
-        offsets.polygons,
+    shape = offsets.shape_of_ring
+    single = replace(
+        offsets,
+        shape_starts=np.arange(len(offsets.ring_starts)),
+        distance=offsets.distance[shape],
+        polygon=offsets.polygon[shape],
     )
     length = np.add.reduceat(offsets.length, offsets.ring_starts[:-1]) if len(single) else np.zeros(0)
     area = np.where(offsets.ring_kind == SHELL, single.area, -single.area)

@@ -30,7 +30,8 @@ class Arcs:
     parts: Indices  # (a, 2) int64 array: left and right; `OUTSIDE` of what belongs to nobody
     order: Indices  # (a, 2) int64 array: rising counter-clockwise around source and target
     is_cut: NDArray[np.bool_]  # (a,) whether each is along a cut
-    moves: Moves  # of vertices that are vertices of the input: all is decided where the lattice has them
+    # vertices that are vertices of the input, and where these are: all is decided where the lattice has them
+    moves: tuple[Indices, Floats]
 
     def mixed(self) -> MixedArcs:
         """The arcs with their ends."""
@@ -106,21 +107,8 @@ def _bulges(arcs: Arcs) -> Floats:
     return bulges
 
 
-@plain(eq=False)
-class Cells:
-    """Cells as rings in rows."""
-
-    ring_arcs: NDArray[np.int32]  # (k,) int32 array: arcs along each ring, from 1; below 0 against their direction
-    # int64 array: where each ring begins there, each polygon among the rings, each cell among the polygons
-    ring_starts: Indices
-    # int64 array: where each ring begins there, each polygon among the rings, each cell among the polygons
-    polygon_starts: Indices
-    # int64 array: where each ring begins there, each polygon among the rings, each cell among the polygons
-    cell_starts: Indices
-
-
-def cells_of(rings: Rings, shell: Indices, count: int) -> Cells:
-    """Put rings into polygons, and polygons into cells."""
+def cells_of(rings: Rings, shell: Indices, count: int) -> tuple[NDArray[np.int32], Indices, Indices, Indices]:
+    """Put rings into polygons, and polygons into cells: arcs along rings, from 1, and where rows of each begin."""
     is_hole = shell != np.arange(len(shell))
     sorting = np.lexsort((np.arange(len(shell)), is_hole, shell, rings.site[shell]))
     sizes = np.diff(rings.start)[sorting]
@@ -128,7 +116,7 @@ def cells_of(rings: Rings, shell: Indices, count: int) -> Cells:
     arc = (half_edge >> 1) + 1
     first = np.flatnonzero(~is_hole[sorting])
     of_site = np.bincount(rings.site[sorting[first]], minlength=count)
-    return Cells(
+    return (
         np.where(half_edge & 1, -arc, arc).astype(np.int32),
         starts_of(sizes),
         np.append(first, len(sorting)),
@@ -136,22 +124,9 @@ def cells_of(rings: Rings, shell: Indices, count: int) -> Cells:
     )
 
 
-@plain(eq=False)
-class Moves:
-    """Where some of many places are in the input."""
-
-    at: Indices  # (k,) int64 array: their numbers
-    xy: Floats  # (k, 2) float64 array: where each is
-
-    def renumbered(self, number: Indices) -> Moves:
-        """Give places other numbers; those below 0 are left out."""
-        at = number[self.at]
-        return Moves(at[at >= 0], self.xy[at >= 0])
-
-
 def moved_vertices(arcs: Arcs, rings: Rings) -> Floats:
     """(v, 2) vertices of a map, where the input has them; on rings so thin that they might turn over none is moved."""
-    at, xy = arcs.moves.at, arcs.moves.xy
+    at, xy = arcs.moves
     made = arcs.vertices.copy()
     if not at.size:
         return made

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.voronoi.assembly import Arcs, Moves, by_ends, without_lost
+from vorotool.engines.voronoi.assembly import Arcs, by_ends, without_lost
 from vorotool.engines.voronoi.nearest import NearestElements
 from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay, RegionOverlay
 from vorotool.errors import VerificationError
@@ -114,7 +114,8 @@ class CutMap:
         number = np.full(len(self.places), -1, dtype=np.int64)
         number[chosen] = np.arange(len(chosen))
         at = np.flatnonzero((self.given != self.places).any(axis=1))
-        moves = Moves(at, self.given[at]).renumbered(number)
+        at = at[number[at] >= 0]
+        moves = number[at], self.given[at]
         straight = np.full((len(ends) - count, 2), np.nan)
         control, center = (np.concatenate([each, straight]) for each in (self.control, self.center))
         ends = number.take(ends)

@@ -13,13 +13,14 @@ from vorotool.engines.arrangement.planar_graph import MOST_VERTICES, Placement, 
 from vorotool.engines.arrangement.repaired_polygons import with_flat_shells_as_lines
 from vorotool.engines.voronoi.elements import graph_of_sites
 from vorotool.errors import InputError, LimitError
-from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of
+from vorotool.numeric.arrays import owners, ranges, starts_of
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.box import Extent, Sides, bounds, check_magnitude, default_frame, extent_sides
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.types.polygons.used_shapes import RingArrays
 
 
 @plain(eq=False)
@@ -51,14 +52,12 @@ def joint_graph(
 ) -> JointGraph:
     """Put sites, the sides of a frame and cuts on one lattice, and cut all where they meet."""
     given = with_flat_shells_as_lines(polygons)
-    parts = [given]
-    if sides is not None:
-        parts.append(_box(sides))
-    if clip is not None:
-        parts.append(_without_lines(clip))
-    if enclosures is not None:
-        parts.append(_as_closed_lines(enclosures))
-    joined = _joined(parts)
+    parts = [RingArrays.of(given)]
+    parts.append(_no_rings() if sides is None else _box(sides))
+    parts.append(_no_rings() if clip is None else RingArrays.of(clip).taken(np.flatnonzero(~clip.is_line))[0])
+    parts.append(_no_rings() if enclosures is None else _as_closed_lines(enclosures))
+    joined = RingArrays.joined(parts).bare()
+    _, frame, first, second, _ = np.cumsum([0, *(len(part.rings) for part in parts)]).tolist()
     check_magnitude(joined.xy)
     if len(joined.xy) > MOST_VERTICES:
         raise LimitError(f"there are {len(joined.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
@@ -66,38 +65,27 @@ def joint_graph(
     graph = arranged(joined, placement, progress=progress).graph
     noded, vertices = _noded(given, graph)
     of_sites = Placement(vertices, placement.origin, placement.exponent, placement.largest_move)
-    first = len(given) + (sides is not None)
-    second = first + (len(parts[1 + (sides is not None)]) if clip is not None else 0)
     return JointGraph(
         graph,
         range(first, second),
         range(second, len(joined)),
-        len(given) if sides is not None else -1,
+        -1 if sides is None else frame,
         graph_of_sites(noded, of_sites, progress=progress),
     )
 
 
-def _box(sides: Sides) -> PolygonSet:
+def _box(sides: Sides) -> RingArrays:
     left, bottom, right, top = sides
     corners = np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
-    return _rings(corners, np.array([4]), np.array([SHELL]), np.array([0]))
+    return RingArrays(corners, np.array([4]), np.array([SHELL], dtype=np.int8), np.array([1]))
 
 
-def _rings(xy: Floats, sizes: Indices, kinds: NDArray[np.integer], polygons: NDArray[np.integer]) -> PolygonSet:
-    return PolygonSet(xy, starts_of(sizes), kinds.astype(np.int8), polygons.astype(np.int32))
+def _no_rings() -> RingArrays:
+    none = np.empty(0, dtype=np.int64)
+    return RingArrays(np.empty((0, 2)), none, none.astype(np.int8), none)
 
 
-def _without_lines(clip: PolygonSet) -> PolygonSet:
-    """The polygons among polygons and lines."""
-    ring = np.flatnonzero(~clip.is_line[clip.ring_polygon])
-    sizes = np.diff(clip.ring_starts)[ring]
-    number = np.cumsum(~clip.is_line) - 1
-    return _rings(
-        clip.xy[ranges(clip.ring_starts[ring], sizes)], sizes, clip.ring_kind[ring], number[clip.ring_polygon[ring]]
-    )
-
-
-def _as_closed_lines(enclosures: PolygonSet) -> PolygonSet:
+def _as_closed_lines(enclosures: PolygonSet) -> RingArrays:
     """Each ring of polygons and lines as a line of its own."""
     closes = (np.asarray(enclosures.ring_kind) != LINE).astype(np.int64)
     own = np.diff(enclosures.ring_starts)
@@ -105,17 +93,7 @@ def _as_closed_lines(enclosures: PolygonSet) -> PolygonSet:
     taken = ranges(enclosures.ring_starts[:-1], sizes)
     ends = np.cumsum(sizes) - 1
     taken[ends[closes > 0]] = enclosures.ring_starts[:-1][closes > 0]
-    return _rings(enclosures.xy[taken], sizes, np.full(len(own), LINE), np.arange(len(own)))
-
-
-def _joined(parts: list[PolygonSet]) -> PolygonSet:
-    first = np.cumsum([0, *(len(part) for part in parts)])
-    return _rings(
-        np.concatenate([part.xy for part in parts]),
-        np.concatenate([np.diff(part.ring_starts) for part in parts]),
-        np.concatenate([part.ring_kind for part in parts]),
-        np.concatenate([part.ring_polygon + at for part, at in zip(parts, first.tolist(), strict=False)]),
-    )
+    return RingArrays(enclosures.xy[taken], sizes, np.full(len(own), LINE, dtype=np.int8), np.ones(len(own), np.int64))
 
 
 def _noded(given: PolygonSet, graph: PlanarGraph) -> tuple[PolygonSet, NDArray[np.int32]]:
@@ -131,20 +109,14 @@ def _noded(given: PolygonSet, graph: PlanarGraph) -> tuple[PolygonSet, NDArray[n
     along = a[after] - a
     inner = (place != a[edge]).any(axis=1) & (place != a[after[edge]]).any(axis=1)
     edge, place = edge[inner], place[inner]
-    offset = place - a[edge]
-    far = offset[:, 0] * along[edge, 0] + offset[:, 1] * along[edge, 1]
-    order = np.lexsort((place[:, 1], place[:, 0], far, edge))
-    edge, place, far = edge[order], place[order], far[order]
-    again = np.zeros(len(edge), dtype=bool)
-    again[1:] = (edge[1:] == edge[:-1]) & (place[1:] == place[:-1]).all(axis=1)
-    edge, place = edge[~again], place[~again]
-    rank = np.concatenate([np.zeros(count, dtype=np.int64), 1 + np.arange(len(edge))])
-    sorting = np.lexsort((rank, np.concatenate([np.arange(count), edge])))
-    all_places = np.concatenate([a, place])[sorting].astype(np.int32)
+    far = ((place - a[edge]) * along[edge]).sum(axis=1)
+    edge, _, *xy = np.unique(np.column_stack([edge, far, place]), axis=0).T
+    order = np.argsort(np.concatenate([np.arange(count), edge]), kind="stable")
+    places = np.concatenate([a, np.stack(xy, axis=1)])[order].astype(np.int32)
     ring = np.searchsorted(given.ring_starts, edge, side="right") - 1
     sizes = np.diff(given.ring_starts) + np.bincount(ring, minlength=len(given.ring_kind))
-    noded = _rings(all_places.astype(np.float64), sizes, given.ring_kind, given.ring_polygon)
-    return noded, all_places
+    noded = PolygonSet(places.astype(np.float64), starts_of(sizes), given.ring_kind, given.ring_polygon)
+    return noded, places
 
 
 FARTHEST = 8.0

@@ -23,6 +23,7 @@ from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.used_shapes import RingArrays
 
 Sites = NDArray[np.int32]
 
@@ -298,19 +299,9 @@ def _graphs_of_regions(sites: PlanarGraph, site: Sites, count: int, regions: Reg
     for region in range(regions.count):
         own = regions.sites_of(region)
         polygon = np.sort(order[ranges(start[own], np.diff(start)[own])])
-        part, vertices = _chosen(given, polygon, sites.vertices)
-        placement = Placement(vertices, sites.origin, above.bit_length() - below.bit_length(), 0.0)
-        yield owners_of(arranged(part, placement).graph, site[polygon])
-
-
-def _chosen(given: PolygonSet, polygon: Indices, vertices: NDArray[np.int32]) -> tuple[PolygonSet, NDArray[np.int32]]:
-    """Some polygons, and where their vertices are."""
-    rings = np.diff(given.polygon_starts)[polygon]
-    ring = ranges(given.polygon_starts[polygon], rings)
-    sizes = np.diff(given.ring_starts)[ring]
-    taken = ranges(given.ring_starts[ring], sizes)
-    number = np.repeat(np.arange(len(polygon), dtype=np.int32), rings)
-    return PolygonSet(given.xy[taken], starts_of(sizes), given.ring_kind[ring], number), vertices[taken]
+        part, _, taken = RingArrays.of(given).taken(polygon)
+        placement = Placement(sites.vertices[taken], sites.origin, above.bit_length() - below.bit_length(), 0.0)
+        yield owners_of(arranged(part.bare(), placement).graph, site[polygon])
 
 
 def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:

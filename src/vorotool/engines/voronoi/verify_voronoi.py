@@ -15,8 +15,8 @@ from vorotool.numeric.curves.inverse_functions import PI, angle_of
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.types.arguments import check_value
 from vorotool.types.box import corners_of
-from vorotool.types.polygons.shapely_geometry import used_shapes
 from vorotool.types.voronoi.shapes import flattened_arcs
+from vorotool.types.voronoi.tables import site_shapes
 from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 AREA = 1e-12
@@ -180,12 +180,7 @@ class _SitePlaces:
         import shapely
 
         given = cells.polygons
-        parts = used_shapes(given)
-        order = np.argsort(cells.polygon_site, kind="stable")
-        self.numbers, rows = np.unique(cells.polygon_site[order], return_inverse=True)
-        self.geometry = shapely.geometrycollections(parts[order], indices=rows)
-        self.row = np.full(len(cells), -1)
-        self.row[self.numbers] = np.arange(len(self.numbers))
+        self.geometry = site_shapes(cells)
         self.tree = shapely.STRtree(self.geometry)
         others = [each.xy for each in (cells.clip, cells.enclosures) if each is not None]
         # with others the lattice holds the frame, too
@@ -200,7 +195,7 @@ class _SitePlaces:
         """Of each place from one site."""
         import shapely
 
-        made: Floats = shapely.distance(self.geometry[self.row[site]], shapely.points(places))
+        made: Floats = shapely.distance(self.geometry[site], shapely.points(places))
         return made
 
     def least(self, places: Floats) -> Floats:
@@ -333,7 +328,7 @@ def _check_shares(
     is_wrong[doubtful] = shapely.distance(shapely.boundary(shared), points[doubtful]) > near
     if sites.faces is not None:
         close = shapely.STRtree(sites.faces.boundaries).query(points, predicate="dwithin", distance=near)[0]
-        strange = ~sites.faces.may_have(places[place], sites.row[cell])
+        strange = ~sites.faces.may_have(places[place], cell)
         is_wrong[place[strange]] = True
         is_wrong[close] = False
     at = first_wrong(is_wrong)
@@ -351,18 +346,15 @@ def _check_ties(
     import shapely
 
     points = shapely.points(places)
-    place, row = sites.tree.query_nearest(points, all_matches=True)
-    earlier = sites.numbers[row] < cell[place]
-    for at, other in zip(place[earlier].tolist(), row[earlier].tolist(), strict=True):
-        both = sites.geometry[[other, sites.row[cell[at]]]]
+    place, site = sites.tree.query_nearest(points, all_matches=True)
+    earlier = site < cell[place]
+    for at, other in zip(place[earlier].tolist(), site[earlier].tolist(), strict=True):
+        both = sites.geometry[[other, cell[at]]]
         feet = shapely.get_coordinates(shapely.shortest_line(points[at], both)).reshape(2, 2, 2)[:, 1].tolist()
         is_corner = feet[0] == feet[1] and tuple(feet[0]) in sites.corners
         is_covered = min(_depth(each, points[at]) for each in both) > near
         if (is_corner or is_covered) and shapely.distance(shapely.boundary(shapes[cell[at]]), points[at]) > near:
-            fail(
-                f"{tuple(places[at].tolist())} is in cell {cell[at]}, but site {sites.numbers[other]} is as near and "
-                "comes first"
-            )
+            fail(f"{tuple(places[at].tolist())} is in cell {cell[at]}, but site {other} is as near and comes first")
 
 
 def _depth(geometry: Any, point: Any) -> float:

@@ -134,7 +134,6 @@ def voronoi(
         extent = given_frame or default_frame(given.polygons, limit)
         owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
         arcs, rings = _map(owned, extent, limit, threads, progress)
-    cells = cells_of(rings, shells_of(rings, arcs), given.count)
     vertices = moved_vertices(arcs, rings)
     return VoronoiMap(
         vertices,
@@ -144,10 +143,7 @@ def voronoi(
         arcs.control,
         without_lost(arcs.center, vertices, arcs.ends, arcs.sites[:, 0] != OUTSIDE),
         arcs.is_cut,
-        cells.ring_arcs,
-        cells.ring_starts,
-        cells.polygon_starts,
-        cells.cell_starts,
+        *cells_of(rings, shells_of(rings, arcs), given.count),
         extent,
         given.polygons,
         given.site,

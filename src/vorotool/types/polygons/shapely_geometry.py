@@ -174,6 +174,10 @@ class RingArrays:
         made = RingArrays(self.xy[vertices], self.sizes[rings], self.kind[rings], self.rings[chosen])
         return made, rings, vertices
 
+    def bare(self) -> PolygonSet:
+        """Make a set of polygons without a description."""
+        return PolygonSet(self.xy, starts_of(self.sizes), self.kind, owners(self.rings, np.int32))
+
     def polygons(self, given: PolygonSet, source: NDArray[Any]) -> PolygonSet:
         """Make a set of polygons that are described as those of another set: ids, features, properties and index."""
         assert given.feature is not None
