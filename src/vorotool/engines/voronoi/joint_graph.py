@@ -20,7 +20,7 @@ from vorotool.plain import plain
 from vorotool.types.box import Extent, Sides, bounds, check_magnitude, default_frame, extent_sides
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, SHELL, PolygonSet, set_of_rings
-from vorotool.types.polygons.used_shapes import RingArrays
+from vorotool.types.polygons.shapely_geometry import RingArrays
 
 
 @plain(eq=False)

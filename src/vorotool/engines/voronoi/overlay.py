@@ -11,8 +11,7 @@ from vorotool.engines.voronoi.crossings import Crossings, crossings_of
 from vorotool.engines.voronoi.cut_curves import NOBODY, SLACK, CutEdges, controls_of
 from vorotool.engines.voronoi.elements import packed
 from vorotool.engines.voronoi.regions import LocalDiagrams, faces_of_sides
-from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.ragged import owners, starts_of
+from vorotool.numeric.arrays import Floats, Indices, owners, starts_of
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
