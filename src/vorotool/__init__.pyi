@@ -51,10 +51,10 @@ from vorotool.engines.delaunay.delaunay import (
     delaunay as delaunay,
 )
 from vorotool.engines.delaunay.delaunay import (
-    verify_triangulation as verify_triangulation,
-)
-from vorotool.engines.delaunay.insertion import (
     insert_points as insert_points,
+)
+from vorotool.engines.delaunay.delaunay import (
+    verify_triangulation as verify_triangulation,
 )
 from vorotool.engines.delaunay.proximity import (
     proximity_graph as proximity_graph,
@@ -356,17 +356,17 @@ from vorotool.types.skeleton.tables import (
 from vorotool.types.table import (
     Table as Table,
 )
-from vorotool.types.volumes.label_volume import (
+from vorotool.types.volumes.volume import (
     LabelVolume as LabelVolume,
 )
 from vorotool.types.volumes.volume import (
     Volume as Volume,
 )
+from vorotool.types.volumes.volume import (
+    VolumeSeeds as VolumeSeeds,
+)
 from vorotool.types.volumes.volume_points import (
     VolumePoints as VolumePoints,
-)
-from vorotool.types.volumes.volume_seeds import (
-    VolumeSeeds as VolumeSeeds,
 )
 from vorotool.types.volumes.voxel_frame import (
     VoxelFrame as VoxelFrame,

@@ -27,10 +27,8 @@ from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import Skeleton
-from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds
 from vorotool.types.volumes.volume_points import VolumePoints
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
 
 @runtime_checkable

@@ -28,7 +28,7 @@ from timing import timed
 import vorotool
 from vorotool.batch.tasks import Outcome, Task
 from vorotool.batch.workers import local_results
-from vorotool.engines.label_images.simplification import simplified_polygons
+from vorotool.engines.label_images.outlines import simplified_polygons
 from vorotool.formats.images.png_writer import write_png
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions

@@ -19,7 +19,7 @@ from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.skeleton.tables import skeleton_graph
 from vorotool.types.table import Table
-from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import LabelVolume
 from vorotool.types.voronoi.tables import neighbor_pairs
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 

@@ -20,9 +20,8 @@ from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.opening import Opened, opened
 from vorotool.formats.text.tables import json_text
 from vorotool.formats.volumes.opening import open_volume
-from vorotool.formats.volumes.source import NpyVolume
+from vorotool.formats.volumes.source import NpyVolume, ZarrVolume
 from vorotool.formats.volumes.tiff_stack import TiffStack
-from vorotool.formats.volumes.zarr_volume import ZarrVolume
 from vorotool.jobs.inputs import check_streams, is_several
 from vorotool.jobs.options import Options
 from vorotool.jobs.refusals import refuse

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from vorotool.types.mesh.triangulation import Triangulation
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.seed_set import SeedSet
-    from vorotool.types.volumes.volume_seeds import VolumeSeeds
+    from vorotool.types.volumes.volume import VolumeSeeds
 
 
 class JobInput(NamedTuple):

@@ -180,7 +180,7 @@ def write_world_file(
     transform = _transform(run, size, page)
     if transform is None:
         return
-    from vorotool.formats.images.world_file import world_text
+    from vorotool.formats.images.image_grids import world_text
     from vorotool.formats.io.atomic_output import open_output
     from vorotool.formats.io.descriptors import stream_kind
 

@@ -147,7 +147,7 @@ class Results:
 
     def _write_frames(self, out: BinaryIO, target: Target) -> None:
         """Draw a result that grows, each frame as a picture of its own."""
-        from vorotool.formats.images.animation_writer import write_animation
+        from vorotool.formats.images.pictures import write_animation
 
         count, draw, progress = self.options.frames or FRAMES, self.frames(target.what), self.run.progress("animate")
         steps, first = (max(count - 1, 1), 0) if self.begins_empty else (count, 1)

@@ -64,7 +64,7 @@ def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygo
     if o.simplify is None or o.spacing is None:
         polygons = placed_polygons(o.pixel_size, _outlines(run, o, image))
     else:
-        from vorotool.engines.label_images.simplification import simplified_polygons
+        from vorotool.engines.label_images.outlines import simplified_polygons
 
         whole = placed_polygons(o.pixel_size, _outlines(run, changed(o, simplify=None), image))
         polygons = simplified_polygons(whole, o.simplify)
@@ -99,7 +99,7 @@ def _simplified(run: Run, o: Options, polygons: PolygonSet, tolerance: float) ->
     """Simplify polygons once they are cut where they meet."""
     from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
     from vorotool.engines.arrangement.repaired_polygons import placed_shapes
-    from vorotool.engines.label_images.simplification import simplified_polygons
+    from vorotool.engines.label_images.outlines import simplified_polygons
 
     with run.phase("simplify"):
         graph = graph_for_skeletons(polygons, strict=o.strict, threads=o.threads)

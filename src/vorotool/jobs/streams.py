@@ -30,14 +30,14 @@ from vorotool.plain import plain
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.table import Table
-from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import LabelVolume
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
     from vorotool.engines.label_images.measured_regions import Regions
-    from vorotool.engines.tessellation.propagation import PropagatedRows
+    from vorotool.engines.tessellation.tessellate import PropagatedRows
     from vorotool.types.points.seed_set import SeedSet
-    from vorotool.types.volumes.volume_seeds import VolumeSeeds
+    from vorotool.types.volumes.volume import VolumeSeeds
 
 PartOf = Callable[[int, int], NDArray[Any]]
 """``part_of(first, count)`` gives some rows of an image, or slices of a volume."""

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.bands import Band
 from vorotool.engines.tessellation.frames import require_memory, squared_limit
-from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.raster_objects import PartwiseObjects
 from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.engines.tessellation.streamed_image import StreamedImage
+from vorotool.engines.tessellation.tessellate import PropagatedRows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError, UsageError
 from vorotool.jobs.checked_columns import tell_outside

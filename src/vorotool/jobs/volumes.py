@@ -41,7 +41,7 @@ from vorotool.products.inputs import VOLUME_NAMES
 from vorotool.products.registry import VOLUME_PRODUCTS, Product
 from vorotool.render.label_images.slices import SlicePicture
 from vorotool.types.pixels import Frame, PixelSides
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.volume import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 if TYPE_CHECKING:

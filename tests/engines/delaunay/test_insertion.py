@@ -12,7 +12,7 @@ from support.families.point_families import FAMILIES, draw
 from support.few import few
 from support.readers.written import assert_same
 from vorotool import InputError, PointSet, VorotoolWarning, _core, delaunay, insert_points, verify_triangulation
-from vorotool.engines.delaunay import insertion
+from vorotool.engines.delaunay import delaunay as insertion
 
 ARRAYS = ("triangles", "neighbors", "edges", "hull", "first")
 families = pytest.mark.parametrize("name", FAMILIES)

@@ -171,10 +171,10 @@ def farthest(given, made):
 
 def test_lines_keep_their_ends():
     line = vorotool.PolygonSet([[0, 0], [1, 0.1], [2, 0], [2, 0], [2, 5], [2.1, 6], [2, 9]], [0, 3, 7], [2, 2], [0, 1])
-    made = vorotool.engines.label_images.simplification.simplified_polygons(line, 0.5)
+    made = vorotool.engines.label_images.outlines.simplified_polygons(line, 0.5)
     assert [ring.tolist() for ring in map(made.ring, (0, 1))] == [[[0, 0], [2, 0]], [[2, 0], [2, 9]]]
     dot = vorotool.PolygonSet([[0, 0], [5, 5], [9, 9.1], [9, 13]], [0, 1, 4], [2, 2], [0, 1])
-    again = vorotool.engines.label_images.simplification.simplified_polygons(dot, 1)
+    again = vorotool.engines.label_images.outlines.simplified_polygons(dot, 1)
     assert [ring.tolist() for ring in map(again.ring, (0, 1))] == [[[0, 0]], [[5, 5], [9, 9.1], [9, 13]]]
 
 

@@ -5,7 +5,7 @@ import pytest
 
 import vorotool
 from support.oracles.oracles import nearest_labels, paper_passes
-from vorotool.engines.tessellation.propagation import PropagatedRows, propagate
+from vorotool.engines.tessellation.tessellate import PropagatedRows, propagate
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet

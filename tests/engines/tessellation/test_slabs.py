@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vorotool.engines.tessellation.bands import SeedBand
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.volume import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 SEEDS = VolumeSeeds(np.array([[0, 0, 0], [4, 0, 9]]), np.array([1, 2]))

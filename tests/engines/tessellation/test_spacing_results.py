@@ -8,8 +8,8 @@ import pytest
 import vorotool
 from support.few import few
 from vorotool.engines.label_images.regions import measure_regions
-from vorotool.engines.tessellation.propagation import propagate
 from vorotool.engines.tessellation.seeding import seeds_from_raster
+from vorotool.engines.tessellation.tessellate import propagate
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import UsageError
 from vorotool.types.images import LabelImage

@@ -9,8 +9,7 @@ import vorotool
 from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.types.pixels import PixelSides, pixel_sides
-from vorotool.types.volumes.label_volume import CUBE, LabelVolume
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.volume import CUBE, LabelVolume, VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 

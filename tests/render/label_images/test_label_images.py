@@ -14,15 +14,13 @@ from hypothesis.extra import numpy as hnp
 import vorotool
 from vorotool import LimitError, UsageError
 from vorotool.render.canvas.styles import CELLS, picture_palette
-from vorotool.render.label_images.crack_outline import crack_loops
 from vorotool.render.label_images.png import disc_radius, picture_bands
 from vorotool.render.label_images.slices import SlicePicture
-from vorotool.render.label_images.svg import write_label_svg
+from vorotool.render.label_images.svg import crack_loops, write_label_svg
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 

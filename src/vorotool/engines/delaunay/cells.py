@@ -1,4 +1,4 @@
-"""Voronoi cells of points: exact, clipped to a frame or to polygons (paper, section 2.1)."""
+"""Voronoi cells of points: exact, clipped to a frame or to polygons (paper, section 2.1), or as shapely has them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,9 @@ from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.points.point_set import known_of_points
 
 if TYPE_CHECKING:
-    from vorotool.typing import FrameLike, MeshLike, PolygonsLike
+    import shapely
+
+    from vorotool.typing import FrameLike, HasGeoInterface, MeshLike, PolygonsLike
 
 
 def voronoi_cells(
@@ -364,3 +366,80 @@ class Rings:
         rings = shapely.linearrings(closed, indices=owners(lengths + 1))
         _, part = np.unique(self.part, return_inverse=True)
         return shapely.multipolygons(shapely.polygons(rings, indices=part))
+
+
+def voronoi_polygons(
+    points: MeshLike, *, extend_to: HasGeoInterface | None = None, threads: int = 0
+) -> shapely.GeometryCollection:
+    """Return the exact Voronoi cells of points as shapely polygons.
+
+    As `shapely.voronoi_polygons` with ``ordered=True``: the cells fill the bounds of the points, widened on all sides
+    by the longer side, and those of `extend_to`. Which cells meet is decided exactly, and vertices are rounded once.
+
+    Parameters
+    ----------
+    points : as of `delaunay`
+        The points.
+    extend_to : geometry of shapely, optional
+        The cells fill its bounds, too.
+    threads : int
+        Number of threads; 0 uses all.
+
+    Returns
+    -------
+    shapely.GeometryCollection
+        Polygon i is the cell of point i; that of a point which lies on an earlier one is empty. Of points that are all
+        at one place the first has all of the bounds of `extend_to`; without it there is no cell.
+
+    Raises
+    ------
+    InputError
+        If the points are unusable, or `extend_to` is no geometry.
+
+    Warns
+    -----
+    VorotoolWarning
+        If points are duplicates: how many.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.1.
+
+    Examples
+    --------
+    >>> [cell.wkt for cell in voronoi_polygons([[0, 0], [2, 0]]).geoms]
+    ['POLYGON ((-2 -2, 1 -2, 1 2, -2 2, -2 -2))', 'POLYGON ((1 -2, 4 -2, 4 2, 1 2, 1 -2))']
+    """
+    import shapely
+
+    mesh = points if isinstance(points, Triangulation) else delaunay(points, threads=threads)
+    corners = [*_widened(mesh), *_bounds_of(extend_to)]
+    if not corners:
+        return shapely.GeometryCollection()
+    (left, bottom), (right, top) = np.min(corners, axis=0).tolist(), np.max(corners, axis=0).tolist()
+    if not (left < right and bottom < top):
+        return shapely.GeometryCollection()
+    return shapely.GeometryCollection(
+        list(voronoi_cells(mesh, frame=Box(left, bottom, right, top), threads=threads).to_shapely())
+    )
+
+
+def _widened(mesh: Triangulation) -> list[Any]:
+    if not len(mesh.points):
+        return []
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    margin = (high - low).max()
+    return [low - margin, high + margin]
+
+
+def _bounds_of(geometry: Any) -> list[Any]:
+    if geometry is None:
+        return []
+    if not hasattr(geometry, "geom_type"):
+        raise InputError(
+            f"invalid extend_to: expected a geometry of shapely, but got a {type(geometry).__name__}; for bounds give "
+            "shapely.box(xmin, ymin, xmax, ymax)"
+        )
+    if geometry.is_empty:
+        return []
+    return [geometry.bounds[:2], geometry.bounds[2:]]

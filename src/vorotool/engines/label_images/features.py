@@ -20,7 +20,7 @@ from vorotool.types.pixels import SQUARE, PixelSides
 from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.scaling import AREAS, LENGTHS, scaled_table
 from vorotool.types.table import Table
-from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import LabelVolume
 
 
 @plain(eq=False)

@@ -20,7 +20,7 @@ from vorotool.plain import plain
 from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.table import Table
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.volume import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 CELL = {2: "pixel", 3: "voxel"}

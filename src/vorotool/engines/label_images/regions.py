@@ -25,7 +25,7 @@ from vorotool.numeric.checks import as_array, checked_flag, checked_threads, nam
 from vorotool.numeric.numbers import finite_double
 from vorotool.numeric.parallel import Progress
 from vorotool.types.table import Table
-from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import LabelVolume
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, VolumeLike

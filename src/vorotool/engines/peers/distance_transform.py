@@ -20,7 +20,7 @@ from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import real_number, shown_number
 from vorotool.types.pixels import MAX_PIXELS, PixelSides, as_decimal
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.volume import VolumeSeeds
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, Spacing

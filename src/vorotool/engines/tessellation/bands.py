@@ -13,7 +13,7 @@ from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.volume import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 Quantity = Literal["labels", "distance", "distance2", "diagram"]

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.volume import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 CHUNK = 1 << 20

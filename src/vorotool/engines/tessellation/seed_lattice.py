@@ -17,7 +17,7 @@ from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.points.seed_set import SCALES
 from vorotool.types.values import counted
-from vorotool.types.volumes.volume_seeds import FINEST_SCALE
+from vorotool.types.volumes.volume import FINEST_SCALE
 
 if TYPE_CHECKING:
     from vorotool.types.points.point_set import PointSet

@@ -30,7 +30,7 @@ from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.pixels import MAX_SIDE, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.volume import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 _WHOLE = {2: "image", 3: "volume"}

@@ -15,8 +15,7 @@ from vorotool.numeric.parallel import Progress
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 _FARTHEST = 2**61

@@ -26,10 +26,8 @@ from vorotool.numeric.checks import is_choice
 from vorotool.numeric.numbers import finite_double, shown_number, whole_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.pixels import MAX_PIXELS
-from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds
 from vorotool.types.volumes.volume_points import VolumePoints
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import AS_VOLUME, InputError
-from vorotool.formats.images.tiff_grid import PageGrid, grid_of, missing_values, placed_grid
+from vorotool.formats.images.image_grids import PageGrid, grid_of, missing_values, placed_grid
 from vorotool.formats.images.tiff_layout import TiffLayout, decode_rows, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_of
 from vorotool.formats.io.arrays import plain_values

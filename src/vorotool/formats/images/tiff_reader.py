@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import AS_VOLUME, InputError, LimitError, option
-from vorotool.formats.images.picture_reader import check_jpegs
-from vorotool.formats.images.tiff_grid import PageGrid, grid_of
+from vorotool.formats.images.image_grids import PageGrid, grid_of
+from vorotool.formats.images.pictures import check_jpegs
 from vorotool.formats.images.tiff_layout import JPEGS, TiffLayout, decode_image, is_decoded_here, layout_of
 from vorotool.formats.io.limits import check_pixels, decoding, interruptible
 from vorotool.formats.io.sources import Source

@@ -18,7 +18,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from vorotool.formats.images.tiff_grid import grid_tags, scale_tag
+from vorotool.formats.images.image_grids import grid_tags, scale_tag
 from vorotool.formats.io.arrays import BLOCK_BYTES, blocks, checked, stored
 from vorotool.numeric.parallel import in_order
 from vorotool.types.pixels import PixelGrid

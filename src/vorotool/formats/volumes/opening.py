@@ -13,9 +13,8 @@ from vorotool.errors import INPUT_FORMAT, InputError, option
 from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.sources import STANDARD_INPUT, explained_reading, reading
-from vorotool.formats.volumes.source import NpyVolume, Spool, VolumeSource, check_voxels, slabs_of
+from vorotool.formats.volumes.source import NpyVolume, Spool, VolumeSource, ZarrVolume, check_voxels, slabs_of
 from vorotool.formats.volumes.tiff_stack import TiffStack
-from vorotool.formats.volumes.zarr_volume import ZarrVolume
 from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.products.inputs import VOLUME_NAMES, known_input_format
 from vorotool.types.pixels import MAX_PIXELS

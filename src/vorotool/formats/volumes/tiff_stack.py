@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, option
+from vorotool.formats.images.image_grids import grid_of, missing_values, side_of_imagej, unescaped
 from vorotool.formats.images.ome_xml import decimal_side, parse_ome
-from vorotool.formats.images.tiff_grid import grid_of, missing_values, side_of_imagej, unescaped
 from vorotool.formats.images.tiff_layout import TiffLayout, decode_rows, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout
 from vorotool.formats.io.arrays import plain_values

@@ -9,14 +9,13 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import UsageError, option
+from vorotool.formats.images.image_grids import NO_UNIT, NODATA, imagej_unit, ratio_of, resolution, resolution_tags
 from vorotool.formats.images.ome_xml import ome_document, ome_type, shown_side
-from vorotool.formats.images.tiff_grid import NO_UNIT, NODATA, imagej_unit, ratio_of, resolution, resolution_tags
 from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, write_pages
 from vorotool.formats.io.arrays import write_npy
 from vorotool.formats.volumes.tiff_stack import PIXEL
 from vorotool.types.pixels import PixelGrid
-from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume import LabelVolume, Volume
 from vorotool.types.volumes.voxel_frame import VoxelGrid
 
 VolumeFormat = Literal["tiff", "npy"]

@@ -86,7 +86,7 @@ def check_store(
 
 def _may_be_replaced(target: Path) -> bool:
     """Whether a folder is an image that could have been written here: an array, or an OME-Zarr group of one."""
-    from vorotool.formats.zarr.multiscales import is_single_image
+    from vorotool.formats.zarr.reader import is_single_image
 
     return is_array(target) or is_single_image(target)
 

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import UsageError, option
-from vorotool.formats.zarr.multiscales import OME_ENDING, add_scales, has_long_name, write_image
-from vorotool.formats.zarr.reader import StoredArray
+from vorotool.formats.zarr.reader import OME_ENDING, StoredArray, add_scales, has_long_name, write_image
 from vorotool.formats.zarr.store import open_store
 from vorotool.numeric.parallel import in_order, start
 from vorotool.types.pixels import PixelGrid

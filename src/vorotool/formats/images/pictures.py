@@ -1,13 +1,14 @@
-"""Reading pictures that are made to be looked at, JPEG, BMP, GIF, WebP and AVIF, with imageio."""
+"""Pictures to look at: JPEG, BMP, GIF, WebP and AVIF are read by imageio, animations written by Pillow."""
 
 from __future__ import annotations
 
 import io
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
+import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Message, option
@@ -15,6 +16,9 @@ from vorotool.formats.images.tiff_layout import TiffLayout
 from vorotool.formats.io.limits import check_pixels, decoding, interruptible
 from vorotool.formats.io.sources import Source
 from vorotool.formats.recognition import PICTURES, picture_format
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 _ANIMATED = ("gif", "webp", "avif")
 _HUFFMAN = (0xC0, 0xC1, 0xC2)
@@ -137,3 +141,53 @@ def jpeg_frame(data: bytes) -> tuple[int, int, int]:
         else:
             at += 2 + int.from_bytes(data[at + 2 : at + 4], "big")
     return 0, 0, 0
+
+
+COLORS = 256
+"""Of a GIF: where all frames have no more together, each keeps its own."""
+
+
+def write_animation(out: BinaryIO, frames: Iterable[NDArray[np.uint8]], *, fmt: str, fps: float) -> None:
+    """Write frames; frames that are the same as the one before lengthen its time."""
+    from PIL import Image
+
+    images = [Image.fromarray(frame) for frame in frames]
+    options: dict[str, object] = {"duration": round(1000 / fps), "loop": 0, "save_all": True}
+    if fmt == "gif":
+        images = _with_one_palette(images)
+        options |= {"optimize": False, "disposal": 1}
+    elif fmt == "webp":
+        options |= {"lossless": True, "quality": 20, "method": 0}
+    made = io.BytesIO()
+    name = {"gif": "GIF", "apng": "PNG", "webp": "WEBP"}[fmt]
+    images[0].save(made, name, append_images=images[1:], **options)
+    out.write(made.getvalue())
+
+
+def _with_one_palette(images: list[Image.Image]) -> list[Image.Image]:
+    """Give images with one palette: of all their colors where these fit, else of those that a few images need."""
+    from PIL import Image
+
+    packed = [_packed(image) for image in images]
+    colors = np.unique(np.concatenate([np.unique(each) for each in packed]))
+    if len(colors) > COLORS:
+        chosen = [images[k] for k in dict.fromkeys((0, len(images) // 2, len(images) - 1))]
+        sheet = Image.new("RGB", (chosen[0].width, sum(image.height for image in chosen)))
+        for number, image in enumerate(chosen):
+            sheet.paste(image, (0, number * image.height))
+        palette = sheet.quantize(COLORS)
+        return [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    table = np.stack([colors >> 16, colors >> 8 & 255, colors & 255], axis=1).astype(np.uint8)
+    made = []
+    for each in packed:
+        indexed = Image.fromarray(np.searchsorted(colors, each).astype(np.uint8), "P")
+        indexed.putpalette(table.tobytes())
+        made.append(indexed)
+    return made
+
+
+def _packed(image: Image.Image) -> NDArray[np.uint32]:
+    """(H, W) one number a color."""
+    red, green, blue = np.moveaxis(np.asarray(image).astype(np.uint32), 2, 0)
+    packed: NDArray[np.uint32] = red << 16 | green << 8 | blue
+    return packed
