@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,6 @@ from click.core import ParameterSource
 
 from vorotool.cli.help_page import GroupedCommand
 from vorotool.cli.values import UnexpectedError
-from vorotool.cli.values.names import names_among
 from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import EXTENSIONS, FORMATS
 from vorotool.products.inputs import DRAWN_NAMES, NAMES_WITH, names_of
@@ -55,6 +55,8 @@ class Names(Value):
     """Names from a list, separated by commas."""
 
     def __init__(self, metavar: str, choices: tuple[str, ...]) -> None:
+        from vorotool.cli.values.names import names_among
+
         super().__init__("names", metavar, names_among(choices))
         self.choices = choices
 
@@ -138,8 +140,8 @@ def _argument(name: str, metavar: str, complete: Candidates, **more: Any) -> cli
     return click.Argument([name], metavar=metavar, shell_complete=complete, **more)
 
 
-def computing_command(name: str) -> click.Command:
-    """Make a command that reads inputs and writes results."""
+def computing_command(name: str, given: Sequence[str] | None = None) -> click.Command:
+    """Make a command that reads inputs and writes results: with all options, or those that arguments can mean."""
     about = COMMANDS[name]
     names = DRAWN_NAMES if about.reads is None else NAMES_WITH[about.reads]
     files = candidates(name, f"files:{' '.join(names)}")
@@ -147,8 +149,23 @@ def computing_command(name: str) -> click.Command:
         arguments = [_argument("a", "A", files), _argument("b", "B", files)]
     else:
         arguments = [_argument("inputs", "INPUT...", files, nargs=-1)]
-    params: list[click.Parameter] = [*arguments, *(option(name, row) for row in options_of(name).values())]
+    rows = options_of(name).values() if given is None else _meant(options_of(name).values(), given)
+    params: list[click.Parameter] = [*arguments, *(option(name, row) for row in rows)]
     return GroupedCommand(name, params=params, callback=_runner(name), help=about.text, instead=dict(about.instead))
+
+
+def _meant(rows: Collection[Option], given: Sequence[str]) -> Collection[Option]:
+    """Return the options that arguments or the environment can mean; all where help is asked for."""
+    words = {argument.partition("=")[0] for argument in given}
+    words |= {f"-{letter}" for argument in given if argument[:1] == "-" != argument[1:2] for letter in argument[1:]}
+    if words & {"-h", "--help"}:
+        return rows
+    return [
+        row
+        for row in rows
+        if (row.env and f"VOROTOOL_{row.env}" in os.environ)
+        or any(flag in words for pair in row.spellings for flag in pair.split("/"))
+    ]
 
 
 def _runner(name: str) -> Callable[..., None]:

@@ -72,8 +72,7 @@ class GroupedCommand(click.Command):
                 raise click.UsageError(f"{self.name} has no {name}: {', '.join(others)} {have}", ctx) from None
             from difflib import get_close_matches
 
-            known = [each for param in self.get_params(ctx) for each in (*param.opts, *param.secondary_opts)]
-            near = get_close_matches(name, known, cutoff=CLOSE)
+            near = get_close_matches(name, {*flags_of(self.name or ""), "-h", "--help"}, cutoff=CLOSE)
             raise click.NoSuchOption(name, possibilities=near, ctx=ctx) from None
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import io
 import os
-import re
 import sys
+from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
@@ -20,6 +19,8 @@ from vorotool.products import commands
 from vorotool.signals import handle_termination, ignore_interrupts, insist_on_the_end, received, settled
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from click.shell_completion import CompletionItem
 
 COMMANDS = {**{name: each.summary for name, each in commands.COMMANDS.items()}, **commands.OTHERS}
@@ -34,6 +35,18 @@ class SignalledError(Exception):
     def __init__(self, code: int) -> None:
         super().__init__(code)
         self.code = code
+
+
+_EPILOG = "Manual page: man vorotool-{}. Documents: vorotool --help says where they are."
+
+
+def _computing(name: str, arguments: Sequence[str] | None) -> click.Command:
+    """Make a command that computes, with the options that some arguments name, or with all."""
+    from vorotool.cli.command import computing_command
+
+    command = computing_command(name, arguments)
+    command.epilog = _EPILOG.format(name)
+    return command
 
 
 class LazyGroup(click.Group):
@@ -66,7 +79,9 @@ class LazyGroup(click.Group):
             meant = " or ".join(get_close_matches(name.lower().replace("_", "-"), COMMANDS))
             advice = f"did you mean {meant}?" if meant else f"use one of {', '.join(COMMANDS)}"
             raise click.UsageError(f"unknown command {name!r}: {advice}", ctx)
-        return super().resolve_command(ctx, args)
+        if name not in commands.COMMANDS or ctx.resilient_parsing:
+            return super().resolve_command(ctx, args)
+        return name, _computing(name, args[1:]), args[1:]
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names in the order of the registry."""
@@ -76,14 +91,10 @@ class LazyGroup(click.Group):
         """Make or import a command."""
         if cmd_name not in COMMANDS:
             return None
-        command: click.Command
-        if cmd_name in commands.OTHERS:
-            command = import_module(f"vorotool.cli.commands.{cmd_name}").command
-        else:
-            from vorotool.cli.command import computing_command
-
-            command = computing_command(cmd_name)
-        command.epilog = f"Manual page: man vorotool-{cmd_name}. Documents: vorotool --help says where they are."
+        if cmd_name in commands.COMMANDS:
+            return _computing(cmd_name, None)
+        command: click.Command = import_module(f"vorotool.cli.commands.{cmd_name}").command
+        command.epilog = _EPILOG.format(cmd_name)
         return command
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem[str]]:
@@ -189,7 +200,8 @@ def _run(arguments: list[str] | None) -> int:
 
 def _lines_of(text: str) -> str:
     """Write the lines of click's message as ours are."""
-    return "\n".join(map(escaped, re.sub("^Error: ", "error: ", text, flags=re.MULTILINE).split("\n")))
+    lines = (f"error: {line[7:]}" if line.startswith("Error: ") else line for line in text.split("\n"))
+    return "\n".join(map(escaped, lines))
 
 
 def _of_streams(error: OSError) -> str:
@@ -224,6 +236,7 @@ def places() -> list[tuple[str, str]]:
 def _installed(end: str) -> Path | None:
     """Return the path of a file of the package outside the folder of its modules."""
     from importlib import metadata
+    from pathlib import Path
 
     try:
         files = metadata.files("vorotool") or []

@@ -65,11 +65,11 @@ def prepared(command: str, given: Mapping[str, Any], sources: Mapping[str, str])
         a, b = values.pop("a"), values.pop("b")
         refuse_several({"A": a, "B": b})
         values |= {"inputs": (a,), "other": b}
-    ending = Path(values["output"] or "").suffix
-    if values.get("animate") and values["format"] is None:
+    ending = Path(values.get("output") or "").suffix
+    if values.get("animate") and values.get("format") is None:
         values["format"] = {"": "gif", ".png": "apng"}.get(ending.lower())
     if values.get("what") is None:
-        fmt, own = format_named(values["format"] or ending), PRODUCTS[command]
+        fmt, own = format_named(values.get("format") or ending), PRODUCTS[command]
         values["what"] = (next((what for what, each in own.items() if fmt in each.usual_for), next(iter(own))),)
     o = Options(command, sources=sources, **values)
     return Recipe(command, command == "tessellate" and o.is_of_volumes), o

@@ -46,7 +46,8 @@ class Options:
     sources: Mapping[str, str] = {}  # `typed` or `environment`, by the names of options that are given
 
     def __init__(self, command: str, **given: Any) -> None:
-        self.__dict__.update(DEFAULTS, command=command, inputs=())
+        own = {name: row.unset for name, row in options_of(command).items()}
+        self.__dict__.update(DEFAULTS, **own, command=command, inputs=())
         self.__dict__.update(given)
 
     def __getattr__(self, name: str) -> Any:  # what is there is found without this

@@ -191,8 +191,8 @@ def refuse_lengths(o: Options, reason: str, kind: type[VorotoolError] = UsageErr
 
 
 def measured(o: Options) -> list[str]:
-    """Names of the options that have a unit."""
-    return [name for name, value in vars(o).items() if _has_unit(value)]
+    """Names of the options that have a unit: some of those that are given."""
+    return [name for name in o.sources if _has_unit(getattr(o, name))]
 
 
 def _has_unit(value: Any) -> bool:

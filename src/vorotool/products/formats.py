@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
 from importlib import import_module
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from vorotool.errors import option
-from vorotool.plain import plain
 
 
 class Writer(NamedTuple):
@@ -20,8 +19,7 @@ class Writer(NamedTuple):
     """Options that it has, of these and ``flatten``."""
 
 
-@plain
-class Format:
+class Format(NamedTuple):
     """A format of outputs."""
 
     name: str  # as `-f` and `fmt` have it
@@ -33,7 +31,7 @@ class Format:
     flattens: bool = False  # it has no curves: lines stand for them
     family: str = ""  # formats of one family are written together, each result in its own
     # what writes results, by their names, beside those formats that a product lists itself
-    writers: Mapping[str, Writer] = field(default_factory=dict)
+    writers: Mapping[str, Writer] = MappingProxyType({})
     beside: str = ""  # results that have this format are written by `writer`, too
     writer: Writer | None = None
     # it is made from the text of the first of these formats that a product has, by `maker`

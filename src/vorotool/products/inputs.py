@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from vorotool.errors import UsageError, option
-from vorotool.plain import plain
 
 Holds = Literal["points", "polygons", "sites", "image", "skeleton", "offsets", "voronoi"]
 """What an input may hold: polygons stand for lines, too, and sites for all three; they are polygons by default."""
 
 
-@plain
-class InputFormat:
+class InputFormat(NamedTuple):
     """A format of inputs."""
 
     name: str  # what it is called within the package

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field, replace
+from functools import cache
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from vorotool.plain import plain
-from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, Format, Writer
+from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, Writer
 
 
 class Made(NamedTuple):
@@ -20,8 +20,10 @@ class Made(NamedTuple):
     job: str = "jobs.skeletons.derived:Derived"  # `module:class`, where one function does not make it
 
 
-@plain
-class Product:
+_NOTHING: Mapping[str, Any] = MappingProxyType({})
+
+
+class Product(NamedTuple):
     """A result that can be written, as ``what`` has it."""
 
     what: str
@@ -29,9 +31,9 @@ class Product:
     types: tuple[str, ...] = ()
     data: tuple[str, ...] = ()  # formats that it is written in, the default first
     # what writes it in formats that are not those of rows and features in general
-    own: Mapping[str, Writer] = field(default_factory=dict)
+    own: Mapping[str, Writer] = _NOTHING
     # layers of its pictures, from below, by the format of the picture
-    layers: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    layers: Mapping[str, Sequence[str]] = _NOTHING
     usual_layers: tuple[str, ...] = ()  # those that a picture has where none are chosen
     # `module:name`: `name_page(value, width=…)` and `name_layers(value, page, layers)` draw values of its types
     drawn_by: str = ""
@@ -45,11 +47,12 @@ class Product:
     @property
     def written(self) -> tuple[str, ...]:
         """Formats of data: its own, and those that name it or can be made from one of its own."""
-        more = (each.name for each in FORMATS.values() if self._fits(each))
+        more = (
+            each.name
+            for each in FORMATS.values()
+            if self.what in each.writers or not {each.beside, *each.made_from}.isdisjoint(self.data)
+        )
         return tuple(dict.fromkeys([*self.data, *more]))
-
-    def _fits(self, each: Format) -> bool:
-        return self.what in each.writers or any(name in self.data for name in (each.beside, *each.made_from))
 
     @property
     def formats(self) -> tuple[str, ...]:
@@ -74,7 +77,7 @@ def _product(
     **more: Any,
 ) -> Product:
     """Give an entry of the lists below, in which blanks separate names."""
-    layers, drawn_by = pictures or Pictures({})
+    layers, drawn_by = pictures or Pictures(_NOTHING)
     shown = tuple(usual_layers.split())
     return Product(
         what, tuple(types.split()), tuple(data.split()), layers=layers, usual_layers=shown, drawn_by=drawn_by, **more
@@ -249,7 +252,7 @@ _DISTANCE = tuple(
 def _beside_exact(product: Product) -> Product:
     """Beside approximate skeletons pictures can show exact ones."""
     shown = {fmt: (*layers, "exact") for fmt, layers in _ARCS.layers.items()}
-    return replace(product, layers=shown) if product.layers is _ARCS.layers else product
+    return product._replace(layers=shown) if product.layers is _ARCS.layers else product
 
 
 def _drawn() -> Product:
@@ -292,6 +295,7 @@ NAMING_FEATURES = frozenset(f"edges triangles complex family neighbors {_OF_PART
 """Products whose rows are parts of features, or about several: they have the columns of these that are asked for."""
 
 
+@cache
 def formats_of(command: str) -> dict[str, tuple[str, ...]]:
     """Give the formats of each product of a command, the default first."""
     return {what: product.formats for what, product in PRODUCTS[command].items()}

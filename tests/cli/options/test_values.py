@@ -119,7 +119,7 @@ def test_ranges_have_units():
 def test_options_without_units_are_the_same_value():
     options = Options("tessellate")
     assert lengths_in_pixels(options, None) is options
-    given = changed(options, max_distance=exact_length("1.3um"))
+    given = changed(options, max_distance=exact_length("1.3um"), sources={"max_distance": "typed"})
     assert lengths_in_pixels(given, PixelSize(Fraction("0.325"), "um")).max_distance == 4
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 from vorotool.products.options.inputs import FRAME, INPUT
@@ -21,16 +22,14 @@ GROUPS: dict[str, tuple[Option, ...]] = {
 }
 """All options, under the titles that help has."""
 DEFAULTS: dict[str, Any] = {each.parameter: each.unset for rows in GROUPS.values() for each in rows}
-"""Values of options that are not given, by parameter."""
-_BY_COMMAND: dict[str, dict[str, Option]] = {}
+"""Values of options that are not given, by parameter, where a command has none of its own."""
 
 
+@cache
 def options_of(command: str) -> dict[str, Option]:
     """Return the options of a command by parameter, in the order of help."""
-    if command not in _BY_COMMAND:
-        own = (each for rows in GROUPS.values() for each in rows if command in each.commands.split())
-        _BY_COMMAND[command] = {each.parameter: each for each in own}
-    return _BY_COMMAND[command]
+    own = (each for rows in GROUPS.values() for each in rows if command in each.commands.split())
+    return {each.parameter: each for each in own}
 
 
 def flags_of(command: str) -> set[str]:
