@@ -40,7 +40,7 @@ _HOME = {
     "VoxelFrame": "vorotool.types.volumes.voxel_frame",
     "VoxelGrid": "vorotool.types.volumes.voxel_frame",
     "read": "vorotool.formats",
-    "sample": "vorotool.formats.samples",
+    "sample": "vorotool.formats",
     "to_geojson": "vorotool.jobs.writing",
     "write": "vorotool.jobs.writing",
     "seeds_from_points": "vorotool.engines.tessellation.seeding",

@@ -230,7 +230,7 @@ from vorotool.errors import (
 from vorotool.formats import (
     read as read,
 )
-from vorotool.formats.samples import (
+from vorotool.formats import (
     sample as sample,
 )
 from vorotool.jobs.writing import (

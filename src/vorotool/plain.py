@@ -7,7 +7,9 @@ methods of all.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, dataclass_transform, overload
 
@@ -131,3 +133,13 @@ class _Signature:
             place = Parameter.KEYWORD_ONLY if each.kw_only else Parameter.POSITIONAL_OR_KEYWORD
             made.append(Parameter(each.name, place, default=usual, annotation=each.type))
         return Signature(made, return_annotation=None)
+
+
+@contextmanager
+def scoped(variable: ContextVar[T], value: T) -> Iterator[None]:
+    """Give a variable of the context a value for what runs within."""
+    token = variable.set(value)
+    try:
+        yield
+    finally:
+        variable.reset(token)

@@ -14,7 +14,7 @@ import threading
 import time
 from pathlib import Path
 
-from vorotool.formats.io import commit, temporaries
+from vorotool.formats.io import temporaries
 
 WRITES = frozenset({"write", "half", "chunk"})
 """Steps in which bytes go out."""
@@ -77,7 +77,7 @@ def install(steps):
     wrap(temporaries, "_lock", "made", "locked", steps)
     wrap(temporaries, "_discard", "discarding", "discarded", steps)
     wrap(temporaries.Temporary, "move_to", "moving", "moved", steps)
-    wrap(commit, "_exchange", "exchanging", "exchanged", steps)
+    wrap(temporaries, "_exchange", "exchanging", "exchanged", steps)
     temporaries.Temporary.opened = lambda self: io.BufferedRandom(Raw(os.dup(self.descriptor), steps))
 
     def hear(event, arguments):

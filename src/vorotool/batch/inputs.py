@@ -14,9 +14,7 @@ from pathlib import Path
 from vorotool.batch.manifest import RECORD_ENDING
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
-from vorotool.formats.io.layer_names import file_of, output_name
-from vorotool.formats.io.sources import GZIP, without_gz
-from vorotool.formats.parsing.convertible import refuse_geodatabase
+from vorotool.formats.io.sources import GZIP, file_of, output_name, without_gz
 from vorotool.jobs.inputs import is_pattern, is_searched
 from vorotool.plain import plain
 
@@ -131,7 +129,7 @@ def _matching(pattern: str, search: Search) -> list[Input]:
 
 def _inside(folder: str, extensions: frozenset[str], search: Search) -> list[Input]:
     """Return the files in a folder that are in a format that is read; companions of these are not worth a note."""
-    refuse_geodatabase(folder)
+    _refuse_geodatabase(folder)
     paths = [path for path in search.matches(Path(folder), (ANY,)) if not path.name.endswith(RECORD_ENDING)]
     known = {path for path in paths if _is_known(path, extensions)}
     stems = {(path.parent, path.name.partition(".")[0]) for path in known}
@@ -241,3 +239,10 @@ def _entries(folder: Path, part: str) -> list[Path]:
 def _listed(names: Collection[str]) -> str:
     more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
     return ", ".join(sorted(names)[:MOST_NAMED]) + more
+
+
+def _refuse_geodatabase(folder: str) -> None:
+    """Refuse a file geodatabase, which is a folder."""
+    if Path(folder).suffix.lower() == ".gdb":
+        target = Path(folder).with_suffix(".gpkg")
+        raise InputError(f"{folder}: file geodatabases are not supported; convert it: ogr2ogr {target} {folder}")

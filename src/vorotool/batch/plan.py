@@ -18,8 +18,7 @@ from vorotool.batch.tables import TABLE_FORMATS, JointTable, name_fields
 from vorotool.batch.tasks import Task, digest_of
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
-from vorotool.formats.io.layer_names import file_of
-from vorotool.formats.io.sources import without_gz
+from vorotool.formats.io.sources import file_of, without_gz
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.targets import Target, check_cluster, plan_targets

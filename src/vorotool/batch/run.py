@@ -21,9 +21,8 @@ from vorotool.batch.plan import Plan, check_inside, plan_batch
 from vorotool.batch.tasks import Outcome, Results, Task, digest_of, is_done
 from vorotool.errors import BatchError, Message
 from vorotool.formats.io import atomic_output
-from vorotool.formats.io.commit import committed_together
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.io.temporaries import new_folder, remove_dead, remove_tagged, temporary_beside
+from vorotool.formats.io.temporaries import committed_together, new_folder, remove_dead, remove_tagged, temporary_beside
 from vorotool.jobs.job import Recipe, process_input
 from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.run_log import MakeBar, Run

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from vorotool import __version__
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.io.layer_names import file_of
+from vorotool.formats.io.sources import file_of
 from vorotool.formats.io.temporaries import tagged_temporaries
 from vorotool.plain import plain
 

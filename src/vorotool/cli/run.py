@@ -9,8 +9,8 @@ from contextlib import contextmanager
 import click
 
 from vorotool.errors import UsageError
-from vorotool.formats.io.commit import committed_together
 from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.io.temporaries import committed_together
 from vorotool.jobs.inputs import check_streams, is_several
 from vorotool.jobs.job import Recipe, process_input
 from vorotool.jobs.options import ALL_PAGES, Options, changed

@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 import zlib
 from dataclasses import replace
+from pathlib import Path
 
+from vorotool.convert.tables import coordinate_columns
 from vorotool.errors import INPUT_FORMAT, OTSU, InputError, UsageError, option
-from vorotool.formats.io.arrays import MAGIC
+from vorotool.formats.io.arrays import MAGIC, NPZ_MAGIC, npz_holds
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.convertible import refuse_convertible
 from vorotool.formats.parsing.json import RECORD_MARK, holds_shapes, is_json_lines, parse_json
-from vorotool.formats.parsing.npz_columns import NPZ_MAGIC, npz_holds
-from vorotool.formats.points.delimited import geometry_column, has_coordinates, header_fields
+from vorotool.formats.points.delimited import geometry_column, header_fields
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS, Holds
 
@@ -70,11 +70,11 @@ def _by_header(source: Source, chosen: str, columns: str | None = None) -> str:
     if chosen != "csv" or columns is not None:
         return chosen
     fields = header_fields(text_source(source, chosen).data)
-    return "csv-wkt" if geometry_column(fields) is not None and not has_coordinates(fields) else chosen
+    return "csv-wkt" if geometry_column(fields) is not None and coordinate_columns(fields) is None else chosen
 
 
 def _holds_shapefile(data: bytes) -> bool:
-    holds: bool = resolved("formats.gis.shapefile:holds_shapefile")(data)
+    holds: bool = resolved("formats.gis.vector_files:holds_shapefile")(data)
     return holds
 
 
@@ -135,7 +135,7 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     if chosen == "npz":
         return npz_holds(source.data), source
     if "curves" in INPUTS[chosen].has or chosen == "wkt":
-        has_shapes = chosen != "wkt" or resolved("formats.gis.well_known:names_shapes")(source.data)
+        has_shapes = chosen != "wkt" or resolved("formats.gis.feature_table:names_shapes")(source.data)
         return ("polygons" if has_shapes else "points"), source
     return _in_json(source, said)
 
@@ -245,3 +245,50 @@ def refuse_drawing(source: Source) -> None:
             f"{source.name} is a drawing (polygons and lines), but points or an image are expected: use {_TAKERS}, or "
             f"convert the drawing to an image and use {OTSU}"
         )
+
+
+_MAPS = (".gml", ".gdb", ".tab", ".mif")
+_SHAPEFILE_PARTS = (".shx", ".dbf", ".prj", ".cpg")
+_DRAWINGS = (".pdf", ".eps", ".ps", ".ai")
+_FONTS = (".ttf", ".otf", ".ttc", ".woff", ".woff2")
+_OTHERS = (".dwg", ".zip", ".qgz", ".qgs", ".roi", *_FONTS, *_SHAPEFILE_PARTS)
+_KNOWN_HEADS = (
+    *((b"%PDF-", ".pdf"), (b"%!PS", ".ps"), (b"\xc5\xd0\xd3\xc6", ".eps"), (b"OTTO\0", ".otf")),
+    *((b"\0\1\0\0\0", ".ttf"), (b"wOFF", ".woff"), (b"wOF2", ".woff2"), (b"ttcf", ".ttc")),
+)
+_DWG = re.compile(rb"AC10\d\d\0")
+
+
+def refuse_convertible(source: Source) -> None:
+    """Refuse the formats of maps and drawings that are not read, by extension or content."""
+    heads = (suffix for head, suffix in _KNOWN_HEADS if source.data.startswith(head))
+    found = source.suffix if source.suffix in _MAPS + _DRAWINGS + _OTHERS else next(heads, None)
+    if found is None and _DWG.match(source.data):
+        found = ".dwg"
+    if found == ".zip" and b".roi" in source.data:
+        found = ".roi"
+    if found is not None:
+        file = source.name if source.suffix == found else f"FILE{found}"
+        advice = _CONVERSIONS.get(found, _MAP).format(file=file, stem=Path(file).with_suffix(""))
+        raise InputError(f"{source.name}: {found} files are not supported; {advice}")
+
+
+_DRAWING = (
+    f"convert it to an image and use {OTSU}, for example: {{}}; or, for its outlines, an SVG: inkscape {{{{file}}}} "
+    "--export-text-to-path --export-plain-svg --export-filename={{stem}}.svg"
+)
+_POSTSCRIPT = _DRAWING.format("gs -o {stem}.png -sDEVICE=pnggray -r300 -dEPSCrop {file}")
+_MAP = "convert it: ogr2ogr -f GeoJSON {stem}.geojson {file}"
+_CONVERSIONS = {
+    **dict.fromkeys((".eps", ".ps", ".ai"), _POSTSCRIPT),
+    ".pdf": _DRAWING.format("pdftoppm -r 300 -gray -singlefile {file} {stem}"),
+    **dict.fromkeys(
+        _FONTS, "it is a font: write the text in a drawing program, convert it to paths, and save these as SVG"
+    ),
+    **dict.fromkeys(_SHAPEFILE_PARTS, "it is part of a Shapefile: name {stem}.shp"),
+    ".dwg": "save it as DXF in the program that made it, or convert it: dwg2dxf -o {stem}.dxf {file}",
+    ".zip": "unpack it, and name a file from it: unzip {file}",
+    **dict.fromkeys((".qgz", ".qgs"), "it is a project of QGIS: name the files of its layers"),
+    ".roi": "make a mask of the regions in ImageJ (Edit, Selection, Create Mask), and use that image",
+}
+"""What to do with a file, by its extension; with others as with maps."""

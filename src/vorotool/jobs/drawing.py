@@ -12,11 +12,9 @@ from vorotool.formats.images.band_reader import read_rows
 from vorotool.formats.images.label_images import label_image_of
 from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.sources import Source, read_source, reading
-from vorotool.formats.opening import open_zarr
-from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.parsing.reference_systems import with_stated_axis
+from vorotool.formats.opening import image_format, image_source, open_zarr, read_recognized, recognized
+from vorotool.formats.parsing.reader_options import ReadOptions, with_stated_axis
 from vorotool.formats.points.tables import is_table
-from vorotool.formats.recognition import image_format, image_source, read_recognized, recognized
 from vorotool.formats.text_recognition import has_no_rows
 from vorotool.jobs.checked_columns import check_column
 from vorotool.jobs.inputs import JobInput, note_other_size

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import STANDARD, input_identity
-from vorotool.formats.io.layer_names import file_of
+from vorotool.formats.io.sources import file_of
 from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import Options, changed
@@ -274,8 +274,8 @@ def read_backdrop(o: Options) -> Backdrop | None:
     from vorotool.formats.images.png_writer import write_png
     from vorotool.formats.images.reader import picture_and_grid
     from vorotool.formats.io.sources import read_source, reading
+    from vorotool.formats.opening import image_source
     from vorotool.formats.parsing.reader_options import ReadOptions
-    from vorotool.formats.recognition import image_source
     from vorotool.render.canvas.layers import Backdrop
 
     with reading(o.overlay):

@@ -78,7 +78,7 @@ def prepared(command: str, given: Mapping[str, Any], sources: Mapping[str, str])
 def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:
     """Read one input, compute, check and write its results, which take their places together."""
     from vorotool.formats.io.atomic_output import make_folder
-    from vorotool.formats.io.commit import committed_together
+    from vorotool.formats.io.temporaries import committed_together
     from vorotool.formats.text.tables import safe_texts, unit_column, unit_member
     from vorotool.jobs.refusals import check_system
     from vorotool.numeric.coordinates import coordinates_written

@@ -149,8 +149,7 @@ def read_cut(run: Run, o: Options, option: str, path: str, first: First) -> tupl
 def _read(run: Run, o: Options, option: str, path: str) -> PolygonSet:
     """Read polygons and lines, brought into the system of ``--crs`` if they are in another."""
     from vorotool.formats import read
-    from vorotool.formats.parsing.reader_options import ReadOptions
-    from vorotool.formats.parsing.reference_systems import with_crs
+    from vorotool.formats.parsing.reader_options import ReadOptions, with_crs
     from vorotool.numeric.crs import crs_member
     from vorotool.types.polygons.polygon_set import PolygonSet
 
@@ -180,7 +179,7 @@ def _polygons_among(run: Run, path: str, value: PolygonSet) -> NDArray[np.int64]
 
 def in_one_crs(run: Run, cut: tuple[str, PointSet | PolygonSet], data: tuple[str, Data]) -> Data:
     """Check that a second file and data are in one coordinate reference system, as far as they name any."""
-    from vorotool.formats.parsing.reference_systems import declared_in
+    from vorotool.formats.parsing.reader_options import declared_in
     from vorotool.numeric.crs import crs_name, note_degrees
 
     (path, polygons), (source, value) = cut, data

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 from vorotool.errors import OUTPUT, UsageError
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
-from vorotool.formats.io.layer_names import output_name
-from vorotool.formats.io.sources import without_gz
+from vorotool.formats.io.sources import output_name, without_gz
 from vorotool.plain import plain
 from vorotool.products.formats import EXTENSIONS, FORMATS, format_named
 from vorotool.products.inputs import NAMES_WITH
@@ -129,7 +128,7 @@ def check_targets(options: Options, targets: Sequence[Target], source: str) -> N
                 layers = [each.what for each in targets if each.path == target.path]
                 check_layers(target.path, layers, overwrite=options.overwrite)
             if FORMATS[target.fmt].parts:
-                from vorotool.formats.gis.shapefile import check_parts
+                from vorotool.formats.gis.vector_files import check_parts
 
                 replaced = Rules(options.no_clobber, rules["inputs"], named_by)
                 check_parts(target.path, replaced, makes_folder=rules["makes_folder"])

@@ -79,10 +79,10 @@ _ALL = (
     Format("wkt", "WKT", has_digits=True, flattens=True, is_map=True),
     Format("poly", "Triangle", has_digits=True),
     Format("graphml", "GraphML", has_digits=True, flattens=True, writers={"skeleton": _GRAPHML}),
-    _of_objects("jsonl", "JSON lines", ("jsonl", "ndjson"), "formats.text.json_lines:JsonLines"),
+    _of_objects("jsonl", "JSON lines", ("jsonl", "ndjson"), "formats.text.tables:JsonLines"),
     _of_maps("gpkg", "GeoPackage", "geopackage:GeoPackage", ("geojson", "json")),
     _of_maps("fgb", "FlatGeobuf", "vector_files:FlatGeobuf"),
-    _of_maps("shp", "Shapefile", "shapefile:Shapefile", parts=(".shx", ".dbf", ".prj", ".cpg")),
+    _of_maps("shp", "Shapefile", "vector_files:Shapefile", parts=(".shx", ".dbf", ".prj", ".cpg")),
     _of_maps(
         "parquet", "GeoParquet", "geoparquet:GeoParquet", ("geojson", "json"), extensions=("parquet", "geoparquet")
     ),
@@ -106,7 +106,7 @@ AS_PICTURE = option("-f svg or png", 'fmt="svg" or "png"')
 
 TABLES = ("csv", "tsv", "json", "npz")
 """Formats of tables."""
-GENERAL = Writer("formats.results.writer:write_value", ("fmt", "what", "flatten", "precision", "threads"))
+GENERAL = Writer("formats.text.tables:write_value", ("fmt", "what", "flatten", "precision", "threads"))
 """What writes the rows or the features of any value."""
 ANIMATIONS = ("gif", "apng", "webp")
 """Formats of pictures that move."""

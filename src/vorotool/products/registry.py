@@ -187,7 +187,7 @@ def _documents(function: str) -> dict[str, Writer]:
     return dict.fromkeys(("json", "npz"), Writer(f"formats.results.{function}", ("fmt", "precision", "threads")))
 
 
-_SKELETON, _OFFSETS = _documents("skeleton_files:write_skeleton"), _documents("offset_files:write_offsets")
+_SKELETON, _OFFSETS = _documents("skeleton_files:write_skeleton"), _documents("skeleton_files:write_offsets")
 _THICKNESS = Writer("formats.images.label_images:write_thickness", ("fmt", "threads"))
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels", "render.layers.skeleton:skeleton")

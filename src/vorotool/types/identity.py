@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option
 from vorotool.numeric.numbers import shown_number
+from vorotool.plain import scoped
 from vorotool.types.points.point_set import LABEL, labels_of
 from vorotool.types.table import Lookup, Table
 
@@ -90,17 +91,12 @@ def ends_of_regions(columns: Mapping[str, Any], sites: Any) -> Table:
 _WANTED: ContextVar[tuple[str, ...]] = ContextVar("wanted", default=())
 
 
-@contextmanager
-def columns_wanted(names: Sequence[str] | None) -> Iterator[None]:
+def columns_wanted(names: Sequence[str] | None) -> AbstractContextManager[None]:
     """Return rows about parts of features, or about several, these columns of the input."""
     is_list = isinstance(names, list | tuple) and all(isinstance(name, str) for name in names)
     if names is not None and not is_list:
         raise UsageError(f"invalid with_columns {shown_number(names)}: expected a list of names")
-    token = _WANTED.set(tuple(names or ()))
-    try:
-        yield
-    finally:
-        _WANTED.reset(token)
+    return scoped(_WANTED, tuple(names or ()))
 
 
 def wanted(properties: Mapping[str, Any], further: Mapping[str, Any] | None = None) -> dict[str, Any]:

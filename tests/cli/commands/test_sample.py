@@ -5,8 +5,7 @@ from pathlib import Path
 import pytest
 
 from vorotool import UsageError
-from vorotool.formats import read
-from vorotool.formats.samples import sample
+from vorotool.formats import read, sample
 from vorotool.products.samples import SAMPLES
 
 ROOT = Path(__file__).parents[3]

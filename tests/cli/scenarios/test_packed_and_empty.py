@@ -66,7 +66,7 @@ def test_outputs_of_packed_inputs_have_plain_names(run, tmp_path):
 
 @pytest.mark.parametrize("through", ["name", "standard input"])
 def test_what_unpacks_to_too_much_is_a_limit(run, tmp_path, monkeypatch, through):
-    monkeypatch.setattr(sources, "MOST_UNPACKED", 2**20)
+    monkeypatch.setattr(sources, "MOST_OF_GZIP", 2**20)
     packed = gzip.compress(b"1,2\n" * 2**18 + b"3,4\n")
     (tmp_path / "bomb.csv.gz").write_bytes(packed)
     feed(monkeypatch, packed)

@@ -11,7 +11,7 @@ from PIL import Image
 from support.readers.sources import image_of
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.recognition import image_format
+from vorotool.formats.opening import image_format
 
 LIMIT = 10**7
 

@@ -13,10 +13,9 @@ import pytest
 from support.few import few
 from support.processes.leftovers import contents
 from vorotool.errors import OutputError
-from vorotool.formats.io import commit as commits
+from vorotool.formats.io import temporaries
 from vorotool.formats.io.atomic_output import explained, open_output
-from vorotool.formats.io.commit import Placement, committed_together
-from vorotool.formats.io.temporaries import Temporary
+from vorotool.formats.io.temporaries import Placement, Temporary, committed_together
 from vorotool.formats.zarr.store import open_store
 
 OUTPUTS = ("a.shp", "b.zarr", "sub/c.dbf", "new.csv")
@@ -75,7 +74,7 @@ class Failing:
         if not links:
             monkeypatch.setattr(Path, "hardlink_to", refuse)
         if not exchanges:
-            monkeypatch.setattr(commits, "_exchange", lambda one, other: False)
+            monkeypatch.setattr(temporaries, "_exchange", lambda one, other: False)
 
     def wrap(self, monkeypatch, owner, name):
         function = getattr(owner, name)

@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from vorotool.formats.io.limits import interruptible
+from vorotool.formats.io.sources import interruptible
 
 
 class EndedError(Exception):

@@ -104,7 +104,7 @@ def test_one_that_comes_meanwhile_is_not_clobbered(tmp_path):
 @pytest.mark.parametrize("can_exchange", [True, False])
 def test_an_older_store_with_and_without_exchange(tmp_path, monkeypatch, can_exchange):
     if not can_exchange:
-        monkeypatch.setattr("vorotool.formats.io.commit._exchange", lambda one, other: False)
+        monkeypatch.setattr("vorotool.formats.io.temporaries._exchange", lambda one, other: False)
     old = make(tmp_path / "a.zarr", "old")
     (old / "chunk").write_text("old")
     write(old, "new")
@@ -115,7 +115,7 @@ def test_an_older_store_with_and_without_exchange(tmp_path, monkeypatch, can_exc
 
 def test_the_older_store_comes_back_after_an_interrupt_between_the_moves(tmp_path, monkeypatch):
     old = make(tmp_path / "a.zarr", "old")
-    monkeypatch.setattr("vorotool.formats.io.commit._exchange", lambda one, other: False)
+    monkeypatch.setattr("vorotool.formats.io.temporaries._exchange", lambda one, other: False)
 
     def interrupt(self, target):
         assert not old.exists()
@@ -132,9 +132,8 @@ def test_the_older_store_comes_back_after_a_kill_between_the_moves(tmp_path):
     old = make(tmp_path / "a.zarr", "old")
     script = (
         "import os, signal\nfrom vorotool.formats.io import temporaries\n"
-        "from vorotool.formats.io import commit\n"
         "from vorotool.formats.zarr import store as stores\n"
-        "commit._exchange = lambda one, other: False\n"
+        "temporaries._exchange = lambda one, other: False\n"
         "temporaries.Temporary.move_to = lambda self, target: os.kill(os.getpid(), signal.SIGKILL)\n"
         "with stores.open_store('a.zarr') as folder:\n    (folder / 'zarr.json').write_text('{}')\n"
     )

@@ -62,7 +62,7 @@ def test_a_part_of_a_shapefile_names_the_file_to_read(suffix):
 
 def test_options_that_do_not_fit():
     assert "expected one of csv, tsv, txt, node, npz" in error_of("", kind=UsageError, input_format="xyz")
-    for fmt in set(POINT_FORMATS) - {"csv", "json", "jsonl", "npz", "parquet"}:
+    for fmt in set(POINT_FORMATS) - {"csv", "json", "jsonl", "npz", "parquet", "gpkg"}:
         assert "columns applies to delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
 
 

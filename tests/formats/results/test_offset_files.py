@@ -11,7 +11,7 @@ from support.readers.written import written
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.results.offset_files import read_offsets
+from vorotool.formats.results.skeleton_files import read_offsets
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
 ARRAYS = ("start", "end", "center", "site", "ring_starts", "shape_starts", "distance", "polygon")

@@ -9,7 +9,7 @@ import click
 
 from vorotool.cli.command import candidates, words
 from vorotool.errors import OutputError, UsageError
-from vorotool.formats.samples import sample
+from vorotool.formats import sample
 from vorotool.products.formats import EXTENSIONS, FORMATS
 from vorotool.products.samples import SAMPLES
 
@@ -67,8 +67,8 @@ def write_sample(name: str, output: str | None) -> None:
 def write_all_samples(folder: str) -> None:
     """Write every sample into a folder, which is made if it is missing; never replace a file with other content."""
     from vorotool.formats.io.atomic_output import make_folder
-    from vorotool.formats.io.commit import committed_together
     from vorotool.formats.io.descriptors import STANDARD
+    from vorotool.formats.io.temporaries import committed_together
 
     if folder == STANDARD:
         raise UsageError("--all writes files: name a folder with -o")

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import io
 import itertools
+import logging
 import struct
+import sys
 from collections import Counter
 from collections.abc import Callable, Sequence
+from configparser import ConfigParser
 from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from vorotool.convert.extras import needed
 from vorotool.errors import InputError, LimitError, Message, VorotoolError, option
 from vorotool.formats.drawing.curves import (
     Affine,
@@ -27,7 +31,6 @@ from vorotool.formats.drawing.curves import (
     turned,
     whole_ellipse,
 )
-from vorotool.formats.drawing.dxf_drawing import UNITS, ezdxf_module
 from vorotool.formats.drawing.polygons import (
     NESTED,
     Gap,
@@ -45,6 +48,12 @@ from vorotool.numeric.curves.inverse_functions import PI, cosine_and_sine, hypot
 from vorotool.types.fields import UP
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.values import counted
+
+UNITS = {
+    **{1: "in", 2: "ft", 3: "mi", 4: "mm", 5: "cm", 6: "m", 7: "km", 9: "mil", 10: "yd"},
+    **{11: "Å", 12: "nm", 13: "um", 14: "dm", 21: "ftUS"},
+}
+"""Units of length by their numbers in the header."""
 
 MOST_ENTITIES = 2**17
 """Of a drawing once its blocks are there as often as they are inserted, where that is more than the file holds; and
@@ -123,6 +132,21 @@ def _loaded(source: Source) -> Any:
         return ezdxf.read(io.StringIO(source.data.decode(head.encoding, "surrogateescape"), newline=None))
     except _faults() as error:
         raise _damaged(source.name, error) from None
+
+
+def ezdxf_module(module: str = "ezdxf") -> Any:
+    """Import ezdxf, or a module of it."""
+    if "ezdxf" in sys.modules:
+        return needed(module, "cad", "DXF drawings")
+    logger = logging.getLogger("ezdxf")
+    if not logger.handlers:  # without one, what it ignores in damaged drawings goes to standard error
+        logger.addHandler(logging.NullHandler())
+    own = ConfigParser.read
+    try:
+        ConfigParser.read = lambda *_, **__: []  # type: ignore[method-assign]
+        return needed(module, "cad", "DXF drawings")
+    finally:
+        ConfigParser.read = own  # type: ignore[method-assign]
 
 
 def _faults() -> tuple[type[Exception], ...]:

@@ -18,9 +18,8 @@ from numpy.typing import NDArray
 
 from vorotool.convert.extras import needed
 from vorotool.formats.io.atomic_output import current_rules, failure
-from vorotool.formats.text.json_lines import JsonItems
 from vorotool.formats.text.row_writer import Column
-from vorotool.formats.text.tables import current_unit, json_text
+from vorotool.formats.text.tables import JsonItems, current_unit, json_text
 from vorotool.numeric.crs import crs_text
 from vorotool.types.table import Lookup
 

@@ -23,10 +23,8 @@ from vorotool.errors import INPUT_FORMAT, OUTPUT, OVERWRITE, InputError, LimitEr
 from vorotool.formats.gis.feature_table import TABLE, Features, chosen_layer, layer_fault
 from vorotool.formats.gis.feature_writer import GdalFeatures, move_into
 from vorotool.formats.io.atomic_output import current_rules, failure
-from vorotool.formats.io.commit import committed_together
-from vorotool.formats.io.limits import check_unpacked, decoding, interruptible
-from vorotool.formats.io.sources import Source, read_source
-from vorotool.formats.io.temporaries import new_folder
+from vorotool.formats.io.sources import Source, check_unpacked, decoding, interruptible, read_source
+from vorotool.formats.io.temporaries import committed_together, new_folder
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.numeric.crs import member_of_text
 from vorotool.numeric.curves.well_known import geometry_of_binary

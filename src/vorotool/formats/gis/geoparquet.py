@@ -11,8 +11,7 @@ from vorotool.convert.extras import needed
 from vorotool.errors import InputError
 from vorotool.formats.gis.feature_table import Features
 from vorotool.formats.gis.feature_writer import FeatureRows, TypedColumn
-from vorotool.formats.io.limits import check_unpacked, decoding
-from vorotool.formats.io.sources import Source
+from vorotool.formats.io.sources import Source, check_unpacked, decoding
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member, crs_text, member_of_text
 from vorotool.numeric.curves.well_known import geometry_of_binary

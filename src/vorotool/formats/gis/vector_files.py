@@ -7,23 +7,38 @@ without geometry (it then crashes); for a million polygons of nine vertices that
 
 from __future__ import annotations
 
+import errno
 import io
+import os
 import re
 import struct
-from collections.abc import Sequence
+import zipfile
+from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from datetime import date, datetime
-from typing import Any
+from functools import partial
+from pathlib import Path
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.extras import needed
-from vorotool.errors import INPUT_FORMAT, InputError
+from vorotool.errors import INPUT_FORMAT, InputError, LimitError, OutputError, UsageError, option
 from vorotool.formats.gis.feature_table import Features, chosen_layer
-from vorotool.formats.gis.feature_writer import GdalFeatures
-from vorotool.formats.gis.shapefile import archive_of
-from vorotool.formats.io.limits import decoding, interruptible
-from vorotool.formats.io.sources import Source
+from vorotool.formats.gis.feature_writer import GdalFeatures, common_kind, move_into
+from vorotool.formats.io.atomic_output import (
+    Rules,
+    check_output,
+    current_rules,
+    explained,
+    failure,
+    followed,
+    open_output,
+)
+from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.io.sources import Source, check_unpacked, decoding, interruptible
+from vorotool.formats.io.temporaries import Placement, committed_together, new_folder
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.numeric.crs import member_of_text
 from vorotool.numeric.curves.well_known import geometry_of_binary
@@ -131,3 +146,181 @@ class FlatGeobuf(GdalFeatures):
         out = io.BytesIO()
         self.gdal_write(out, self.columns(), driver="FlatGeobuf", layer_options={"SPATIAL_INDEX": "NO"})
         self.out.write(out.getbuffer())
+
+
+PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
+"""Extensions of the files, the one that is named first: geometry, index, attributes, reference system, encoding."""
+
+_OF_OLDER = {*PARTS, ".sbn", ".sbx", ".fbn", ".fbx", ".ain", ".aih", ".idm", ".ind", ".qix", ".qpj"}
+"""Extensions of files that hold for one content of a Shapefile: the parts, and indexes that other programs make."""
+
+ZIP_MAGIC = b"PK\x03\x04"
+_RECORD, _HEADER = 8, 100
+"""Bytes of an entry of the index, and of what is before the first one."""
+
+_MOST_LAYERS = 100
+"""Shapefiles in an archive: all of them are opened to tell which there are."""
+
+
+def archive_of(source: Source) -> bytes:
+    """Give a ZIP archive of a Shapefile: what is beside the ``.shp`` that is named, or the archive that is."""
+    if source.data.startswith(ZIP_MAGIC):
+        with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
+            entries = [entry for entry in archive.infolist() if Path(entry.filename).suffix.lower() in PARTS]
+            entries = [entry for entry in entries if Path(entry.filename).stem == source.layer] or entries
+            layers = sum(entry.filename.lower().endswith(".shp") for entry in entries)
+            if layers > _MOST_LAYERS:
+                raise LimitError(
+                    f"{source.name} holds {layers} Shapefiles, more than {_MOST_LAYERS}: unpack it and name one of "
+                    f"them, or choose one by {option('--input-layer', 'layer=...')}"
+                )
+            size = sum(entry.file_size for entry in entries)
+            check_unpacked(source.name, size, len(source.data))
+            return _archived(source, {Path(entry.filename).name: archive.read(entry) for entry in entries})
+    if not source.is_file:
+        raise InputError(
+            f"{source.name} is the .shp of a Shapefile, which is several files: name it as a file, or give all of them "
+            "as one .zip"
+        )
+    path = Path(source.name)
+    beside = {f"{path.stem}{extension}": part.read_bytes() for extension, part in _beside(path).items()}
+    return _archived(source, {f"{path.stem}.shp": source.data, **beside})
+
+
+def _archived(source: Source, parts: Mapping[str, bytes]) -> bytes:
+    """Give an archive of nothing but these: GDAL looks at all that is in one."""
+    for stem in dict.fromkeys(Path(name).stem for name in parts):
+        own = {Path(name).suffix.lower(): data for name, data in parts.items() if Path(name).stem == stem}
+        _check_sizes(source, own)
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_STORED) as archive:
+        for name, data in parts.items():
+            archive.writestr(name, data)
+    return out.getvalue()
+
+
+def _check_sizes(source: Source, parts: Mapping[str, bytes]) -> None:
+    """Refuse an index of shapes, or a table, that announces more than its file holds."""
+    index, table = parts.get(".shx", b""), parts.get(".dbf", b"")
+    count = max(len(index) - _HEADER, 0) // _RECORD
+    ReadOptions(max_sites=source.max_sites).check_sites(source.name, count)
+    entries = np.frombuffer(index, ">u4", 2 * count, _HEADER) if count else np.empty(0, np.uint32)
+    shapes = 2 * int(entries[1::2].sum(dtype=np.int64))
+    rows, before, width = struct.unpack_from("<IHH", table, 4) if len(table) >= 12 else (0, 0, 0)
+    if shapes > len(parts.get(".shp", b"")) or before + rows * width > len(table) + _HEADER:
+        raise InputError(
+            f"{source.name}: its index or its table states more records than the file holds; is it damaged or cut off?"
+        )
+
+
+def _beside(path: Path) -> dict[str, Path]:
+    """The other parts, whose extensions may be in any case."""
+    found = {each.suffix.lower(): each for each in path.parent.iterdir() if each.stem == path.stem and each != path}
+    parts = {extension: found[extension] for extension in PARTS[1:] if extension in found}
+    missing = [extension for extension in (".shx", ".dbf") if extension not in parts]
+    if missing:
+        raise InputError(
+            f"{path} is a part of a Shapefile, whose {' and '.join(missing)} {'are' if len(missing) > 1 else 'is'} not "
+            "beside it: copy all of its files together"
+        )
+    return parts
+
+
+def holds_shapefile(data: bytes) -> bool:
+    """Whether data is a ZIP archive in which there is a ``.shp``."""
+    if not data.startswith(ZIP_MAGIC):
+        return False
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return any(name.lower().endswith(".shp") for name in archive.namelist())
+    except Exception:  # who reads it says what is wrong: zipfile raises nearly everything on damaged bytes
+        return False
+
+
+def check_parts(path: str, rules: Rules, *, makes_folder: bool = False) -> None:
+    """Find out before any work whether the other files of a Shapefile can be written and older ones replaced."""
+    whole = Path(path)
+    for name in (path, *(str(whole.with_suffix(extension)) for extension in PARTS[1:])):
+        if stream_kind(name) is not None:
+            raise UsageError(
+                f"a Shapefile is several files, which the stream {name} cannot hold: name a file with {rules.option}, "
+                "or write a GeoPackage (.gpkg)"
+            )
+    target = followed(path)
+    for extension in PARTS[1:]:
+        part, real = whole.with_suffix(extension), target.with_suffix(extension)
+        check_output(part, binary=True, makes_folder=makes_folder, **rules._asdict())
+        if whole.is_symlink() and real.exists() and followed(str(part)) != real:
+            raise OutputError(
+                f"{path} is a link to a Shapefile whose {real.name} would not be replaced: give {rules.option} {target}"
+            )
+    for older in older_parts(whole, ()):
+        rules.check(str(older))
+
+
+def older_parts(path: Path, written: Collection[str]) -> list[Path]:
+    """Files of an older Shapefile, besides those whose extensions are written; extensions may be in any case."""
+    with suppress(OSError):
+        names = {f"{path.stem}{extension}" for extension in written}
+        beside = [each for each in path.parent.iterdir() if each.stem == path.stem and each.suffix.lower() in _OF_OLDER]
+        return sorted(each for each in beside if each.name not in names and not each.is_dir())
+    return []
+
+
+def is_whole(path: Path, count: int) -> bool:
+    """Return whether all parts of a Shapefile have the sizes that follow from their headers."""
+    shp, shx, dbf, prj, cpg = map(path.with_suffix, PARTS)
+    if not all(part.exists() and part.stat().st_size >= 100 for part in (shp, shx)):
+        return False
+    with shp.open("rb") as file:
+        words = int.from_bytes(file.read(28)[24:], "big")
+    with dbf.open("rb") as file:
+        header = file.read(12)
+    rows, start, width = (int.from_bytes(header[a:b], "little") for a, b in ((4, 8), (8, 10), (10, 12)))
+    sizes = {shp: 2 * words, shx: 100 + 8 * count}
+    return (
+        all(part.stat().st_size == size for part, size in sizes.items())
+        and len(header) == 12
+        and rows == count
+        and dbf.stat().st_size >= start + rows * width
+        and all(part.stat().st_size > 0 for part in (prj, cpg) if part.exists())
+        and (not prj.exists() or prj.read_bytes().rstrip().endswith(b"]"))
+    )
+
+
+def removal(part: Path, rules: Rules) -> Placement:
+    """Make the removal of a file of an older Shapefile part of what is written."""
+    place = Path(os.path.realpath(part.parent), part.name)
+    return Placement(place, None, partial(rules.check, str(part)), partial(explained, str(part), rules.option))
+
+
+class Shapefile(GdalFeatures):
+    """A Shapefile: what is written is its ``.shp``, and its other files are made beside that."""
+
+    def __init__(self, out: BinaryIO, what: str, path: str) -> None:
+        super().__init__(out, what, path)
+        check_parts(path, current_rules())
+
+    def finish(self) -> None:
+        """Write the files."""
+        held = ", ".join(sorted({each.geom_type for each in self.geometry if each is not None}))
+        if held and common_kind(self.geometry) in ("Unknown", "GeometryCollection"):
+            raise OutputError(
+                f"{self.path} cannot be written: a Shapefile holds geometry of one kind, but this is {held}; write a "
+                "GeoPackage (.gpkg)"
+            )
+        rules, whole = current_rules(), Path(self.path)
+        with committed_together() as commit:
+            place = commit.temporaries.make(Path(os.path.realpath(whole)), new_folder).path / "layer.shp"
+            self.gdal_write(
+                place, self.columns(), driver="ESRI Shapefile", layer_options={"DBF_DATE_LAST_UPDATE": "1970-01-01"}
+            )
+            if not is_whole(place, len(self.geometry)):
+                raise failure(self.path, OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), rules.option)
+            written = [extension for extension in PARTS if place.with_suffix(extension).exists()]
+            for older in older_parts(whole, written):
+                commit.add(removal(older, rules))
+            for extension in written[1:]:
+                with open_output(whole.with_suffix(extension), binary=True, **rules._asdict()) as out:
+                    move_into(place.with_suffix(extension), out)
+            move_into(place, self.out)

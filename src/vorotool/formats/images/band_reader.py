@@ -15,8 +15,7 @@ from vorotool.formats.images.image_grids import PageGrid, grid_of, missing_value
 from vorotool.formats.images.tiff_layout import TiffLayout, decode_rows, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_of
 from vorotool.formats.io.arrays import plain_values
-from vorotool.formats.io.limits import check_pixels, decoding
-from vorotool.formats.io.sources import StoredParts
+from vorotool.formats.io.sources import StoredParts, check_pixels, decoding
 from vorotool.formats.zarr.reader import StoredArray, ZarrImage
 from vorotool.numeric.length_units import ratio
 from vorotool.plain import plain

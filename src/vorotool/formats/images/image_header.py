@@ -14,10 +14,8 @@ from vorotool.formats.images.reader import pnm_header
 from vorotool.formats.images.tiff_reader import count_pages, opened_tiff, page_of
 from vorotool.formats.io.arrays import MAGIC, npy_header
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.io.limits import check_pixels, decoding
-from vorotool.formats.io.sources import GZIP, Source, explained_reading, read_source
-from vorotool.formats.opening import TIFF_MAGIC, open_zarr
-from vorotool.formats.recognition import image_format, looks_like_pnm, picture_format
+from vorotool.formats.io.sources import GZIP, Source, check_pixels, decoding, explained_reading, read_source
+from vorotool.formats.opening import TIFF_MAGIC, image_format, looks_like_pnm, open_zarr, picture_format
 from vorotool.plain import plain
 from vorotool.types.pixels import PixelGrid
 

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Message, option
 from vorotool.formats.images.tiff_layout import TiffLayout
-from vorotool.formats.io.limits import check_pixels, decoding, interruptible
-from vorotool.formats.io.sources import Source
-from vorotool.formats.recognition import PICTURES, picture_format
+from vorotool.formats.io.sources import Source, check_pixels, decoding, interruptible
+from vorotool.formats.opening import PICTURES, picture_format
 
 if TYPE_CHECKING:
     from PIL import Image

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.images.png_writer import SIGNATURE
-from vorotool.formats.io.limits import check_pixels, decoding
-from vorotool.formats.io.sources import Source
+from vorotool.formats.io.sources import Source, check_pixels, decoding
 
 _CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}
 _DEPTHS = {0: (1, 2, 4, 8, 16), 2: (8, 16), 3: (1, 2, 4, 8), 4: (8, 16), 6: (8, 16)}

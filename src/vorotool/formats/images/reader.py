@@ -19,10 +19,9 @@ from vorotool.formats.images import png_reader, tiff_reader
 from vorotool.formats.images.image_grids import tiff_raster, world_grid
 from vorotool.formats.images.pictures import is_lossy, read_picture_file
 from vorotool.formats.io.arrays import npy_header, read_npy
-from vorotool.formats.io.limits import check_pixels
-from vorotool.formats.io.sources import Source
+from vorotool.formats.io.sources import Source, check_pixels
+from vorotool.formats.opening import GAP, PICTURES
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.recognition import GAP, PICTURES
 from vorotool.types.images import Raster
 from vorotool.types.pixels import PixelGrid
 

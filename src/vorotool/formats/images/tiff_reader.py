@@ -14,8 +14,7 @@ from vorotool.errors import AS_VOLUME, InputError, LimitError, option
 from vorotool.formats.images.image_grids import PageGrid, grid_of
 from vorotool.formats.images.pictures import check_jpegs
 from vorotool.formats.images.tiff_layout import JPEGS, TiffLayout, decode_image, is_decoded_here, layout_of
-from vorotool.formats.io.limits import check_pixels, decoding, interruptible
-from vorotool.formats.io.sources import Source
+from vorotool.formats.io.sources import Source, check_pixels, decoding, interruptible
 
 _MOST_CHANNELS = 4
 _PILLOW_MODES = {"1", "L", "P", "LA", "RGB", "RGBA", "I;16", "I;16B"}

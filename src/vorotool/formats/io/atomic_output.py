@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 from vorotool.errors import FORMAT, NO_CLOBBER, OUTPUT, OutputError, UsageError, VorotoolError
-from vorotool.formats.io.commit import Placement, committed_together
 from vorotool.formats.io.descriptors import (
     STANDARD,
     check_writable,
@@ -23,8 +22,8 @@ from vorotool.formats.io.descriptors import (
     open_onward,
     open_output_descriptor,
 )
-from vorotool.formats.io.layer_names import file_of
-from vorotool.formats.io.temporaries import new_file
+from vorotool.formats.io.sources import file_of
+from vorotool.formats.io.temporaries import Placement, committed_together, new_file
 
 STANDARD_OUTPUT = "standard output"
 

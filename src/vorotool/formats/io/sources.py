@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
+import threading
+import warnings
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, TypeVar
 
-from vorotool.errors import InputError, LimitError, UsageError, VorotoolError
+from vorotool.errors import InputError, LimitError, UsageError, VorotoolError, option
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, open_input, stream_kind
-from vorotool.formats.io.layer_names import file_and_layer
+from vorotool.numeric.parallel import start
 from vorotool.plain import plain
 
 STANDARD_INPUT = "standard input"
 GZIP = b"\x1f\x8b\x08"
 """The first bytes of what gzip has packed."""
-MOST_UNPACKED = 2**30
+MOST_OF_GZIP = 2**30
 """Bytes that gzip may have packed in an input."""
 MOST_BLANKS = 2**12
 """Bytes of an input that are looked at for anything but blanks."""
@@ -86,12 +89,12 @@ def _unpacked(data: bytes, name: str) -> bytes:
     from vorotool.formats.io.unpacking import unpack_gzip
 
     try:
-        made = unpack_gzip(data, MOST_UNPACKED)
+        made = unpack_gzip(data, MOST_OF_GZIP)
     except (ValueError, zlib.error) as error:
         raise InputError(f"{name} cannot be unpacked by gzip: {error}; is the file damaged or cut off?") from None
-    if len(made) > MOST_UNPACKED:
+    if len(made) > MOST_OF_GZIP:
         raise LimitError(
-            f"{name} holds more than {MOST_UNPACKED} bytes packed by gzip: unpack it first, and give the file"
+            f"{name} holds more than {MOST_OF_GZIP} bytes packed by gzip: unpack it first, and give the file"
         )
     return made
 
@@ -193,3 +196,108 @@ def check_nesting(text: str | bytes, limit: int = NESTING_LIMIT, name: str = "th
     if offset is not None:
         line = data.count(b"\n", 0, offset) + 1
         raise InputError(f"{name}, line {line}: brackets are nested more than {limit} deep; check the brackets")
+
+
+_SHORTEST = 2
+"""Characters of a file before a colon: a single one is a drive letter."""
+_NOT_IN_NAMES = re.compile(r'[<>:"/\\|?*\x00-\x1f]')
+"""Characters that file names cannot have somewhere."""
+
+
+def split_layer(name: str) -> tuple[str, str | None]:
+    """Split FILE:LAYER at its last colon; the layer is None where the name is that of a file, or of nothing."""
+    file, _, layer = name.rpartition(":")
+    if not layer or len(file) < _SHORTEST or os.path.lexists(name) or not _is_file(file):
+        return name, None
+    return file, layer
+
+
+def file_of(name: str) -> str:
+    """Return the file of FILE:LAYER, or of a name without a layer."""
+    return split_layer(name)[0]
+
+
+def file_and_layer(name: str, layer: str | None) -> tuple[str, str | None]:
+    """Split FILE:LAYER, and refuse a layer that is given in addition."""
+    file, named = split_layer(name)
+    if named is not None and layer is not None:
+        given = option("--input-layer", "layer")
+        raise UsageError(f"{name} names the layer {named!r}, and {given} the layer {layer!r}: leave out one of them")
+    return file, layer if named is None else named
+
+
+def output_name(name: str) -> str:
+    """Return the name that outputs of an input are named after: ``x.roads.gpkg`` for ``folder/x.gpkg:roads``."""
+    file, layer = split_layer(name)
+    if layer is None:
+        return Path(name).name
+    path = Path(file[: -len(".gz")] if file.lower().endswith(".gz") else file)
+    return f"{path.stem}.{_NOT_IN_NAMES.sub('_', layer)}{path.suffix or '.layer'}"
+
+
+def _is_file(path: str) -> bool:
+    """Return whether something is there that is no folder."""
+    try:
+        return Path(path).exists() and not Path(path).is_dir()
+    except (OSError, ValueError):
+        return False
+
+
+_MOMENT = 0.05
+"""Seconds after which signals are looked for."""
+
+MOST_UNPACKED = 1 << 29
+"""Bytes that any file may become, however small it is."""
+_MOST_TIMES = 100
+
+Result = TypeVar("Result")
+
+
+def check_pixels(name: str, width: int, height: int, max_pixels: int) -> None:
+    """Refuse an image that is empty or larger than the limit, from its header alone."""
+    if width < 1 or height < 1:
+        raise InputError(f"{name} is {width} x {height} pixels: an image needs at least 1 x 1")
+    if width * height > max_pixels:
+        limit = option(f"--max-pixels {max_pixels}")
+        raise LimitError(
+            f"{name} is {width} x {height} = {width * height} pixels, more than {limit}: "
+            "raise that if there is memory for it, or crop the image"
+        )
+
+
+def check_unpacked(name: str, size: int, packed: int) -> None:
+    """Refuse what becomes larger than 512 MiB and than 100 times the file that holds it."""
+    if size > max(MOST_UNPACKED, _MOST_TIMES * packed):
+        raise LimitError(
+            f"{name} has {packed} bytes that unpack to at least {size}, more than {_MOST_TIMES} times as many: split "
+            "it, or write it without compression"
+        )
+
+
+def interruptible(work: Callable[[], Result]) -> Result:
+    """Call what takes long in a library that does not look for signals: in a thread, so that this one sees them."""
+    if threading.current_thread() is not threading.main_thread():
+        return work()
+    from concurrent.futures import Future, wait
+
+    future: Future[Result] = Future()
+    start(work, future)
+    while not future.done():  # a signal may reach another thread, which does not wake this one
+        wait([future], _MOMENT)
+    return future.result()
+
+
+@contextmanager
+def decoding(name: str, kind: str) -> Iterator[None]:
+    """Turn whatever a decoder raises or warns of on damaged bytes into one InputError that names the file."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    except (VorotoolError, MemoryError):
+        raise
+    except Exception as error:  # decoders raise nearly everything on damaged bytes, IndexError included
+        reason = " ".join(str(error).split()) or type(error).__name__
+        damage = InputError(f"{name} cannot be read as {kind}: {reason}; is the file damaged or cut off?")
+        damage.source = name
+        raise damage from error

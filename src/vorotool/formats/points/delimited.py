@@ -16,12 +16,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.tables import (
-    coordinate_columns,
     is_longitude_latitude,
     is_map,
     plain_name,
 )
-from vorotool.errors import NO_PROPERTIES, InputError
+from vorotool.errors import NO_PROPERTIES, InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import (
     LARGEST_LABEL,
@@ -41,6 +40,7 @@ from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.numbers import typed_texts
 from vorotool.plain import plain
 from vorotool.types.fields import UNSTATED, UP
+from vorotool.types.points.point_set import PointSet
 
 GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
 """Names of columns with geometry."""
@@ -49,24 +49,37 @@ _QUOTED = re.compile(r'"[^"]*"')
 
 
 @plain
-class _Layout:
+class DelimitedText:
     """How the text of one file is read: columns are 0-based; without a header there are no names."""
 
     name: str
     data: bytes
     delimiter: str
     first_line: int
-    first_record: list[str]
+    fields: list[str]  # of the first record
     header: bool
     chosen: Chosen
 
-    @property
-    def header_records(self) -> int:
-        return int(self.header)
-
     def described(self, column: int) -> str:
-        shown = f" ({self.first_record[column]})" if self.header and column < len(self.first_record) else ""
+        """Give the words for a column."""
+        shown = f" ({self.fields[column]})" if self.header and column < len(self.fields) else ""
         return f"column {column + 1}{shown}"
+
+    def explain(self, error: _core.text.TextError, **advice: str) -> InputError:
+        """Put an error of the core into words."""
+        counted_by = f"the {'header' if self.header else 'first row'} (line {self.first_line})"
+        return explain(self.name, error, self.described, counted_by, **advice)
+
+    def columns(self) -> dict[str, list[str]]:
+        """Give the texts of all columns by their names, a name that comes again with a number."""
+        try:
+            return _properties(self, list(range(len(self.fields))), 0)
+        except _core.text.TextError as error:
+            raise self.explain(error) from None
+
+    def line_of(self, row: int) -> int:
+        """Give the line of a row (0-based)."""
+        return int(_core.text.line_of_row(self.data, self.delimiter, int(self.header), row))
 
 
 def read_text(source: Source, options: ReadOptions) -> PointRows:
@@ -79,9 +92,9 @@ def read_text(source: Source, options: ReadOptions) -> PointRows:
         return PointRows(no_points(options.axes), None, {}, {})
     line, _, fields = first
     header, chosen = choose(source.name, fields, wanted, options)
-    layout = _Layout(source.name, data, delimiter, line, fields, header, chosen)
+    layout = DelimitedText(source.name, data, delimiter, line, fields, header, chosen)
     if options.max_sites is not None and data.count(b"\n") >= options.max_sites:
-        rows = _core.text.count_rows(data, delimiter, layout.header_records, options.threads)
+        rows = _core.text.count_rows(data, delimiter, int(layout.header), options.threads)
         options.check_sites(source.name, rows)
     if chosen.label is None or chosen.is_named:
         return _read_rows(layout, options)
@@ -106,34 +119,6 @@ def geometry_column(fields: Sequence[str]) -> int | None:
     return next((lower.index(name) for name in GEOMETRY_COLUMNS if name in lower), None)
 
 
-@plain
-class DelimitedText:
-    """Delimited text with a header, of which no column is known to hold coordinates."""
-
-    _layout: _Layout
-
-    @property
-    def name(self) -> str:
-        """The input."""
-        return self._layout.name
-
-    @property
-    def fields(self) -> list[str]:
-        """Those of the header."""
-        return self._layout.first_record
-
-    def columns(self, threads: int = 0) -> dict[str, list[str]]:
-        """Give the texts of all columns by their names, a name that comes again with a number."""
-        try:
-            return _properties(self._layout, list(range(len(self.fields))), threads)
-        except _core.text.TextError as error:
-            raise explain(self.name, error, self._layout.described, _counted_by(self._layout)) from None
-
-    def line_of(self, row: int) -> int:
-        """Give the line of a row (0-based)."""
-        return int(_core.text.line_of_row(self._layout.data, self._layout.delimiter, 1, row))
-
-
 def delimited_text(source: Source) -> DelimitedText:
     """Take delimited text apart; its first record is a header."""
     data = _plain_lines(source.data)
@@ -141,12 +126,7 @@ def delimited_text(source: Source) -> DelimitedText:
     if delimiter == " ":  # there is one column, whose geometry has blanks and commas
         delimiter = "\t"
     line, _, fields = _core.text.first_record(data, delimiter) or (1, "", [])
-    return DelimitedText(_Layout(source.name, data, delimiter, line, fields, True, Chosen(0, 0)))
-
-
-def has_coordinates(fields: Sequence[str]) -> bool:
-    """Whether a header names a known pair of coordinates."""
-    return coordinate_columns(fields) is not None
+    return DelimitedText(source.name, data, delimiter, line, fields, True, Chosen(0, 0))
 
 
 def _plain_lines(data: bytes) -> bytes:
@@ -160,23 +140,23 @@ def _guess_delimiter(data: bytes) -> str:
     return next((delimiter for delimiter in ("\t", ";", ",") if delimiter in text), " ")
 
 
-def _read_rows(layout: _Layout, options: ReadOptions) -> PointRows:
+def _read_rows(layout: DelimitedText, options: ReadOptions) -> PointRows:
     chosen = layout.chosen
-    fields = len(layout.first_record)
+    fields = len(layout.fields)
     advice = f"correct it, or choose other columns with {COLUMNS}"
     try:
         values = _core.text.parse_numbers(
-            layout.data, layout.delimiter, chosen.used, layout.header_records, fields, options.threads
+            layout.data, layout.delimiter, chosen.used, int(layout.header), fields, options.threads
         )
     except _core.text.TextError as error:
-        raise explain(layout.name, error, layout.described, _counted_by(layout), advice) from None
+        raise layout.explain(error, advice=advice) from None
     options.check_sites(layout.name, len(values))
     axes = len(chosen.coordinates)
-    if axes == 2 and options.columns is None and layout.header and "z" in map(plain_name, layout.first_record):
+    if axes == 2 and options.columns is None and layout.header and "z" in map(plain_name, layout.fields):
         options.note(f"{layout.name}: the column z is ignored: only x and y are used")
     labels = None if chosen.label is None else _labels(layout, values[:, axes])
     rest = [i for i in range(fields) if i not in chosen.used] if options.properties else []
-    x, y = (layout.first_record[column] if layout.header else "" for column in (chosen.x, chosen.y))
+    x, y = (layout.fields[column] if layout.header else "" for column in (chosen.x, chosen.y))
     properties = _properties(layout, rest, options.threads)
     return PointRows(values[:, :axes], labels, properties, placed_by(x, y, options))
 
@@ -190,32 +170,33 @@ def placed_by(x: str, y: str, options: ReadOptions) -> dict[str, Any]:
     }
 
 
-def _counted_by(layout: _Layout) -> str:
-    return f"the {'header' if layout.header else 'first row'} (line {layout.first_line})"
-
-
-def _labels(layout: _Layout, values: NDArray[np.float64]) -> NDArray[np.int64]:
+def _labels(layout: DelimitedText, values: NDArray[np.float64]) -> NDArray[np.int64]:
     bad = np.flatnonzero((values != np.floor(values)) | (values < 1) | (values > LARGEST_LABEL))
     if bad.size:
         row = int(bad[0])
-        line = _core.text.line_of_row(layout.data, layout.delimiter, layout.header_records, row)
         raise InputError(
-            f"{layout.name}, line {line}: the label {values[row]:.17g} is not an integer from 1 to {LARGEST_LABEL}; "
-            f"correct it, or drop the label from {COLUMNS}"
+            f"{layout.name}, line {layout.line_of(row)}: the label {values[row]:.17g} is not an integer from 1 to "
+            f"{LARGEST_LABEL}; correct it, or drop the label from {COLUMNS}"
         )
     return values.astype(np.int64)
 
 
-def _properties(layout: _Layout, columns: list[int], threads: int) -> dict[str, list[str]]:
+def _properties(layout: DelimitedText, columns: list[int], threads: int) -> dict[str, list[str]]:
     if not columns:
         return {}
-    _check_utf8(layout)
-    header = layout.header_records
-    fields = len(layout.first_record)
+    try:
+        layout.data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = layout.data.count(b"\n", 0, error.start) + 1
+        raise InputError(
+            f"{layout.name}, line {line}: the byte {layout.data[error.start]:#04x} is not UTF-8; "
+            f"save the file as UTF-8, or use {NO_PROPERTIES}"
+        ) from None
+    header, fields = int(layout.header), len(layout.fields)
     texts = _core.text.parse_fields(layout.data, layout.delimiter, columns, header, fields, threads)
     result: dict[str, list[str]] = {}
     for column, values in zip(columns, texts, strict=True):
-        name = (layout.first_record[column] if layout.header else "") or f"column_{column + 1}"
+        name = (layout.fields[column] if layout.header else "") or f"column_{column + 1}"
         result[_unused(name, result)] = typed_texts(values)
     return result
 
@@ -225,17 +206,6 @@ def _unused(name: str, taken: dict[str, list[str]]) -> str:
     while candidate in taken:
         number, candidate = number + 1, f"{name}_{number}"
     return candidate
-
-
-def _check_utf8(layout: _Layout) -> None:
-    try:
-        layout.data.decode("utf-8")
-    except UnicodeDecodeError as error:
-        line = layout.data.count(b"\n", 0, error.start) + 1
-        raise InputError(
-            f"{layout.name}, line {line}: the byte {layout.data[error.start]:#04x} is not UTF-8; "
-            f"save the file as UTF-8, or use {NO_PROPERTIES}"
-        ) from None
 
 
 def explain(
@@ -265,3 +235,86 @@ def explain(
     else:
         what = f"{text!r} in {place} is not a number; {advice}"
     return InputError(f"{name}, line {line}: {what}")
+
+
+_FORM = "<vertices> {} <attributes> <0 or 1 boundary markers>"
+_SPACE = option("tessellate --size WxHxD", 'geometry="space"')
+
+
+@plain
+class _Header:
+    line: int
+    vertices: int
+    dimension: int
+    attributes: int
+    markers: int
+
+    @property
+    def fields(self) -> int:
+        return 1 + self.dimension + self.attributes + self.markers
+
+
+def read_node(source: Source, options: ReadOptions) -> PointSet | PointRows:
+    """Read vertices; attributes and boundary markers become properties, numbering may begin at 0 or 1."""
+    dimension = options.axes
+    first = _core.text.first_record(source.data, " ")
+    if first is None:
+        raise InputError(f"{source.name}: the file is empty; a .node file begins with {_FORM.format(dimension)}")
+    header = _read_header(source.name, first, dimension)
+    options.check_sites(source.name, header.vertices)
+    columns = list(range(1 + dimension))
+    try:
+        values = _core.text.parse_numbers(source.data, " ", columns, 1, header.fields, options.threads)
+    except _core.text.TextError as error:
+        counted_by = f"each vertex after the header (line {header.line})"
+        raise explain(source.name, error, lambda column: f"column {column + 1}", counted_by) from None
+    if len(values) != header.vertices:
+        raise InputError(
+            f"{source.name}, line {header.line}: the header states {header.vertices} vertices, but {len(values)} "
+            "follow; correct the header, or complete the file"
+        )
+    base = _checked_numbering(source, values[:, 0])
+    properties = _attributes(source, header, options)
+    if options.wants_z:  # whose labels are from 1
+        return PointRows(values[:, 1:], None, properties, {})
+    return PointSet(values[:, 1:], None, properties, first_number=base)
+
+
+def _read_header(name: str, first: tuple[int, str, list[str]], wanted: int) -> _Header:
+    line, text, fields = first
+    form = _FORM.format(wanted)
+    if not 1 <= len(fields) <= 4 or not all(field.isdecimal() and len(field) < 16 for field in fields):
+        raise InputError(f"{name}, line {line}: {text[:40]!r} is not a header of a .node file; write {form}")
+    vertices, dimension, attributes, markers = (int(v) for v in fields + ["0", str(wanted), "0", "0"][len(fields) :])
+    if dimension != wanted:
+        two = f"only 2 are read{f', or 3 with {_SPACE}' * (dimension == 3)}"
+        what = "points in space have 3" if wanted == 3 else two
+        raise InputError(f"{name}, line {line}: the vertices have {dimension} dimensions; {what}")
+    if markers > 1 or attributes > 1000:
+        raise InputError(
+            f"{name}, line {line}: {attributes} attributes and {markers} boundary markers per vertex; write {form}"
+        )
+    return _Header(line, vertices, dimension, attributes, markers)
+
+
+def _checked_numbering(source: Source, indices: NDArray[np.float64]) -> int:
+    """Number of the first vertex; the others follow without gaps."""
+    base = 0 if len(indices) and indices[0] == 0 else 1
+    bad = np.flatnonzero(indices != np.arange(base, base + len(indices)))
+    if bad.size:
+        row = int(bad[0])
+        line = _core.text.line_of_row(source.data, " ", 1, row)
+        raise InputError(
+            f"{source.name}, line {line}: vertex {indices[row]:.17g} should be {row + base}; number the vertices from "
+            "0 or 1 without gaps"
+        )
+    return base
+
+
+def _attributes(source: Source, header: _Header, options: ReadOptions) -> dict[str, list[str]]:
+    names = [f"attribute_{i + 1}" for i in range(header.attributes)] + ["boundary_marker"] * header.markers
+    if not names or not options.properties:
+        return {}
+    columns = list(range(1 + header.dimension, header.fields))
+    texts = _core.text.parse_fields(source.data, " ", columns, 1, header.fields, options.threads)
+    return dict(zip(names, texts, strict=True))

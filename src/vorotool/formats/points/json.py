@@ -18,8 +18,7 @@ from vorotool.formats.parsing.json import (
     property_columns,
     read_y_axis,
 )
-from vorotool.formats.parsing.reader_options import ReadOptions, position_array, shortened
-from vorotool.formats.parsing.reference_systems import note_unnamed
+from vorotool.formats.parsing.reader_options import ReadOptions, note_unnamed, position_array, shortened
 from vorotool.formats.points.columns import PointRows
 from vorotool.formats.points.tables import is_table, points_of_objects
 from vorotool.formats.text.tables import stated_unit

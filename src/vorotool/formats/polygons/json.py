@@ -9,7 +9,6 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from vorotool import _core
 from vorotool.convert.sites import Sites, as_sites
 from vorotool.errors import AS_JSON, InputError, option
 from vorotool.formats.io.sources import Source
@@ -25,10 +24,11 @@ from vorotool.formats.parsing.json import (
     read_y_axis,
     refuse_table,
 )
-from vorotool.formats.parsing.reader_options import ReadOptions, position_array, shortened
-from vorotool.formats.parsing.reference_systems import note_unnamed
+from vorotool.formats.parsing.reader_options import ReadOptions, note_unnamed, position_array, shortened
+from vorotool.formats.text.rings import ring_texts
 from vorotool.formats.text.row_writer import Column, RowShape
 from vorotool.formats.text.tables import json_bytes, json_text, stated_unit, write_collection
+from vorotool.numeric.arrays import Nesting
 from vorotool.products.formats import resolved
 from vorotool.types.fields import MEMBER as Y_AXIS
 from vorotool.types.fields import UNSTATED, UP
@@ -295,14 +295,7 @@ def feature_texts(polygons: PolygonSet, style: str) -> Computed | None:
     if not len(polygons) or polygons.is_line.any() or (np.diff(polygons.ring_starts) < 3).any():
         return None
     starts = np.array([first for first, _ in feature_ranges(polygons)] + [len(polygons)], dtype=np.int64)
-    rings, parts = polygons.ring_starts, polygons.polygon_starts
-
-    def texts(part: slice) -> Any:
-        begin, end, _ = part.indices(len(starts) - 1)
-        own = _core.text.PolygonStyle[style]
-        return _core.text.PolygonTexts(polygons.xy, rings, parts, starts[begin : end + 1], own)
-
-    return Computed(texts, len(starts) - 1)
+    return ring_texts(polygons.xy, Nesting(polygons.ring_starts, polygons.polygon_starts, starts), style)
 
 
 def feature_ranges(polygons: PolygonSet) -> list[tuple[int, int]]:

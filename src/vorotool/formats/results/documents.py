@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any, BinaryIO, NamedTuple
@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import InputError
+from vorotool.formats.io.arrays import npz_columns
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.json import parse_json, read_y_axis
-from vorotool.formats.parsing.npz_columns import npz_columns
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.polygons.json import read_json, write_items
 from vorotool.formats.results.rows import PREFIXES, ArrayRows, JsonRows, Rows, is_number
@@ -104,7 +104,7 @@ def described_rows(count: int, ids: Sequence[Any] | None, properties: Mapping[st
 
 
 # ---- reading -------------------------------------------------------------------------------------
-def opened_document(source: Source, kind: str, noun: str) -> JsonRows:
+def _document(source: Source, kind: str, noun: str) -> Mapping[str, Any]:
     """Parse the JSON of a result, whose type and version are stated."""
     document = parse_json(source)
     if not isinstance(document, Mapping) or document.get("type") != kind:
@@ -112,42 +112,36 @@ def opened_document(source: Source, kind: str, noun: str) -> JsonRows:
     if document.get("version") != VERSION:
         found = shortened(document.get("version"))
         raise InputError(f"{source.name}: version {found} of {kind} is not supported; write version {VERSION}")
-    return JsonRows(source.name, document)
-
-
-def opened_archive(source: Source, options: ReadOptions, kind: str, noun: str) -> ArrayRows:
-    """Read the arrays of a result."""
-    rows = ArrayRows(source.name, npz_columns(source, options), {})
-    about = rows.array(ABOUT)
-    if about.dtype != np.uint8:
-        raise InputError(f"{source.name}: {ABOUT} is of type {about.dtype}; write bytes (uint8)")
-    document = opened_document(Source(f"{source.name}, {ABOUT}", about.tobytes(), "json"), kind, noun).document
-    return ArrayRows(source.name, rows.arrays, document)
+    return document
 
 
 def opened(source: Source, options: ReadOptions, kind: str, noun: str) -> Rows:
     """Open a result that was written as JSON or as NPZ."""
-    if source.format == "npz":
-        return opened_archive(source, options, kind, noun)
-    return opened_document(source, kind, noun)
+    if source.format != "npz":
+        return JsonRows(source.name, _document(source, kind, noun))
+    arrays = npz_columns(source, options)
+    about = ArrayRows(source.name, arrays, {}).array(ABOUT)
+    if about.dtype != np.uint8:
+        raise InputError(f"{source.name}: {ABOUT} is of type {about.dtype}; write bytes (uint8)")
+    document = _document(Source(f"{source.name}, {ABOUT}", about.tobytes(), "json"), kind, noun)
+    return ArrayRows(source.name, arrays, document)
 
 
 def read_polygons(rows: Rows, options: ReadOptions) -> PolygonSet:
     """Read the polygons of a result, and what it says about all of them."""
     document = rows.document
-    polygons = _of_arrays(rows, options) if isinstance(rows, ArrayRows) else _of_document(rows, options)
+    if isinstance(rows, ArrayRows):
+        polygons = _of_arrays(rows, options)
+    else:
+        items = {"polygons": rows.list_of("polygons")}
+        polygons = read_json(Source(rows.name, b"", "json", items), options)
     return replace(
         polygons,
         y_axis=read_y_axis(rows.name, document, UNSTATED),
         crs=document.get("crs"),
         connectivity=document.get("connectivity"),
-        unit=_unit(rows.name, document),
+        unit=stated(rows, "unit", None, lambda unit: isinstance(unit, str | None), "the unit is", "a name, such as mm"),
     )
-
-
-def _of_document(rows: Rows, options: ReadOptions) -> PolygonSet:
-    rows.count("polygons")
-    return read_json(Source(rows.name, b"", "json", {"polygons": rows.document["polygons"]}), options)
 
 
 def _of_arrays(rows: ArrayRows, options: ReadOptions) -> PolygonSet:
@@ -156,18 +150,13 @@ def _of_arrays(rows: ArrayRows, options: ReadOptions) -> PolygonSet:
     options.check_vertices(rows.name, len(rows.array("ring_x")))
     rings: dict[str, Any] = {name: rows.integers(name, 0, _MOST) for name in _RINGS}
     with naming_values(rows.name):
+        ArrayRows(rows.name, {name: rows.array(name) for name in ("ring_x", "ring_y")}, {}).together("")
         return PolygonSet(
-            xy=np.stack([rows.reals(f"ring_{axis}") for axis in _alike(rows, "ring_x", "ring_y")], axis=1),
+            xy=np.stack([rows.reals("ring_x"), rows.reals("ring_y")], axis=1),
             **rings,
             feature=rows.integers("polygon_feature", 0, _MOST).astype(np.int32),
             **(named_rows(described) if options.properties else {}),
         )
-
-
-def _alike(rows: ArrayRows, *names: str) -> list[str]:
-    """Return the last letters of arrays that must be of one length."""
-    ArrayRows(rows.name, {name: rows.array(name) for name in names}, {}).together("")
-    return [name[-1] for name in names]
 
 
 def check_described(rows: Rows, member: str) -> None:
@@ -184,11 +173,24 @@ def named_rows(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     return {"ids": ids, "properties": {name: [each.get(name) for each in own] for name in names}}
 
 
-def _unit(name: str, document: Mapping[str, Any]) -> str | None:
-    unit = document.get("unit")
-    if not isinstance(unit, str | None):
-        raise InputError(f"{name}: the unit is {shortened(unit)}; write a name, such as mm")
-    return unit
+def stated(rows: Rows, member: str, usual: Any, is_right: Callable[[Any], bool], has: str, form: str) -> Any:
+    """Read a member of a document that says something of the whole result."""
+    value = rows.document.get(member, usual)
+    if not is_right(value):
+        raise InputError(f"{rows.name}: {has} {shortened(value)}; write {form}")
+    return value
+
+
+def optional_pairs(
+    rows: Rows, member: str, name: str, exist: NDArray[np.bool_], words: Callable[[int], str]
+) -> NDArray[np.float64]:
+    """Read pairs that some items of a list have, and others have not."""
+    pairs = rows.pairs(member, name, optional=True)
+    wrong = np.flatnonzero(np.isnan(pairs[:, 0]) == exist)
+    if wrong.size:
+        at = int(wrong[0])
+        raise InputError(f"{rows.name}, {member} {at}: the {words(at)} is {'[x, y]' if exist[at] else 'null'}")
+    return pairs
 
 
 def read_sites(rows: Rows, polygons: PolygonSet) -> SiteTable:
@@ -210,21 +212,19 @@ def read_sites(rows: Rows, polygons: PolygonSet) -> SiteTable:
     return SiteTable(kind, polygon, ring, index, source[:, 0], source[:, 1], ends)
 
 
-def read_features(rows: Rows) -> str:
-    """Read whether features are separate, as they are if nothing is said, or together."""
-    value = rows.document.get("features", "separate")
-    if value not in ("separate", "together"):
-        raise InputError(f"{rows.name}: features are {shortened(value)}; write separate or together")
-    return str(value)
+def stated_name(rows: Rows, member: str, has: str, *names: str) -> str:
+    """Read a member that has one of some names, by default the first."""
+    return str(stated(rows, member, names[0], lambda value: value in names, has, " or ".join(names)))
 
 
 def read_frame(rows: Rows) -> tuple[float, float, float, float]:
     """Read the rectangle that a result was cut by."""
-    value: Any = rows.document.get("frame")
-    is_right = type(value) is list and len(value) == 4 and all(map(is_number, value))
-    if not is_right or not np.isfinite(value).all() or min(value[2:]) < 0:
-        raise InputError(f"{rows.name}: the frame is {shortened(value)}; write [x, y, w, h]")
-    x, y, w, h = map(float, value)
+
+    def is_right(value: Any) -> bool:
+        are_numbers = type(value) is list and len(value) == 4 and all(map(is_number, value))
+        return are_numbers and bool(np.isfinite(value).all()) and min(value[2:]) >= 0
+
+    x, y, w, h = map(float, stated(rows, "frame", None, is_right, "the frame is", "[x, y, w, h]"))
     return (x, y, w, h)
 
 

@@ -5,13 +5,14 @@ networkx takes 4 times as long for 90,000 edges, once its graph is made (`tests/
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, BinaryIO
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
 from vorotool.convert.tables import listed
-from vorotool.formats.results.geometry_text import line_column
+from vorotool.formats.results.features import line_column
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, write_rows
 from vorotool.formats.text.tables import json_text
 from vorotool.numeric.xml_text import xml_characters
@@ -39,11 +40,13 @@ def write_graphml(
     """Write a skeleton as an undirected graph in GraphML, with the columns of `skeleton_graph`; geometry is WKT."""
     check_precision(precision)
     graph = skeleton_graph(skeleton, by=by, flatten=flatten)
-    edges = _EdgeTexts(graph, precision)
+    values = {name: listed(column) for name, column in graph.edges.items()}
+    kinds = {name: _kind(column) for name, column in values.items()}
+    kinds["voro_geometry" if "geometry" in values else "geometry"] = "string"
     out.write(_HEAD.encode())
     for name, kind in _NODE_KEYS.items():
         out.write(f'<key id="n_{name}" for="node" attr.name="{name}" attr.type="{kind}"/>\n'.encode())
-    for number, (name, kind) in enumerate(edges.kinds.items()):
+    for number, (name, kind) in enumerate(kinds.items()):
         named = quoteattr(xml_characters(name))
         out.write(f'<key id="e{number}" for="edge" attr.name={named} attr.type="{kind}"/>\n'.encode())
     out.write(b'<graph edgedefault="undirected">\n')
@@ -55,47 +58,38 @@ def write_graphml(
         between = (f'">{first}', *(f"</data>{name}" for name in others))
         shape = RowShape(('<node id="', *between, "</data></node>\n"))
         write_rows(out, columns, shape, precision=precision, threads=threads)
-    columns = [Column("", edges.openings(by)), line_column(Lines(graph.points, graph.start), "wkt")]
+    columns = [
+        Column("", _openings(graph, by, values, precision)),
+        line_column(Lines(graph.points, graph.start), "wkt"),
+    ]
     shape = RowShape(("", "", "</data></edge>\n"), "", "LINESTRING EMPTY")
     write_rows(out, columns, shape, precision=precision, threads=threads)
     out.write(b"</graph>\n</graphml>\n")
 
 
-class _EdgeTexts:
-    """The attributes of edges, by name with their types, and their text before the geometry."""
-
-    def __init__(self, graph: SkeletonGraph, precision: int | None) -> None:
-        self.graph, self.precision = graph, precision
-        columns = graph.edges
-        self.values = {name: listed(column) for name, column in columns.items()}
-        geometry = "voro_geometry" if "geometry" in columns else "geometry"
-        self.kinds = {**{name: _kind(values) for name, values in self.values.items()}, geometry: "string"}
-
-    def openings(self, by: str) -> list[str]:
-        """One text an edge, up to its first point."""
-        graph = self.graph
-        keys = [(f'<data key="e{number}">', self.kinds[name]) for number, name in enumerate(self.values)]
-        last = f'<data key="e{len(keys)}">'
-        texts = []
-        rows = zip(
-            graph.edges[by].tolist(), graph.source.tolist(), graph.target.tolist(), *self.values.values(), strict=True
+def _openings(graph: SkeletonGraph, by: str, values: Mapping[str, list[Any]], precision: int | None) -> list[str]:
+    """One text an edge, up to its first point."""
+    keys = [(f'<data key="e{number}">', _kind(column)) for number, column in enumerate(values.values())]
+    last = f'<data key="e{len(keys)}">'
+    texts = []
+    ends = (graph.edges[by].tolist(), graph.source.tolist(), graph.target.tolist())
+    for number, source, target, *row in zip(*ends, *values.values(), strict=True):
+        data = "".join(
+            f"{key}{_text(value, kind, precision)}</data>"
+            for (key, kind), value in zip(keys, row, strict=True)
+            if value is not None
         )
-        for number, source, target, *values in rows:
-            data = "".join(
-                f"{key}{self._text(value, kind)}</data>"
-                for (key, kind), value in zip(keys, values, strict=True)
-                if value is not None
-            )
-            texts.append(f'<edge id="{number}" source="{source}" target="{target}">{data}{last}')
-        return texts
+        texts.append(f'<edge id="{number}" source="{source}" target="{target}">{data}{last}')
+    return texts
 
-    def _text(self, value: Any, kind: str) -> str:
-        if kind == "double":
-            return f"{value:.{self.precision}g}" if self.precision else repr(float(value)).removesuffix(".0")
-        if kind == "string":
-            text = value if isinstance(value, str) else json_text(value)
-            return escape(xml_characters(text), {"\r": "&#13;"})  # which parsers would take for the end of a line
-        return json_text(value)
+
+def _text(value: Any, kind: str, precision: int | None) -> str:
+    if kind == "double":
+        return f"{value:.{precision}g}" if precision else repr(float(value)).removesuffix(".0")
+    if kind == "string":
+        text = value if isinstance(value, str) else json_text(value)
+        return escape(xml_characters(text), {"\r": "&#13;"})  # which parsers would take for the end of a line
+    return json_text(value)
 
 
 def _kind(values: list[Any]) -> str:

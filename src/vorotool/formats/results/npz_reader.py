@@ -9,13 +9,12 @@ from numpy.typing import NDArray
 
 from vorotool.convert.sites import Sites, as_sites
 from vorotool.errors import InputError, option
+from vorotool.formats.io.arrays import npz_columns, npz_holds, present_values
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.json import read_y_axis
-from vorotool.formats.parsing.npz_columns import npz_columns, npz_holds, present_values
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.results.offset_files import read_offsets
 from vorotool.formats.results.rows import ArrayRows
-from vorotool.formats.results.skeleton_files import read_skeleton
+from vorotool.formats.results.skeleton_files import read_offsets, read_skeleton
 from vorotool.formats.results.voronoi_files import read_sites as read_map_sites
 from vorotool.formats.results.voronoi_files import read_voronoi
 from vorotool.numeric.arrays import divides, owners

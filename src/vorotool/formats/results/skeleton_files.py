@@ -1,21 +1,24 @@
-"""Skeletons as JSON and as NPZ, version 1: all that they hold."""
+"""Skeletons, and offset curves, as JSON and as NPZ, version 1: all that they hold."""
 
 from __future__ import annotations
 
 from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.reader_options import ReadOptions, shortened
+from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results import documents as d
 from vorotool.formats.results.documents import LATTICE_STEP, as_read, as_written
 from vorotool.formats.results.rows import Rows, is_number
+from vorotool.numeric.arrays import starts_of
 from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.offsets import PIECE_KINDS, RING_KINDS, Offsets
 from vorotool.types.skeleton.skeleton import KINDS, SIDES, Skeleton
 
-TYPE = "vorotool.skeleton"
+_SKELETON = "vorotool.skeleton"
 _SITES = ("site_a", "site_b")
 
 
@@ -24,16 +27,16 @@ def write_skeleton(
     out: BinaryIO, skeleton: Skeleton, fmt: str, *, precision: int | None = None, threads: int = 0
 ) -> None:
     """Write polygons, sites, vertices and arcs; no polygon, side or source is null, or -1."""
-    d.write_document(out, _parts(skeleton), fmt, precision=precision, threads=threads)
+    d.write_document(out, _parts_of_skeleton(skeleton), fmt, precision=precision, threads=threads)
 
 
-def _parts(skeleton: Skeleton) -> d.Parts:
+def _parts_of_skeleton(skeleton: Skeleton) -> d.Parts:
     """What is no list, the polygons, and the lists."""
     polygons, step = as_written(skeleton.polygons)
     own: dict[str, Any] = {} if skeleton.frame is None else {"frame": list(skeleton.frame)}
     usual = {"border": "closed", "gap": 0, "features": "separate"}
     own |= {name: getattr(skeleton, name) for name, value in usual.items() if getattr(skeleton, name) != value}
-    head = d.head_of(TYPE, own, polygons) | ({LATTICE_STEP: step} if step else {})
+    head = d.head_of(_SKELETON, own, polygons) | ({LATTICE_STEP: step} if step else {})
     placed = skeleton.as_given if step else skeleton
     vertices = [*map(d.numbers, "xy", placed.vertices.T), d.numbers("r", skeleton.radius)]
     arcs = [
@@ -53,7 +56,7 @@ def _parts(skeleton: Skeleton) -> d.Parts:
 # ---- reading -------------------------------------------------------------------------------------
 def read_skeleton(source: Source, options: ReadOptions) -> Skeleton:
     """Read a skeleton."""
-    rows = d.opened(source, options, TYPE, "skeleton")
+    rows = d.opened(source, options, _SKELETON, "skeleton")
     polygons = as_read(d.read_polygons(rows, options), rows.document)
     skeleton = _arcs(rows, polygons.as_given)
     return skeleton if polygons.as_given is polygons else skeleton.with_corners(polygons)
@@ -63,11 +66,7 @@ def _arcs(rows: Rows, polygons: PolygonSet) -> Skeleton:
     sites = d.read_sites(rows, polygons)
     ends = [rows.indices("arcs", name, rows.count("vertices")) for name in ("source", "target")]
     kind = rows.choices("arcs", "kind", KINDS)
-    control = rows.pairs("arcs", "control", optional=True)
-    unlike = np.flatnonzero(np.isnan(control[:, 0]) == (kind == 1))
-    if unlike.size:
-        what = "null" if kind[unlike[0]] == 0 else "[x, y]"
-        raise InputError(f"{rows.name}, arcs {unlike[0]}: the control point of a {KINDS[kind[unlike[0]]]} is {what}")
+    control = d.optional_pairs(rows, "arcs", "control", kind == 1, lambda at: f"control point of a {KINDS[kind[at]]}")
     branch = rows.indices("arcs", "branch", 2**31 - 1, optional=True)
     length = rows.numbers("arcs", "length", optional=True)
     return Skeleton(
@@ -84,21 +83,100 @@ def _arcs(rows: Rows, polygons: PolygonSet) -> Skeleton:
         rows.numbers("arcs", "error_bound", optional=True),
         polygons,
         None if rows.document.get("frame") is None else d.read_frame(rows),
-        _gap(rows),
-        d.read_features(rows),
-        border=_border(rows),
+        float(d.stated(rows, "gap", 0, lambda value: is_number(value) and value >= 0, "the gap is", "a length")),
+        d.stated_name(rows, "features", "features are", "separate", "together"),
+        border=d.stated_name(rows, "border", "the border is", "closed", "open"),
     )
 
 
-def _border(rows: Rows) -> str:
-    value = rows.document.get("border", "closed")
-    if value not in ("closed", "open"):
-        raise InputError(f"{rows.name}: the border is {shortened(value)}; write closed or open")
-    return str(value)
+_OFFSETS = "vorotool.offsets"
 
 
-def _gap(rows: Rows) -> float:
-    value = rows.document.get("gap", 0)
-    if not is_number(value) or not value >= 0:
-        raise InputError(f"{rows.name}: the gap is {shortened(value)}; write a length")
-    return float(value)
+# ---- writing offset curves -------------------------------------------------------------------------------------
+def write_offsets(out: BinaryIO, offsets: Offsets, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
+    """Write polygons, sites, shapes, rings and pieces; no polygon is null, or -1, the center of a line null, or NaN."""
+    d.write_document(out, _parts_of_offsets(offsets), fmt, precision=precision, threads=threads)
+
+
+def _parts_of_offsets(offsets: Offsets) -> d.Parts:
+    """What is no list, the polygons, and the lists."""
+    polygons, step = as_written(offsets.polygons)
+    own = {} if offsets.features == "separate" else {"features": offsets.features}
+    head = d.head_of(_OFFSETS, own, polygons) | ({LATTICE_STEP: step} if step else {})
+    shapes = [
+        d.numbers("distance", offsets.distance),
+        d.indices("polygon", offsets.polygon, len(polygons)),
+        *_ranges("rings", offsets.shape_starts),
+    ]
+    rings = [
+        d.indices("shape", offsets.shape_of_ring),
+        d.choices("kind", RING_KINDS, offsets.ring_kind),
+        *_ranges("pieces", offsets.ring_starts),
+    ]
+    pieces = [
+        d.choices("kind", PIECE_KINDS, offsets.is_arc),
+        d.places("start", offsets.start),
+        d.places("end", offsets.end),
+        d.places("center", offsets.center, offsets.is_arc),
+        d.choices("ccw", (False, True), np.where(offsets.is_arc, offsets.piece_distance > 0, -1)),
+        d.indices("site", offsets.site),
+    ]
+    sites = d.site_members(offsets.site_table)
+    return d.Parts(head, polygons, {"sites": sites, "shapes": shapes, "rings": rings, "pieces": pieces})
+
+
+def _ranges(parts: str, start: NDArray[np.int64]) -> list[d.Member]:
+    """The first part of each item, and how many it has."""
+    return [d.indices("first", start[:-1]), d.indices(parts, np.diff(start))]
+
+
+# ---- reading offset curves -------------------------------------------------------------------------------------
+def read_offsets(source: Source, options: ReadOptions) -> Offsets:
+    """Read offset curves."""
+    rows = d.opened(source, options, _OFFSETS, "offset curves")
+    polygons = as_read(d.read_polygons(rows, options), rows.document)
+    sites = d.read_sites(rows, polygons)
+    distance = rows.numbers("shapes", "distance")
+    if not distance.all():
+        raise InputError(
+            f"{rows.name}, shapes {np.flatnonzero(distance == 0)[0]}: the distance is 0; write a nonzero one"
+        )
+    start, end, center = _places(rows)
+    return Offsets(
+        start,
+        end,
+        center,
+        rows.indices("pieces", "site", len(sites)),
+        _starts(rows, "rings", "pieces"),
+        _starts(rows, "shapes", "rings"),
+        distance,
+        rows.indices("shapes", "polygon", len(polygons), optional=True),
+        sites,
+        polygons,
+        d.stated_name(rows, "features", "features are", "separate", "together"),
+    )
+
+
+def _places(rows: Rows) -> tuple[NDArray[np.float64], ...]:
+    """Ends and centers; an arc that few digits have shrunk to its center is a straight line."""
+    start, end = (rows.pairs("pieces", name, optional=False) for name in ("start", "end"))
+    is_arc = rows.choices("pieces", "kind", PIECE_KINDS) == 1
+    words = ("center of a line", "center of an arc")
+    center = d.optional_pairs(rows, "pieces", "center", is_arc, lambda at: words[int(is_arc[at])])
+    center[(start == center).all(axis=1) | (end == center).all(axis=1)] = np.nan
+    return start, end, center
+
+
+def _starts(rows: Rows, member: str, parts: str) -> NDArray[np.int64]:
+    """Where the parts of each item begin: one after the other, all of them."""
+    count = rows.count(parts)
+    first = rows.indices(member, "first", max(count, 1))
+    number = rows.indices(member, parts, count + 1)
+    expected = starts_of(number)
+    wrong = np.flatnonzero((first != expected[:-1]) | (number < 1))
+    if wrong.size or expected[-1] != count:
+        at = wrong[0] if wrong.size else len(first) - 1
+        raise InputError(
+            f"{rows.name}, {member} {at}: the {parts} should begin where those of the previous row end; list all"
+        )
+    return expected

@@ -29,7 +29,8 @@ TYPE = "vorotool.voronoi"
 NOUN = "Voronoi map"
 _CUTS = ("clip", "enclosures")
 _SIDES = ("left", "right")
-_STARTS = ("ring_starts", "polygon_starts", "starts")
+_STARTS = {"ring_starts": "ring_starts", "polygon_starts": "polygon_starts", "cell_starts": "starts"}
+"""Of a map, and what their arrays are called."""
 _MOST = 2**31 - 1
 
 
@@ -60,9 +61,8 @@ def _arrays(cells: VoronoiMap) -> dict[str, NDArray[Any]]:
     arrays: dict[str, NDArray[Any]] = {}
     for name, members in _lists(cells).items():
         arrays |= d.arrays_of(PREFIXES[name], members)
-    starts = (cells.ring_starts, cells.polygon_starts, cells.cell_starts)
     arrays |= {"cell_ring_arcs": cells.ring_arcs}
-    arrays |= {f"cell_{name}": values for name, values in zip(_STARTS, starts, strict=True)}
+    arrays |= {f"cell_{name}": getattr(cells, own) for own, name in _STARTS.items()}
     arrays |= d.polygon_arrays(cells.polygons) | {"polygon_site": cells.polygon_site}
     sites = d.described_rows(len(cells), cells.ids, cells.properties)
     return arrays | d.about_array(_head(cells), cells.polygons, sites=sites)
@@ -196,9 +196,10 @@ def sites_of_map(cells: VoronoiMap) -> Sites:
 
 def _limits(rows: Rows, options: ReadOptions) -> dict[str, Any]:
     """The limit of distance, and what else than the frame a map was cut by."""
-    limit = rows.document.get("max_distance")
-    if limit is not None and not (is_number(limit) and limit > 0):
-        raise InputError(f"{rows.name}: max_distance is {shortened(limit)}; write a length above 0, or leave it out")
+    form = "a length above 0, or leave it out"
+    limit = d.stated(
+        rows, "max_distance", None, lambda v: v is None or (is_number(v) and v > 0), "max_distance is", form
+    )
     made: dict[str, Any] = {"max_distance": None if limit is None else float(limit)}
     for name in _CUTS:
         part = rows.document.get(name)
@@ -217,22 +218,15 @@ def _cut(name: str, document: Any, options: ReadOptions) -> PolygonSet:
 def _curves(rows: Rows) -> list[NDArray[np.float64]]:
     """Control points of parabolas, and centers of circular arcs."""
     kind = rows.choices("arcs", "kind", tuple(KINDS))
-    found = []
-    for number, (member, words) in enumerate((("control", "control point"), ("center", "center")), 1):
-        places = rows.pairs("arcs", member, optional=True)
-        unlike = np.flatnonzero(np.isnan(places[:, 0]) == (kind == number))
-        if unlike.size:
-            at = int(unlike[0])
-            what = "[x, y]" if kind[at] == number else "null"
-            raise InputError(f"{rows.name}, arcs {at}: the {words} of a {KINDS[kind[at]]} is {what}")
-        found.append(places)
-    return found
+    return [
+        d.optional_pairs(rows, "arcs", "control", kind == 1, lambda at: f"control point of a {KINDS[kind[at]]}"),
+        d.optional_pairs(rows, "arcs", "center", kind == 2, lambda at: f"center of a {KINDS[kind[at]]}"),
+    ]
 
 
 def _of_arrays(rows: ArrayRows) -> dict[str, Any]:
     """Arcs along rings, and where rings, polygons and cells begin."""
-    names = ("ring_starts", "polygon_starts", "cell_starts")
-    starts = {own: rows.integers(f"cell_{name}", 0, _MOST) for own, name in zip(names, _STARTS, strict=True)}
+    starts = {own: rows.integers(f"cell_{name}", 0, _MOST) for own, name in _STARTS.items()}
     return {"ring_arcs": rows.integers("cell_ring_arcs", -_MOST, _MOST).astype(np.int32), **starts}
 
 

@@ -15,6 +15,7 @@ from vorotool.numeric.arrays import Floats, Indices, Nesting, following, owners,
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.coordinates import Grid, current_decimals, is_verified, on_grid, rounded
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.types.table import Computed
 
 _UNSOUND, _CLASHES = 1, 2
 
@@ -199,6 +200,17 @@ def _replaced(given: Rings, features: Indices, by: Rings) -> Rings:
     order = np.arange(count)
     order[features] = count + np.arange(len(features))
     return select(*together, order)
+
+
+def ring_texts(points: Floats, nesting: Nesting, style: str) -> Computed:
+    """Give a column of the text of features, made in the core."""
+    rings, polygons, rows = nesting
+
+    def texts(part: slice) -> Any:
+        begin, end, _ = part.indices(len(rows) - 1)
+        return _core.text.PolygonTexts(points, rings, polygons, rows[begin : end + 1], _core.text.PolygonStyle[style])
+
+    return Computed(texts, len(rows) - 1)
 
 
 # ---- reports and checks --------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, BinaryIO, NamedTuple, Protocol, runtime_checkable
 
@@ -68,6 +68,13 @@ class Column:
             absent = ~np.isfinite(values) if values.dtype.kind == "f" else np.zeros(len(values), dtype=bool)
         absent = absent if mask is None else absent | mask
         return Column(name, values, absent if absent.any() else None)
+
+    def mapped(self, text: Callable[[Any], str]) -> Column:
+        """Make texts of the values of a list; arrays stay."""
+        values = self.values
+        if isinstance(values, Lookup) and isinstance(values.values, list):
+            return Column(self.name, Lookup([text(value) for value in values.values], values.index))
+        return Column(self.name, [text(value) for value in values], self.missing) if isinstance(values, list) else self
 
     def part(self, rows: slice) -> Column:
         """Give some of the rows; of a lookup, not yet looked up; others are computed now."""

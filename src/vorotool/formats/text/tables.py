@@ -1,14 +1,15 @@
-"""Writing tables as CSV, TSV, JSON or NPZ, and collections of GeoJSON features."""
+"""Writing tables as CSV, TSV, JSON or NPZ, collections of GeoJSON features, and any value as one of these."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from contextvars import ContextVar
 from dataclasses import replace
 from datetime import date
-from typing import TYPE_CHECKING, Any, BinaryIO
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, BinaryIO, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,10 +23,13 @@ from vorotool.formats.text.row_writer import (
     write_list_rows,
     write_rows,
 )
-from vorotool.numeric.coordinates import on_grid, record_places
+from vorotool.numeric.coordinates import on_grid, record_places, record_system_unread
 from vorotool.numeric.length_units import ascii_unit, is_known
 from vorotool.numeric.numbers import NumberText
 from vorotool.numeric.parallel import in_order
+from vorotool.plain import scoped
+from vorotool.products.formats import TABLES, resolved
+from vorotool.types.features import Areas, features_of, matrix_of, rows_of
 from vorotool.types.fields import MEMBER, UP, YAxis
 from vorotool.types.mesh.tables import MEASURE, unit_of_measure
 from vorotool.types.table import Computed, Lookup, Table
@@ -70,14 +74,9 @@ def placed_column(column: Column) -> Column:
 _UNIT: ContextVar[str | None] = ContextVar("unit", default=None)
 
 
-@contextmanager
-def unit_column(unit: str | None) -> Iterator[None]:
+def unit_column(unit: str | None) -> AbstractContextManager[None]:
     """Give tables that are written within a last column ``unit``, in ASCII; with None they have none."""
-    token = _UNIT.set(None if unit is None else ascii_unit(unit))
-    try:
-        yield
-    finally:
-        _UNIT.reset(token)
+    return scoped(_UNIT, None if unit is None else ascii_unit(unit))
 
 
 def current_unit() -> str | None:
@@ -101,14 +100,9 @@ _FORMULA = re.compile(r"[=+\-@\t\r]")
 _NUMBER = re.compile(r"[+-]?(\d++(?:\.\d*+)?|\.\d++)([eE][+-]?\d+)?")
 
 
-@contextmanager
-def safe_texts(is_wanted: bool = True) -> Iterator[None]:
+def safe_texts(is_wanted: bool = True) -> AbstractContextManager[None]:
     """Keep spreadsheets from taking texts of the CSV and TSV written within for formulas: see `safe_text`."""
-    token = _SAFE.set(is_wanted)
-    try:
-        yield
-    finally:
-        _SAFE.reset(token)
+    return scoped(_SAFE, is_wanted)
 
 
 def safe_text(text: str) -> str:
@@ -117,22 +111,14 @@ def safe_text(text: str) -> str:
 
 
 def _write_delimited(out: BinaryIO, columns: list[Column], by_tabs: bool, precision: int | None, threads: int) -> None:
-    header = [Column(c.name, [safe_text(c.name) if _SAFE.get() else c.name]) for c in columns]
-    write_rows(out, header, by_tabs=by_tabs)
     is_safe = _SAFE.get()
-    texts = [_with_texts(column, precision, is_safe=is_safe) for column in columns]
-    write_rows(out, texts, by_tabs=by_tabs, precision=precision, threads=threads)
 
-
-def _with_texts(column: Column, precision: int | None, *, is_safe: bool) -> Column:
     def text(value: Any) -> str:
         return safe_text(value) if is_safe and isinstance(value, str) else _text_of(value, precision)
 
-    if isinstance(column.values, Lookup) and isinstance(column.values.values, list):
-        return Column(column.name, Lookup([text(value) for value in column.values.values], column.values.index))
-    if not isinstance(column.values, list):
-        return column
-    return Column(column.name, [text(value) for value in column.values], column.missing)
+    write_rows(out, [Column(column.name, [text(column.name)]) for column in columns], by_tabs=by_tabs)
+    texts = [column.mapped(text) for column in columns]
+    write_rows(out, texts, by_tabs=by_tabs, precision=precision, threads=threads)
 
 
 def _text_of(value: Any, precision: int | None) -> str:
@@ -167,15 +153,10 @@ def object_shape(names: list[str], before: str = "", after: str = "") -> RowShap
 
 def json_column(column: Column, precision: int | None = None) -> Column:
     """The column with what is no number as JSON text."""
-    values = column.values
-    if isinstance(values, Lookup) and isinstance(values.values, list):
-        return Column(column.name, Lookup([json_text(value) for value in values.values], values.index))
-    if isinstance(values, Lookup | Computed) or (not isinstance(values, list) and values.dtype.kind != "b"):
-        return column
-    plain = values if isinstance(values, list) else values.tolist()
-    if precision:
-        plain = [float(f"{v:.{precision}g}") if type(v) is float else v for v in plain]
-    return Column(column.name, [json_text(value) for value in plain], column.missing)
+    digits = None if isinstance(column.values, Lookup) else precision
+    if isinstance(column.values, np.ndarray) and column.values.dtype.kind == "b":
+        column = replace(column, values=column.values.tolist())
+    return column.mapped(lambda v: json_text(float(f"{v:.{digits}g}") if digits and type(v) is float else v))
 
 
 def json_text(value: Any) -> str:
@@ -289,14 +270,9 @@ def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Loo
 _COORDINATE_UNIT: ContextVar[str | None] = ContextVar("unit of coordinates", default=None)
 
 
-@contextmanager
-def unit_member(unit: str | None) -> Iterator[None]:
+def unit_member(unit: str | None) -> AbstractContextManager[None]:
     """State the unit of coordinates in collections that are written within, in ASCII, where no system states it."""
-    token = _COORDINATE_UNIT.set(None if unit is None else ascii_unit(unit))
-    try:
-        yield
-    finally:
-        _COORDINATE_UNIT.reset(token)
+    return scoped(_COORDINATE_UNIT, None if unit is None else ascii_unit(unit))
 
 
 def collection_opening(crs: Any, y_axis: YAxis) -> bytes:
@@ -335,3 +311,109 @@ def write_collection(
             is_first = False
             write_rows(out, columns, shape, precision=precision, threads=threads)
     out.write(b"]}\n" if is_first else b"\n]}\n")
+
+
+class JsonItems:
+    """A file that takes a list in JSON or a collection in GeoJSON, and passes its items on, some at a time."""
+
+    def __init__(self) -> None:
+        self._begun: list[bytes] = []  # the parts of a line that has no end yet
+        self._last = b""  # a whole line, which may be the closing
+        self._opening: bytes | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if kind is None:
+            self.finish()
+
+    def write(self, data: bytes) -> int:
+        """Take some text; the last line is the closing, which goes nowhere."""
+        lines, end, begun = data.rpartition(b"\n")
+        if end:
+            self._take_lines(b"".join([*self._begun, lines, end]))
+            self._begun = []
+        self._begun.append(begun)
+        return len(data)
+
+    def take(self, items: bytes) -> None:
+        """Take whole items, each on a line."""
+        raise NotImplementedError
+
+    def finish(self) -> None:
+        """Know that there are no more."""
+
+    @property
+    def crs(self) -> Any:
+        """The ``crs`` member of a collection; None where there is none."""
+        return self.members.get("crs")
+
+    @property
+    def members(self) -> dict[str, Any]:
+        """What a collection says of all its features, beside them."""
+        import orjson
+
+        opening = self._opening or b""
+        # of an empty list the closing follows the opening at once
+        text = opening.removesuffix(b"\n").removesuffix(b"]}") + b"]}" if opening.startswith(b"{") else b"{}"
+        opening_members = orjson.loads(text)
+        return {
+            name: opening_members[name] for name in ("crs", "unit", MEMBER) if opening_members.get(name) is not None
+        }
+
+    def _take_lines(self, lines: bytes) -> None:
+        """Pass whole lines on but the last, and but the first of all, the opening."""
+        if self._opening is None:
+            self._opening, _, lines = lines.partition(b"\n")
+        lines = self._last + lines
+        place = lines.rfind(b"\n", 0, -1) + 1
+        self._last = lines[place:]
+        if place:
+            self.take(lines[:place].replace(b",\n", b"\n"))
+
+
+_FEATURE = b'{"type":"Feature",'
+
+
+class JsonLines(JsonItems):
+    """A file that takes a list in JSON or a collection in GeoJSON, and passes its items on, one a line."""
+
+    def __init__(self, out: BinaryIO, what: str = "", path: str = "") -> None:
+        super().__init__()
+        self._out = out
+
+    def take(self, items: bytes) -> None:
+        """Write some items."""
+        members = self.members
+        record_system_unread(members.get("crs"))
+        if members:
+            member = json_text(members)[1:-1].encode() + b","
+            items = (b"\n" + items).replace(b"\n" + _FEATURE, b"\n" + _FEATURE + member)[1:]
+        self._out.write(items)
+
+
+def write_value(
+    out: BinaryIO,
+    value: Any,
+    fmt: str,
+    *,
+    what: str | None = None,
+    flatten: float | None = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    """Write a value; the bytes depend on nothing but the value and the options that concern numbers."""
+    if fmt == "npy":
+        resolved("formats.io.arrays:write_array")(out, matrix_of(value, what))
+    elif fmt in TABLES:
+        rows = rows_of(value, what, flatten=flatten)
+        if isinstance(rows.geometry, Areas):
+            rows = resolved("formats.results.features:with_shapes")(rows)
+        write_table(out, rows.table(), fmt, precision=precision, threads=threads)
+    else:
+        features = features_of(value, what, flatten=flatten)
+        write = resolved("formats.results.features:write_features")
+        write(out, value, features, fmt, precision=precision, threads=threads)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, UsageError, option
 from vorotool.formats.io.arrays import MAGIC, npy_header, npy_values
 from vorotool.formats.io.sources import Source, read_source, reading
+from vorotool.formats.opening import recognized
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.points.columns import PointRows, parse_columns
-from vorotool.formats.points.npy import check_coordinates, npy_labels
-from vorotool.formats.recognition import recognized
+from vorotool.formats.points.tables import check_coordinates, npy_labels
 from vorotool.numeric.checks import checked_threads
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS, NAMES_WITH, SPACE_FORMATS, known_input_format

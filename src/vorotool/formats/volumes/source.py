@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
 from vorotool.formats.io.arrays import NpyHeader, npy_header, npy_values, plain_values
-from vorotool.formats.io.limits import decoding
-from vorotool.formats.io.sources import Source, StoredParts, copy_stream
+from vorotool.formats.io.sources import Source, StoredParts, copy_stream, decoding
 from vorotool.formats.zarr.metadata import read_metadata
 from vorotool.formats.zarr.reader import Described, StoredArray, ZarrImage
 from vorotool.numeric.length_units import ratio, unit_name

@@ -20,7 +20,7 @@ from vorotool.formats.images.ome_xml import decimal_side, parse_ome
 from vorotool.formats.images.tiff_layout import TiffLayout, decode_rows, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout
 from vorotool.formats.io.arrays import plain_values
-from vorotool.formats.io.limits import decoding
+from vorotool.formats.io.sources import decoding
 from vorotool.formats.volumes.source import VolumeSource, mapped, refuse_axes
 from vorotool.numeric.length_units import ratio
 from vorotool.numeric.parallel import in_order

@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.io.arrays import plain_values
-from vorotool.formats.io.limits import decoding
-from vorotool.formats.io.sources import StoredParts
+from vorotool.formats.io.sources import StoredParts, decoding
 from vorotool.formats.zarr.metadata import (
     ZarrMetadata,
     array_metadata,

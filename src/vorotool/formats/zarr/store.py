@@ -10,9 +10,8 @@ from pathlib import Path
 
 from vorotool.errors import OUTPUT, InputError, OutputError, UsageError
 from vorotool.formats.io.atomic_output import check_folder, clobber_error, explained, followed, is_same_file
-from vorotool.formats.io.commit import Placement, committed_together
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
-from vorotool.formats.io.temporaries import new_folder
+from vorotool.formats.io.temporaries import Placement, committed_together, new_folder
 
 _METADATA = ("zarr.json", ".zarray", ".zgroup")
 
