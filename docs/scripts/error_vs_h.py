@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 import vorotool
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.arrangement.repaired_polygons import placed_shapes
-from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
+from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, Wanted, approximate_skeleton, sampled_graph
 from vorotool.engines.sampled_skeleton.hausdorff import (
     distances_to,
     error_summary,
@@ -60,7 +60,7 @@ def rows_of(name: str, side: str) -> list[Row]:
     exact = None
     for part in STEPS:
         step = extent / part
-        found = approximate_skeleton(sampled_graph(graph, placed, SamplingOptions(step)), side=side)
+        found = approximate_skeleton(sampled_graph(graph, placed, SamplingOptions(step)), Wanted(side))
         skeleton = found.skeleton
         if exact is None:
             exact = exact_skeleton(found, side=side, frame=skeleton.frame and widened(skeleton.frame))

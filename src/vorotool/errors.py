@@ -297,3 +297,8 @@ def warn(message: VorotoolWarning | str, category: type[VorotoolWarning] = Vorot
     while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("vorotool."):
         level, frame = level + 1, frame.f_back
     warnings.warn(message, category, stacklevel=level)
+
+
+def silent(category: type[VorotoolWarning] = VorotoolWarning) -> warnings.catch_warnings[None]:
+    """Return a context without warnings: what they say was said before, or is not about what was asked for."""
+    return warnings.catch_warnings(action="ignore", category=category)

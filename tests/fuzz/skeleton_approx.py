@@ -15,7 +15,7 @@ from vorotool import VorotoolError
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.arrangement.repaired_polygons import placed_shapes
-from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
+from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, Wanted, approximate_skeleton, sampled_graph
 from vorotool.engines.sampled_skeleton.per_feature import skeleton_within
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.errors import LimitError
@@ -34,9 +34,9 @@ def failure(shape: Any, rng: np.random.Generator) -> str | None:
         shapes = sampled_graph(graph, placed, SamplingOptions(step, None, sampling))
         for side in ("interior", "exterior", "both"):
             for complete in (False, True):
-                verify_approximate(approximate_skeleton(shapes, side=side, complete=complete), step=step)
+                verify_approximate(approximate_skeleton(shapes, Wanted(side, complete=complete)), step=step)
         side = str(rng.choice(["interior", "exterior", "both"]))
-        verify_approximate(skeleton_within(graph, placed, tolerance, side=side, most=MOST_SEEDS))
+        verify_approximate(skeleton_within(graph, placed, tolerance, Wanted(side, complete=True, most=MOST_SEEDS)))
     except LimitError as error:
         return None if str(MOST_SEEDS) in str(error) else f"{side}, tolerance {tolerance}: {error}"
     except VorotoolError as error:

@@ -24,6 +24,7 @@ from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.sampled_skeleton.approximate import (
     ApproximateSkeleton,
     SamplingOptions,
+    Wanted,
     approximate_skeleton,
     sampled_graph,
 )
@@ -138,7 +139,7 @@ def check_tolerances(shape: Shape, tolerances: tuple[float, ...] = TOLERANCES) -
     flattest = shape.flattest()
     for tolerance in tolerances:
         wanted = tolerance * shape.extent
-        found = skeleton_within(shape.graph, shape.placed, wanted)
+        found = skeleton_within(shape.graph, shape.placed, wanted, Wanted(complete=True))
         there, back = deviation(found.skeleton, shape.exact), deviation(shape.exact, found.skeleton)
         assert there is not None
         assert back is not None

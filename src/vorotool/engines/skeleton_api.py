@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from vorotool.convert.polygons import as_polygons
-from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
+from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, Wanted
 from vorotool.engines.sampled_skeleton.per_feature import approximation
 from vorotool.engines.skeleton.diagrams import (
     diagram_of_all,
@@ -206,14 +206,5 @@ def skeleton_approx(
     check_features(features)
     check_lengths(frame or (), "frame's coordinate")
     complete = (tolerance is not None) if complete is None else checked_flag(complete, "complete")
-    return approximation(
-        as_polygons(polygons),
-        options,
-        side=side,
-        features=features,
-        complete=complete,
-        frame=frame,
-        strict=strict,
-        threads=checked_threads(threads),
-        progress=progress,
-    ).skeleton
+    wanted = Wanted(side, frame, complete, threads=checked_threads(threads), progress=progress)
+    return approximation(as_polygons(polygons), options, wanted, features=features, strict=strict).skeleton

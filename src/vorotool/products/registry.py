@@ -177,7 +177,7 @@ _DISC_PRODUCT = _product(
     f"{_TABLES} geojson wkt",
     _DISC_LAYERS,
     "polygons discs",
-    made_by=Made(job="jobs.skeletons.derived:InscribedDiscs"),
+    made_by=Made(check="engines.from_skeleton.verify_discs:verify_discs", job="jobs.skeletons.derived:InscribedDiscs"),
     is_curved=True,
 )
 
@@ -221,7 +221,8 @@ _OF_WHOLE_AXIS = (
         made_by=Made("engines.necks.necks:necks", "whole", "engines.necks.verify_necks:verify_necks", "necks")),
     _product("parts", "Parts", "geojson csv tsv npz json wkt poly",
         _pictures("parts skeleton cuts labels", "render.layers.skeleton:part"), "parts",
-        made_by=Made(job="jobs.skeletons.derived:CutParts"), own=_POLYGON_FILES),
+        made_by=Made("engines.necks.parts:parts", "whole", "engines.necks.verify_necks:verify_parts",
+            job="jobs.skeletons.derived:CutParts"), own=_POLYGON_FILES),
 )
 """Only of exact skeletons."""
 _WITHOUT_SAMPLES = {"offset", "discs", "thickness"}

@@ -52,6 +52,11 @@ def _looked_up(values: Sequence[Any], polygon: Rows) -> Lookup:
     return Lookup([*values, None], np.where(polygon < 0, len(values), polygon).astype(np.int32))
 
 
+def place_columns(places: NDArray[np.float64], suffix: str = "") -> dict[str, NDArray[np.float64]]:
+    """Return the columns of coordinates, ``x`` and ``y`` with a suffix."""
+    return {f"{axis}{suffix}": places[:, k].copy() for k, axis in enumerate("xy")}
+
+
 def names_of(polygons: PolygonSet, polygon: Rows) -> dict[str, Any]:
     """Return the columns that name the polygon of each row: ``label``, ``part`` where features have several, ``id``.
 

@@ -11,7 +11,7 @@ from support.few import few
 from vorotool import _core
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.features import batches as feature_sheets
-from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
+from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, Wanted
 from vorotool.engines.sampled_skeleton.per_feature import approximation_of_sides, feature_approximation
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.errors import LimitError
@@ -69,9 +69,9 @@ def test_features_of_any_family_are_what_they_are_alone_in_any_order(family, mon
 def test_all_parts_pass_the_checker(name, side):
     shapes, options = as_polygons(SETS[name]), SamplingOptions(step=0.8)
     if side == "interior":
-        found = feature_approximation(shapes, options)
+        found = feature_approximation(shapes, options, Wanted())
     else:
-        found = approximation_of_sides(shapes, options, side=side)
+        found = approximation_of_sides(shapes, options, Wanted(side))
     for part in found.parts:
         verify_approximate(part, step=0.8)
     assert sorted(np.concatenate(found.arcs).tolist()) == list(range(len(found.skeleton)))
@@ -91,9 +91,9 @@ def test_groups_that_do_not_go_with_the_points_are_refused():
 
 def test_seeds_of_all_features_are_counted():
     shapes = as_polygons(SETS["nested"])
-    count = feature_approximation(shapes, SamplingOptions(step=0.5)).counts()["samples"]
+    count = feature_approximation(shapes, SamplingOptions(step=0.5), Wanted()).counts()["samples"]
     assert count == 80 + 32
-    feature_approximation(shapes, SamplingOptions(step=0.5), most=count)
+    feature_approximation(shapes, SamplingOptions(step=0.5), Wanted(most=count))
     for options in (SamplingOptions(step=0.5), SamplingOptions(tolerance=0.001)):
         with pytest.raises(LimitError, match="more than 111"):
-            feature_approximation(shapes, options, most=count - 1)
+            feature_approximation(shapes, options, Wanted(most=count - 1))

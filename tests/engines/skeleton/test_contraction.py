@@ -12,7 +12,7 @@ from support.few import few
 from vorotool import verify_skeleton
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.sampled_skeleton import per_feature
-from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
+from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, Wanted
 from vorotool.engines.sampled_skeleton.per_feature import approximation
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.engines.skeleton.diagrams import all_edges, diagram_of_all
@@ -125,9 +125,9 @@ def vars_of(skeleton):
 def test_what_approximations_were_made_of_goes_with_them(side, features, monkeypatch):
     shapes = as_polygons([polygon(64, 10.0, (5e5, 4e6)), polygon(3, 1.0, (5e5 + 20, 4e6))])
     for options in (SamplingOptions(step=0.3), SamplingOptions(tolerance=0.01)):
-        found = approximation(shapes, options, side=side, features=features)
+        found = approximation(shapes, options, Wanted(side), features=features)
         monkeypatch.setattr(per_feature, "contraction", lambda _: None)
-        before = approximation(shapes, options, side=side, features=features)
+        before = approximation(shapes, options, Wanted(side), features=features)
         monkeypatch.undo()
         assert equal_ends(before.skeleton).any() or options.step is not None
         assert len(found.skeleton) == np.count_nonzero(~equal_ends(before.skeleton))

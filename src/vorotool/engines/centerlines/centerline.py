@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.points import as_place
+from vorotool.engines.centerlines.corner_twigs import around_edges
 from vorotool.engines.centerlines.ends import Unforked, forked, unforked
 from vorotool.engines.centerlines.extended_ends import led_on, rounded
 from vorotool.engines.centerlines.path_network import Network, Paths, Pieces, geometry_of
@@ -324,20 +325,15 @@ def led_to_oblique_ends(lines: Centerlines, wanted: Booleans) -> Centerlines:
         if middle is not None and kept[arcs].sum() > cut:
             kept[arcs[:cut]] = False
             ends[line, end] = middle
-    return lines if kept.all() else Centerlines(_part(lines, kept), ends)
+    return lines if kept.all() else Centerlines(with_arcs(path, kept), ends)
 
 
 def _edges_between_corners(lines: Centerlines, arcs: Numbers) -> NDArray[np.int64]:
     """(…, 2) where sites of arcs begin that are edges between two corners into which the inside goes; else -1."""
     polygons, table = lines.path.polygons, lines.path.site_table
     sites = lines.path.sites[arcs]
-    vertex = (
-        polygons.ring_starts[polygons.polygon_starts[table.polygon[sites]] + table.ring[sites]] + table.index[sites]
-    )
-    before = np.empty(len(polygons.xy), dtype=np.int64)
-    before[polygons.following] = np.arange(len(before))
-    end = polygons.following[vertex]
-    p, a, b, q = (polygons.xy[at] for at in (before[vertex], vertex, end, polygons.following[end]))
+    vertex = table.vertices(polygons, sites)
+    p, a, b, q = np.moveaxis(around_edges(polygons, vertex), -2, 0)
     turns = [np.sign(_cross(a - p, b - a)), np.sign(_cross(b - a, q - b))]
     is_edge = (table.kind[sites] == EDGE) & (turns[0] == turns[1]) & (turns[0] != 0)
     return np.where(is_edge, vertex, -1)
@@ -373,19 +369,3 @@ def _middle(lines: Centerlines, arcs: Numbers, cut: int, end: int, vertex: int) 
     origin = path.vertices[node]
     _, met = first_hits(polygons, path.polygon[arcs[:1]], origin[None], (middle - origin)[None])
     return middle if met[0] == vertex else None
-
-
-def _part(lines: Centerlines, kept: Booleans) -> Skeleton:
-    """The path without some arcs at the ends of lines."""
-    path = lines.path
-    nodes = np.zeros(len(path.vertices), dtype=bool)
-    nodes[path.arcs[kept]] = True
-    number = np.cumsum(nodes) - 1
-    names = ("control", "sites", "polygon", "side", "branch", "length", "error_bound")
-    return replace(
-        path,
-        vertices=path.vertices[nodes],
-        radius=path.radius[nodes],
-        arcs=number[path.arcs[kept]],
-        **{name: getattr(path, name)[kept] for name in names},
-    )

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.numeric.arrays import Booleans, Floats, Numbers, owners, ranges
 from vorotool.numeric.numbers import difference, product
 from vorotool.plain import plain
+from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 
 
@@ -90,6 +91,15 @@ def _are_beside(skeleton: Skeleton, branches: Branches, chosen: Numbers, edges: 
 def _ends(skeleton: Skeleton, edges: Numbers) -> Floats:
     """(…, 2, 2) the ends of edges, without a gap."""
     return ends_of_sites(skeleton.polygons, skeleton.site_table, edges)
+
+
+def around_edges(polygons: PolygonSet, vertex: Numbers) -> Floats:
+    """(…, 4, 2) the ends of edges, by the vertices where they begin, between those before and behind."""
+    before = np.empty(len(polygons.xy), dtype=np.intp)
+    before[polygons.following] = np.arange(len(before))
+    end = polygons.following[vertex]
+    around: Floats = polygons.xy[np.stack([before[vertex], vertex, end, polygons.following[end]], axis=-1)]
+    return around
 
 
 def _cosine(ends: Floats, meets: Booleans) -> Floats:

@@ -28,6 +28,7 @@ from vorotool.engines.centerlines.corner_twigs import (
     Branches,
     Pairs,
     Twigs,
+    around_edges,
     branches_inside,
     corner_twigs,
     is_blunt,
@@ -179,17 +180,12 @@ def _longest_of_runs(twigs: Twigs, runs: Numbers, chosen: Numbers) -> Numbers:
 
 def are_passed(skeleton: Skeleton, branches: Branches, twigs: Twigs) -> Booleans:
     """Tell which twigs hang on a cycle, or between two, and lead into a corner much like both beside it."""
-    polygons, table = skeleton.polygons, skeleton.site_table
+    polygons = skeleton.polygons
     has_holes = np.diff(polygons.polygon_starts) > 1
     own = np.flatnonzero(has_holes[skeleton.polygon[branches.first]])
     is_passed = _left_without_trees(branches, own)[twigs.node]
-    edges = twigs.edges[is_passed]
-    ring = polygons.polygon_starts[table.polygon[edges]] + table.ring[edges]
-    start = polygons.ring_starts[ring] + table.index[edges]
-    before = np.empty(len(polygons.xy), dtype=np.intp)
-    before[polygons.following] = np.arange(len(before))
-    end = polygons.following[start]
-    around = polygons.xy[np.stack([before[start], start, end, polygons.following[end]], axis=-1)].reshape(-1, 4, 2)
+    start = skeleton.site_table.vertices(polygons, twigs.edges[is_passed])
+    around = around_edges(polygons, start).reshape(-1, 4, 2)
     (ux, uy), (vx, vy), (wx, wy) = np.diff(around, axis=1).transpose(1, 2, 0)
     is_like = is_blunt(around) & ((ux * vy - uy * vx > 0) == (vx * wy - vy * wx > 0))
     is_passed[is_passed] = is_like.reshape(-1, 2).all(axis=1)

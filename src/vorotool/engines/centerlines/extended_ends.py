@@ -174,7 +174,7 @@ def _outlines(skeleton: Skeleton, sites: Numbers, origin: Floats) -> _Outlines:
     """Outlines in the order of their rings, from the one of two sites to the other."""
     touched = _touched(skeleton, sites, origin) - origin[:, None]
     polygons, table = skeleton.polygons, skeleton.site_table
-    ring = (polygons.polygon_starts[table.polygon[sites[:, 0]]] + table.ring[sites[:, 0]]).astype(np.intp)
+    ring = table.rings(polygons, sites[:, 0])
     # what is inside is on the left of shells that go counterclockwise, and of holes that do not
     is_forward = (_areas(skeleton)[ring] > 0) == (table.ring[sites[:, 0]] == 0)
     order = np.where(is_forward[:, None], [1, 0], [0, 1])

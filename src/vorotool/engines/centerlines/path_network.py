@@ -151,9 +151,7 @@ def _numbered(skeleton: Skeleton, arcs: NDArray[np.intp], *, by_edge: bool) -> t
     """All nodes in the order of their numbers, and the number of those that are leaves of some arcs."""
     ends = skeleton.arcs[arcs]
     is_leaf = np.bincount(ends.reshape(-1), minlength=len(skeleton.vertices)) == 1
-    table, polygons = skeleton.site_table, skeleton.polygons
-    site = skeleton.sites[arcs]
-    vertex = polygons.ring_starts[polygons.polygon_starts[table.polygon[site]] + table.ring[site]] + table.index[site]
+    vertex = skeleton.site_table.vertices(skeleton.polygons, skeleton.sites[arcs])
     edge = np.zeros(len(is_leaf), dtype=np.int64)
     for column in ends.T:
         edge[column] = vertex.min(axis=1)

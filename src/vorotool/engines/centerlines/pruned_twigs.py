@@ -93,8 +93,7 @@ def _sides(skeleton: Skeleton) -> tuple[_Sides, _Sides]:
     for site, own, others in ((left, *keys), (right, *keys[::-1])):
         maybe = np.flatnonzero(is_pruned & (table.kind[site] == EDGE))
         chosen = maybe[~is_among(own[maybe], others)]
-        ring = polygons.polygon_starts[table.polygon[site[chosen]]] + table.ring[site[chosen]]
-        vertex = polygons.ring_starts[ring] + table.index[site[chosen]]
+        vertex = table.vertices(polygons, site[chosen])
         made.append(_Sides(node[chosen], arc[chosen], site[chosen], vertex.astype(np.intp)))
     return made[0], made[1]
 
@@ -167,9 +166,8 @@ def _sites_of_edges(skeleton: Skeleton) -> Numbers:
     """(n,) the site of the edge that begins at each vertex."""
     polygons, table = skeleton.polygons, skeleton.site_table
     sites = np.flatnonzero(table.kind == EDGE)
-    ring = polygons.polygon_starts[table.polygon[sites]] + table.ring[sites]
     found = np.zeros(len(polygons.xy), dtype=np.intp)
-    found[polygons.ring_starts[ring] + table.index[sites]] = sites
+    found[table.vertices(polygons, sites)] = sites
     return found
 
 

@@ -68,7 +68,7 @@ def points_along(
     threads = checked_threads(threads)
     if isinstance(skeleton, LedOn):
         return sections_along(skeleton, _counts(skeleton.length, every), every)
-    start = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
+    start = skeleton.branch_starts
     counts = _counts(np.add.reduceat(skeleton.length, start) if len(start) else np.zeros(0), every)
     core = core_skeleton(skeleton, threads=threads)
     made = _core.skeleton.steps_along(core, start, counts, every, threads, progress)

@@ -280,7 +280,7 @@ def _simple_rings(contours: Contours, xy: Floats, point: Indices, start: Indices
 def _flat_holes(skeleton: Skeleton, contours: Contours) -> list[Ring]:
     """Points and segments that contours go around: they are there as they were, since pruning cuts no cycle."""
     polygons, table = skeleton.polygons.as_given, skeleton.site_table
-    own = polygons.polygon_starts[table.polygon[contours.site]] + table.ring[contours.site]
+    own = table.rings(polygons, contours.site)
     first = contours.start[:-1]
     is_around = np.minimum.reduceat(own, first) == np.maximum.reduceat(own, first) if len(first) else first > 0
     around = np.flatnonzero(is_around)

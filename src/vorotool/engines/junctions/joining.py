@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.skeleton.parts import core_skeleton
+from vorotool.engines.skeleton.parts import PER_ARC, core_skeleton
 from vorotool.numeric.arrays import Floats, Indices, ranges
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.skeleton import EDGE, SiteTable, Skeleton
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
 SNAP = 2.0**-30
 """Of an arc: what is cut as near to its end is cut there."""
@@ -75,11 +75,10 @@ class Branches:
     @classmethod
     def of(cls, skeleton: Skeleton) -> Branches:
         """Find them."""
-        first = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
+        first = skeleton.branch_starts
         last = np.append(first, len(skeleton))[1:] - 1
-        ends = np.stack([skeleton.arcs[first, 0], skeleton.arcs[last, 1]]).astype(np.int64)
         length = np.add.reduceat(skeleton.length, first) if len(first) else np.empty(0)
-        return cls(first, last, ends, length)
+        return cls(first, last, skeleton.branch_ends.astype(np.int64), length)
 
     def short(self, skeleton: Skeleton) -> Indices:
         """Numbers of those that are shorter than the larger radius of the two junctions that they join."""
@@ -206,7 +205,7 @@ def _with_cuts(
     skeleton: Skeleton, cuts: list[_Cuts], branches: Branches
 ) -> tuple[dict[str, NDArray[Any]], list[Indices]]:
     """Columns of the arcs and nodes where arcs are cut, with new nodes, and the node at each cut."""
-    names = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
+    names = ("vertices", "radius", *PER_ARC)
     columns: dict[str, NDArray[Any]] = {name: getattr(skeleton, name).copy() for name in names}
     span = np.tile([0.0, 1.0], (len(skeleton), 1))
     for cut in cuts:
@@ -260,7 +259,7 @@ def _spokes(
 def _edges_at(skeleton: Skeleton, sites: NDArray[np.int32]) -> NDArray[np.int32]:
     """Sites, where they are vertices the edges that begin there: those in one ring with the same index."""
     table = skeleton.site_table
-    vertex = _vertices_of(skeleton, table)
+    vertex = table.vertices(skeleton.polygons)
     edge = np.full(len(skeleton.polygons.xy), -1, dtype=np.int32)
     is_edge = table.kind == EDGE
     if table.ends is not None:
@@ -268,11 +267,3 @@ def _edges_at(skeleton: Skeleton, sites: NDArray[np.int32]) -> NDArray[np.int32]
     edge[vertex[is_edge]] = np.flatnonzero(is_edge)
     beside = edge[vertex[sites]]
     return np.where((table.kind[sites] == EDGE) | (beside < 0), sites, beside).astype(np.int32)
-
-
-def _vertices_of(skeleton: Skeleton, table: SiteTable) -> Indices:
-    """(s,) the vertex of the polygons that each site is at, or begins at."""
-    polygons = skeleton.polygons
-    return np.asarray(
-        polygons.ring_starts[polygons.polygon_starts[table.polygon] + table.ring] + table.index, dtype=np.int64
-    )

@@ -104,9 +104,7 @@ def _check_junctions(joined: Skeleton, skeleton: Skeleton, left: set[tuple[float
             place = tuple(skeleton.vertices[gone[at]].tolist())
             fail(f"the junction at {place} is missing, but lies in no disc of a larger remaining junction")
     table = branch_table(skeleton, threads=1)
-    first = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-    last = np.append(first[1:], len(skeleton))[: len(first)] - 1
-    a, b = skeleton.arcs[first, 0], skeleton.arcs[last, 1]
+    a, b = skeleton.branch_ends
     may_move = ~skeleton.touches_frame & (skeleton.radius > 0)
     larger = np.maximum(skeleton.radius[a], skeleton.radius[b])
     stays = is_left[a] & is_left[b] & may_move[a] & may_move[b] & (a != b) & (table["length"] < larger)

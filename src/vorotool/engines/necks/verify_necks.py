@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +12,7 @@ from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.clearance import SitePlaces
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import silent
 from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
@@ -122,7 +121,7 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
     _check_discs(parts, threads, progress)
     _check_cuts(parts)
     _check_borders(parts, threads, progress)
-    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+    with silent():
         _check_areas(parts, threads, progress)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.skeleton.parts import core_skeleton
+from vorotool.engines.skeleton.parts import core_skeleton, groups_of, pruned_part
 from vorotool.errors import UsageError
 from vorotool.numeric.arrays import Floats, owners, starts_of
 from vorotool.numeric.checks import available_threads, checked_threads, is_choice
@@ -117,14 +117,14 @@ def prune(
     threshold = finite_double(threshold, criterion)
     check_threshold(criterion, threshold)
     compared = half_tangent(threshold) if criterion == "angle" else float(threshold)
-    group = np.where(skeleton.polygon < 0, len(skeleton.polygons), skeleton.polygon).astype(np.int32)
+    group = groups_of(skeleton)
     threads = checked_threads(threads) or available_threads()
     core = core_skeleton(skeleton, threads=threads, has_sites=criterion != "scale")
     tasks = [
-        partial(_pruned_part, skeleton, core, group, part, _core.pruning.Criterion[criterion], compared)
+        partial(pruned_part, skeleton, core, group, part, _core.pruning.Criterion[criterion], compared)
         for part in independent_parts(skeleton, group)
     ]
-    made = in_threads(tasks, threads, progress)
+    made = [left for left, _, _ in in_threads(tasks, threads, progress)]
     columns: dict[str, Any] = {name: np.concatenate([part[name] for part in made]) for name in made[0]}
     part = owners([len(part["branch"]) for part in made])
     columns["arcs"] += starts_of([len(part["radius"]) for part in made]).astype(np.int32)[part, None]
@@ -149,25 +149,6 @@ def independent_parts(skeleton: Skeleton, group: NDArray[np.int32]) -> list[tupl
     if len(nodes) < len(arcs):
         arcs = [0, len(group)]
     return list(zip(starmap(slice, pairwise(arcs)), starmap(slice, pairwise(nodes)), strict=True))
-
-
-def _pruned_part(
-    skeleton: Skeleton,
-    core: _core.skeleton.Skeleton,
-    group: NDArray[np.int32],
-    part: tuple[slice, slice],
-    criterion: _core.pruning.Criterion,
-    compared: float,
-    progress: Progress,
-) -> dict[str, Any]:
-    """The rest of some arcs, in arrays of a skeleton."""
-    arcs, _ = part
-    left: dict[str, Any] = _core.pruning.prune_skeleton(core, *part, criterion, compared, group, progress)
-    original, is_reversed = left.pop("original"), left.pop("is_reversed") != 0
-    for name in ("polygon", "side", "error_bound"):
-        left[name] = getattr(skeleton, name)[arcs][original]
-    sites = skeleton.sites[arcs][original]
-    return {**left, "sites": np.where(is_reversed[:, None], sites[:, ::-1], sites)}
 
 
 def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progress = None) -> CriticalValues:

@@ -68,6 +68,18 @@ class SamplingOptions:
 
 
 @plain(eq=False)
+class Wanted:
+    """What of a skeleton is computed, and with how many seeds and threads."""
+
+    side: str = "interior"
+    frame: Extent | None = None
+    complete: bool = False
+    most: int = MOST_SEEDS
+    threads: int = 0
+    progress: Progress = None
+
+
+@plain(eq=False)
 class SampleGroups:
     """Which seeds have a diagram together, and in which bounds its parts are put into order."""
 
@@ -109,30 +121,20 @@ class ApproximateSkeleton:
 
 
 def sampled_graph(
-    graph: PlanarGraph,
-    placed: PlacedShapes,
-    options: SamplingOptions,
-    *,
-    most: int = MOST_SEEDS,
-    threads: int = 0,
-    progress: Progress = None,
+    graph: PlanarGraph, placed: PlacedShapes, options: SamplingOptions, wanted: Wanted | None = None
 ) -> SampledShapes:
     """Sample a graph by a step, and compute the Voronoi diagram of the seeds."""
+    wanted = wanted or Wanted()
     try:
-        return diagram_by_step(graph, placed, options, SampleGroups(), most=most, threads=threads, progress=progress)
+        return diagram_by_step(graph, placed, options, SampleGroups(), wanted)
     except _core.sampled_skeleton.TooManySeedsError as error:
-        raise LimitError(f"a step of {options.step:g} gives {error}, more than {most}: use a larger step") from None
+        raise LimitError(
+            f"a step of {options.step:g} gives {error}, more than {wanted.most}: use a larger step"
+        ) from None
 
 
 def diagram_by_step(
-    graph: PlanarGraph,
-    placed: PlacedShapes,
-    options: SamplingOptions,
-    groups: SampleGroups,
-    *,
-    most: int,
-    threads: int,
-    progress: Progress,
+    graph: PlanarGraph, placed: PlacedShapes, options: SamplingOptions, groups: SampleGroups, wanted: Wanted
 ) -> SampledShapes:
     """Sample a graph by a step, and compute the Voronoi diagrams; TooManySeedsError is the core's."""
     assert options.step is not None
@@ -142,12 +144,13 @@ def diagram_by_step(
             f"a step of {options.step:g} is finer than the lattice that coordinates are rounded to: use at least "
             f"{_core.sampled_skeleton.LEAST_SAMPLE_GAP * graph.scale!r}"
         )
+    core, limits = core_graph(graph), (wanted.most, wanted.threads, wanted.progress)
     if options.is_symmetric:
-        steps = _core.sampled_skeleton.corner_steps(core_graph(graph), step, True, most)
-        made = _core.sampled_skeleton.sample_from_corners(core_graph(graph), steps, most, threads, progress)
+        steps = _core.sampled_skeleton.corner_steps(core, step, True, wanted.most)
+        made = _core.sampled_skeleton.sample_from_corners(core, steps, *limits)
     else:
-        made = _core.sampled_skeleton.sample_by_step(core_graph(graph), step, most, threads, progress)
-    return diagram_of_samples(graph, placed, made, groups, threads=threads, progress=progress)
+        made = _core.sampled_skeleton.sample_by_step(core, step, *limits)
+    return diagram_of_samples(graph, placed, made, groups, wanted)
 
 
 def core_graph(graph: PlanarGraph) -> _core.kernel.PlanarGraph:
@@ -156,40 +159,28 @@ def core_graph(graph: PlanarGraph) -> _core.kernel.PlanarGraph:
 
 
 def diagram_of_samples(
-    graph: PlanarGraph,
-    placed: PlacedShapes,
-    made: tuple[Any, Any, Any],
-    groups: SampleGroups,
-    *,
-    threads: int,
-    progress: Progress,
+    graph: PlanarGraph, placed: PlacedShapes, made: tuple[Any, Any, Any], groups: SampleGroups, wanted: Wanted
 ) -> SampledShapes:
     """Compute the Voronoi diagram of seeds, or of each group of them."""
     samples = BoundarySamples(*made, graph, placed.sites, placed.polygons)
     diagram = _core.sampled_skeleton.SampledDiagram(
-        core_graph(graph), *made, groups.of_point, groups.within, threads, progress
+        core_graph(graph), *made, groups.of_point, groups.within, wanted.threads, wanted.progress
     )
     return SampledShapes(graph, placed, samples, diagram, groups)
 
 
-def approximate_skeleton(
-    shapes: SampledShapes,
-    *,
-    side: str = "interior",
-    frame: Extent | None = None,
-    complete: bool = False,
-    tolerance: float = 0.0,
-    threads: int = 0,
-    progress: Progress = None,
-) -> ApproximateSkeleton:
+def approximate_skeleton(shapes: SampledShapes, wanted: Wanted | None = None) -> ApproximateSkeleton:
     """Delete what is not the skeleton's from the diagram of samples, and bound the errors of the arcs."""
-    check_skeleton_options(side, 0, frame)
-    if side != "exterior" and not shapes.graph.is_inside.any():
-        warn_empty(shapes.placed.polygons, side)
-    common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
-    return told_together(
-        skeleton_of_samples(shapes, side=side, frame=frame, complete=complete, tolerance=tolerance, **common), side
-    )
+    wanted = wanted or Wanted()
+    check_skeleton_options(wanted.side, 0, wanted.frame)
+    warn_without_inside(shapes.graph, shapes.placed, wanted.side)
+    return told_together(skeleton_of_samples(shapes, wanted), wanted.side)
+
+
+def warn_without_inside(graph: PlanarGraph, placed: PlacedShapes, side: str) -> None:
+    """Say that there is no interior where it is asked for."""
+    if side != "exterior" and not graph.is_inside.any():
+        warn_empty(placed.polygons, side)
 
 
 def told_together(found: ApproximateSkeleton, side: str) -> ApproximateSkeleton:
@@ -197,30 +188,21 @@ def told_together(found: ApproximateSkeleton, side: str) -> ApproximateSkeleton:
     return found if side == "exterior" else replace(found, skeleton=of_one_arrangement(found.skeleton))
 
 
-def skeleton_of_samples(
-    shapes: SampledShapes,
-    *,
-    side: str,
-    frame: Extent | None,
-    complete: bool,
-    tolerance: float,
-    threads: int,
-    progress: Progress,
-) -> ApproximateSkeleton:
+def skeleton_of_samples(shapes: SampledShapes, wanted: Wanted, tolerance: float = 0.0) -> ApproximateSkeleton:
     """Do what `approximate_skeleton` does, without a word about anything."""
-    graph, placed = shapes.graph, shapes.placed
-    clip = None if side == "interior" else (frame or default_frame(placed.polygons))
+    graph, placed, side = shapes.graph, shapes.placed, wanted.side
+    clip = None if side == "interior" else (wanted.frame or default_frame(placed.polygons))
     made: dict[str, Any] = shapes.diagram.skeleton(
         face_groups(placed, side),
         None if clip is None else (len(placed.polygons), on_lattice(clip, graph)),
         False,
-        complete,
+        wanted.complete,
         tolerance / graph.scale,
         joined_groups(placed),
         *graph.origin,
         graph.scale,
-        threads,
-        progress,
+        wanted.threads,
+        wanted.progress,
     )
     seeds, parts, open_corners = made.pop("seeds"), made.pop("parts"), made.pop("open_corners")
     largest = np.abs(graph.origin).max() + graph.scale * 2.0**30

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import asdict, replace
 from typing import Any
@@ -10,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton, approximate_skeleton
+from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton, Wanted, approximate_skeleton
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
 from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import silent
 from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.plain import plain
@@ -140,7 +139,8 @@ def _both_ways(found: ApproximateSkeleton, *, side: str, threads: int) -> dict[s
     if frame is not None:
         larger = widened(frame)
         complete = bool((found.seeds < 0).any())
-        wide = approximate_skeleton(found.shapes, side=side, frame=larger, complete=complete, threads=threads).skeleton
+        wanted = Wanted(side, larger, complete, threads=threads)
+        wide = approximate_skeleton(found.shapes, wanted).skeleton
         wide_exact = exact_skeleton(found, side=side, frame=larger, threads=threads)
     return {
         TO_EXACT: (deviation(approximate, wide_exact), len(approximate)),
@@ -154,9 +154,7 @@ def exact_skeleton(
     """Compute the exact skeleton of the shapes that were sampled."""
     graph, placed = found.shapes.graph, found.shapes.placed
     diagram = segment_voronoi(graph.points, graph.segments, threads=threads)
-    with warnings.catch_warnings(
-        action="ignore", category=VorotoolWarning
-    ):  # that there is no interior was told before
+    with silent():  # that there is no interior was told before
         return skeleton_of(ShapeDiagram(graph, diagram, placed), side=side, frame=frame, threads=threads)
 
 

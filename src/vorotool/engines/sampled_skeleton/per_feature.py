@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -17,11 +16,11 @@ from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches, together
 from vorotool.engines.features.order import Places
 from vorotool.engines.sampled_skeleton.approximate import (
-    MOST_SEEDS,
     ApproximateSkeleton,
     SampledShapes,
     SampleGroups,
     SamplingOptions,
+    Wanted,
     approximate_skeleton,
     core_graph,
     diagram_by_step,
@@ -29,17 +28,17 @@ from vorotool.engines.sampled_skeleton.approximate import (
     sampled_graph,
     skeleton_of_samples,
     told_together,
+    warn_without_inside,
 )
 from vorotool.engines.skeleton.diagrams import joined_sides
 from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.engines.skeleton.parts import contraction
 from vorotool.engines.skeleton.per_feature import joined_with_places
-from vorotool.errors import LimitError, VorotoolWarning
+from vorotool.errors import LimitError, silent
 from vorotool.numeric.arrays import Indices, starts_of
-from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.box import Extent, bounds
+from vorotool.types.box import bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -106,28 +105,16 @@ def of_one_part(found: ApproximateSkeleton) -> FeatureApproximation:
 
 
 def approximation(
-    polygons: PolygonSet,
-    options: SamplingOptions,
-    *,
-    side: str = "interior",
-    features: str = "separate",
-    complete: bool = False,
-    frame: Extent | None = None,
-    strict: bool = False,
-    most: int = MOST_SEEDS,
-    threads: int = 0,
-    progress: Progress = None,
+    polygons: PolygonSet, options: SamplingOptions, wanted: Wanted, *, features: str = "separate", strict: bool = False
 ) -> FeatureApproximation:
     """Approximate the skeleton of polygons; arguments, errors and warnings as of `vorotool.skeleton_approx`."""
-    common: dict[str, Any] = {"threads": threads, "progress": progress}
-    wanted: dict[str, Any] = {"complete": complete, "most": most, **common}
     if features == "together":
-        graph = graph_for_skeletons(polygons, strict=strict, **common)
-        found = of_one_part(_of_graph(graph, options, side=side, frame=frame, **wanted))
-    elif side == "interior":
-        found = feature_approximation(polygons, options, strict=strict, **wanted)
+        graph = graph_for_skeletons(polygons, strict=strict, threads=wanted.threads, progress=wanted.progress)
+        found = of_one_part(_of_graph(graph, options, wanted))
+    elif wanted.side == "interior":
+        found = feature_approximation(polygons, options, wanted, strict=strict)
     else:
-        found = approximation_of_sides(polygons, options, side=side, frame=frame, strict=strict, **wanted)
+        found = approximation_of_sides(polygons, options, wanted, strict=strict)
     return _contracted(found)
 
 
@@ -146,27 +133,21 @@ def _contracted(found: FeatureApproximation) -> FeatureApproximation:
 
 
 def feature_approximation(
-    polygons: PolygonSet,
-    options: SamplingOptions,
-    *,
-    complete: bool = False,
-    strict: bool = False,
-    most: int = MOST_SEEDS,
-    threads: int = 0,
-    progress: Progress = None,
+    polygons: PolygonSet, options: SamplingOptions, wanted: Wanted, *, strict: bool = False
 ) -> FeatureApproximation:
     """Approximate the skeleton inside polygons, each feature as it would be alone on the lattice of all."""
-    budget = _SeedBudget(most, options)
+    budget = _SeedBudget(wanted.most, options)
 
     def work(shapes: BatchShapes, threads: int, poll: Progress) -> ApproximateSkeleton:
+        own = replace(wanted, side="interior", frame=None, threads=threads, progress=poll)
         try:
-            found = _inside(shapes, options, complete=complete, most=most, threads=threads, progress=poll)
+            found = _inside(shapes, options, own)
         except _core.sampled_skeleton.TooManySeedsError:
             raise budget.error() from None
         budget.take(len(found.shapes.samples))
         return found
 
-    whole, made = in_batches(polygons, work, strict=strict, threads=threads, progress=progress)
+    whole, made = in_batches(polygons, work, strict=strict, threads=wanted.threads, progress=wanted.progress)
     if not whole.polygon_count:
         warn_empty(polygons, "interior")
     skeleton, places = joined_with_places(whole, [(shapes, found.skeleton) for shapes, found in made])
@@ -178,87 +159,46 @@ def feature_approximation(
 
 
 def approximation_of_sides(
-    polygons: PolygonSet,
-    options: SamplingOptions,
-    *,
-    side: str,
-    frame: Extent | None = None,
-    complete: bool = False,
-    strict: bool = False,
-    most: int = MOST_SEEDS,
-    threads: int = 0,
-    progress: Progress = None,
+    polygons: PolygonSet, options: SamplingOptions, wanted: Wanted, *, strict: bool = False
 ) -> FeatureApproximation:
     """Approximate the skeleton outside of all polygons, and with both sides what is inside each feature, too."""
-    common: dict[str, Any] = {"most": most, "threads": threads, "progress": progress}
-    graph = together(polygons, strict=strict, threads=threads, progress=progress)
-    if side == "exterior":
-        found = _of_graph(graph, options, side=side, frame=frame, complete=complete, **common)
-        return of_one_part(found)
-    with warnings.catch_warnings(
-        action="ignore", category=VorotoolWarning
-    ):  # repairs were told where all were put together
-        inside = feature_approximation(polygons, options, complete=complete, **common)
+    common: dict[str, Any] = {"threads": wanted.threads, "progress": wanted.progress}
+    graph = together(polygons, strict=strict, **common)
+    if wanted.side == "exterior":
+        return of_one_part(_of_graph(graph, options, wanted))
+    with silent():  # repairs were told where all were put together
+        inside = feature_approximation(polygons, options, wanted)
     if not len(inside.skeleton):
-        warn_empty(polygons, side)
-    placement = placed_vertices(inside.skeleton.polygons, threads=threads, progress=progress)
-    again = arranged(inside.skeleton.polygons, placement, progress=progress).graph
-    outside = _of_graph(again, options, side="exterior", frame=frame, complete=complete, **common)
+        warn_empty(polygons, wanted.side)
+    placement = placed_vertices(inside.skeleton.polygons, **common)
+    again = arranged(inside.skeleton.polygons, placement, progress=wanted.progress).graph
+    outside = _of_graph(again, options, replace(wanted, side="exterior"))
     skeleton = joined_sides(inside.skeleton, outside.skeleton, outside.shapes.placed, again)
     parts = [*inside.parts, outside]
     arcs = [*inside.arcs, len(inside.skeleton) + np.arange(len(outside.skeleton))]
     return FeatureApproximation(skeleton, _joined_seeds(parts, arcs), parts, arcs, inside.inside)
 
 
-def _inside(
-    shapes: BatchShapes, options: SamplingOptions, *, complete: bool, most: int, threads: int, progress: Progress
-) -> ApproximateSkeleton:
+def _inside(shapes: BatchShapes, options: SamplingOptions, wanted: Wanted) -> ApproximateSkeleton:
     groups = _groups(shapes)
-    common: dict[str, Any] = {"threads": threads, "progress": progress}
-    wanted: dict[str, Any] = {"side": "interior", "frame": None, "complete": complete}
     if options.tolerance is not None:
-        return refined_skeleton(shapes.graph, shapes.placed, options.tolerance, groups, most=most, **wanted, **common)
-    sampled = diagram_by_step(shapes.graph, shapes.placed, options, groups, most=most, **common)
-    return skeleton_of_samples(sampled, tolerance=0.0, **wanted, **common)
+        return refined_skeleton(shapes.graph, shapes.placed, options.tolerance, groups, wanted)
+    return skeleton_of_samples(diagram_by_step(shapes.graph, shapes.placed, options, groups, wanted), wanted)
 
 
-def _of_graph(
-    graph: PlanarGraph,
-    options: SamplingOptions,
-    *,
-    side: str,
-    frame: Extent | None,
-    complete: bool,
-    most: int,
-    threads: int,
-    progress: Progress,
-) -> ApproximateSkeleton:
-    common: dict[str, Any] = {"threads": threads, "progress": progress}
-    wanted: dict[str, Any] = {"side": side, "frame": frame, "complete": complete}
-    placed = placed_shapes(graph, threads=threads)
+def _of_graph(graph: PlanarGraph, options: SamplingOptions, wanted: Wanted) -> ApproximateSkeleton:
+    placed = placed_shapes(graph, threads=wanted.threads)
     if options.tolerance is not None:
-        return skeleton_within(graph, placed, options.tolerance, most=most, **wanted, **common)
-    return approximate_skeleton(sampled_graph(graph, placed, options, most=most, **common), **wanted, **common)
+        return skeleton_within(graph, placed, options.tolerance, wanted)
+    return approximate_skeleton(sampled_graph(graph, placed, options, wanted), wanted)
 
 
-def samples_of_graph(
-    graph: PlanarGraph,
-    options: SamplingOptions,
-    *,
-    side: str = "interior",
-    frame: Extent | None = None,
-    complete: bool = False,
-    most: int = MOST_SEEDS,
-    threads: int = 0,
-    progress: Progress = None,
-) -> SampledShapes:
+def samples_of_graph(graph: PlanarGraph, options: SamplingOptions, wanted: Wanted) -> SampledShapes:
     """Sample a graph as its skeleton needs it, and compute the Voronoi diagram of the seeds."""
-    placed = placed_shapes(graph, threads=threads)
-    common: dict[str, Any] = {"most": most, "threads": threads, "progress": progress}
+    placed = placed_shapes(graph, threads=wanted.threads)
     if options.tolerance is None:
-        return sampled_graph(graph, placed, options, **common)
-    wanted: dict[str, Any] = {"side": side, "frame": frame, "complete": complete, **common}
-    return skeleton_within(graph, placed, options.tolerance, **wanted).shapes
+        return sampled_graph(graph, placed, options, wanted)
+    return skeleton_within(graph, placed, options.tolerance, wanted).shapes
 
 
 def _groups(shapes: BatchShapes) -> SampleGroups:
@@ -293,55 +233,22 @@ MOST_ROUNDS = 60
 """Gaps are at least halved where they are too long: no more than this from the extent to the least of doubles."""
 
 
-def skeleton_within(
-    graph: PlanarGraph,
-    placed: PlacedShapes,
-    tolerance: float,
-    *,
-    side: str = "interior",
-    frame: Extent | None = None,
-    complete: bool = True,
-    most: int = MOST_SEEDS,
-    threads: int = 0,
-    progress: Progress = None,
-) -> ApproximateSkeleton:
+def skeleton_within(graph: PlanarGraph, placed: PlacedShapes, tolerance: float, wanted: Wanted) -> ApproximateSkeleton:
     """Sample a graph until the error bounds of all arcs are at most a tolerance."""
-    if side != "exterior" and not graph.is_inside.any():
-        warn_empty(placed.polygons, side)
+    warn_without_inside(graph, placed, wanted.side)
     try:
-        found = refined_skeleton(
-            graph,
-            placed,
-            tolerance,
-            SampleGroups(),
-            side=side,
-            frame=frame,
-            complete=complete,
-            most=most,
-            threads=checked_threads(threads),
-            progress=progress,
-        )
+        found = refined_skeleton(graph, placed, tolerance, SampleGroups(), wanted)
     except _core.sampled_skeleton.TooManySeedsError as error:
         raise LimitError(
-            f"errors of at most {tolerance:g} need more than {most} seeds ({error}): use a larger tolerance, or allow "
-            "more seeds"
+            f"errors of at most {tolerance:g} need more than {wanted.most} seeds ({error}): use a larger tolerance, or "
+            "allow more seeds"
         ) from None
     refuse_unproved(found.skeleton, tolerance)
-    return told_together(found, side)
+    return told_together(found, wanted.side)
 
 
 def refined_skeleton(
-    graph: PlanarGraph,
-    placed: PlacedShapes,
-    tolerance: float,
-    groups: SampleGroups,
-    *,
-    side: str,
-    frame: Extent | None,
-    complete: bool,
-    most: int,
-    threads: int,
-    progress: Progress,
+    graph: PlanarGraph, placed: PlacedShapes, tolerance: float, groups: SampleGroups, wanted: Wanted
 ) -> ApproximateSkeleton:
     """Sample until there is nothing more to be divided, or it does not help; TooManySeedsError is the core's."""
     if tolerance < LEAST_STEPS * graph.scale:
@@ -349,13 +256,12 @@ def refined_skeleton(
             f"a tolerance of {tolerance:g} is finer than the lattice that coordinates are rounded to: use at least "
             f"{LEAST_STEPS * graph.scale!r}"
         )
-    core = core_graph(graph)
-    common: dict[str, Any] = {"threads": threads, "progress": progress}
+    core, most = core_graph(graph), wanted.most
     steps = _core.sampled_skeleton.corner_steps(core, COARSEST * _extent(graph, groups), False, most)
     for _ in range(MOST_ROUNDS):
-        made = _core.sampled_skeleton.sample_from_corners(core, steps, most, threads, progress)
-        shapes = diagram_of_samples(graph, placed, made, groups, **common)
-        found = skeleton_of_samples(shapes, side=side, frame=frame, complete=complete, tolerance=tolerance, **common)
+        made = _core.sampled_skeleton.sample_from_corners(core, steps, most, wanted.threads, wanted.progress)
+        shapes = diagram_of_samples(graph, placed, made, groups, wanted)
+        found = skeleton_of_samples(shapes, wanted, tolerance)
         parts = _parts(shapes, found, tolerance)
         if (parts == 1).all():
             break

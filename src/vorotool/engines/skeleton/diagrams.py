@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
@@ -14,6 +13,7 @@ from vorotool.engines.arrangement.planar_graph import arranged, graph_for_skelet
 from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, are_apart, in_batches, together
 from vorotool.engines.features.order import InputOrder
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton.exact import ShapeDiagram, diagram_of_graph, skeleton_of, warn_empty, whole_diagram
 from vorotool.engines.skeleton.parts import PER_ARC, without_equal_nodes
 from vorotool.engines.skeleton.per_feature import FeatureSkeleton, Seen, feature_skeleton, joined_skeletons
@@ -25,7 +25,7 @@ from vorotool.engines.skeleton.shortened_edges import (
     skeleton_of_elements,
     whole_element_diagram,
 )
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import silent
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress
 from vorotool.types.box import Extent, bounds
@@ -54,11 +54,17 @@ def skeleton_inside(
 ) -> FeatureSkeleton[Seen]:
     """Compute the skeleton inside each feature by itself."""
     common: dict[str, Any] = {"look": look, "strict": strict, "threads": threads, "progress": progress}
-    if gap:
-        found = feature_elements(polygons, gap, complete=complete, **common)
-    else:
-        found = feature_skeleton(polygons, border=border, **common)
+    found = skeleton_of_features(polygons, gap, complete=complete, border=border, **common)
     return replace(found, skeleton=without_equal_nodes(found.skeleton))
+
+
+def skeleton_of_features(
+    polygons: PolygonSet, gap: float, *, complete: bool, border: Extent | None = None, **common: Any
+) -> FeatureSkeleton[Any]:
+    """Compute what `skeleton_inside` gives, with the arcs that rounding leaves no length of."""
+    if gap:
+        return feature_elements(polygons, gap, complete=complete, **common)
+    return feature_skeleton(polygons, border=border, **common)
 
 
 def diagram_of_all(
@@ -90,14 +96,15 @@ def skeleton_in(
     progress: Progress = None,
 ) -> Skeleton:
     """Take the skeleton out of the diagram of all features; arguments as of `vorotool.skeleton_exact`."""
-    is_one = features == "together"
+    wanted: dict[str, Any] = {"side": side, "complete": complete, "frame": frame}
+    of_diagram = _skeleton_of if features == "together" else sides_of
+    return without_equal_nodes(of_diagram(diagram, **wanted, threads=threads, progress=progress))
+
+
+def _skeleton_of(diagram: AnyDiagram, *, complete: bool, **wanted: Any) -> Skeleton:
     if isinstance(diagram, ShapeDiagram):
-        of_shapes = skeleton_of if is_one else sides_of
-        made = of_shapes(diagram, side=side, frame=frame, threads=threads, progress=progress)
-    else:
-        of_elements = skeleton_of_elements if is_one else sides_of_elements
-        made = of_elements(diagram, side=side, complete=complete, frame=frame, threads=threads, progress=progress)
-    return without_equal_nodes(made)
+        return skeleton_of(diagram, **wanted)
+    return skeleton_of_elements(diagram, complete=complete, **wanted)
 
 
 def all_edges(diagram: AnyDiagram, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:
@@ -157,8 +164,8 @@ def _refuse(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, ShortEdges]
     short.refuse(order.polygons, order.site_table, gap)
 
 
-def sides_of_elements(
-    elements: ElementDiagram,
+def sides_of(
+    diagram: AnyDiagram,
     *,
     side: str,
     complete: bool = True,
@@ -168,50 +175,36 @@ def sides_of_elements(
 ) -> Skeleton:
     """Give what is outside of the features of one arrangement, and what is inside each of them by itself."""
     common: dict[str, Any] = {"threads": threads, "progress": progress}
-    polygons = elements.shapes.polygons
-    assert polygons is not None
-    assert polygons.feature is not None
-    if side == "exterior" or len(distinct(polygons.feature)) < 2:
-        made = skeleton_of_elements(elements, side=side, complete=complete, frame=frame, **common)
-        return replace(made, features="separate")
-    with warnings.catch_warnings(
-        action="ignore", category=VorotoolWarning
-    ):  # repairs were told where all were put together
-        inside = feature_elements(polygons, elements.gap, complete=complete, **common).skeleton
+    wanted: dict[str, Any] = {"complete": complete, "frame": frame, **common}
+    if side == "exterior" or _are_alone(diagram):
+        return replace(_skeleton_of(diagram, side=side, **wanted), features="separate")
+    gap, of_shapes = (0.0, diagram.graph) if isinstance(diagram, ShapeDiagram) else (diagram.gap, diagram.shapes)
+    assert of_shapes.polygons is not None
+    with silent():  # repairs were told where all were put together
+        inside = skeleton_of_features(of_shapes.polygons, gap, complete=complete, **common).skeleton
     if not len(inside):
-        warn_empty(polygons, side)
+        warn_empty(of_shapes.polygons, side)
     graph = arranged(inside.polygons, placed_vertices(inside.polygons, **common), progress=progress).graph
     placed = placed_shapes(graph, threads=threads)
     # outlines of pixels are cut where only neighbors meet, and stay outlines of pixels
     placed = replace(placed, polygons=replace(placed.polygons, connectivity=inside.polygons.connectivity))
-    ShortEdges.of(graph, elements.gap).refuse(placed.polygons, placed.sites, elements.gap)
-    again = elements_of_shapes(graph, placed, elements.gap, **common)
-    outside = skeleton_of_elements(again, side="exterior", complete=complete, frame=frame, **common)
-    return joined_sides(inside, outside, placed, graph)
+    again: AnyDiagram
+    if gap:
+        ShortEdges.of(graph, gap).refuse(placed.polygons, placed.sites, gap)
+        again = elements_of_shapes(graph, placed, gap, **common)
+    else:
+        again = ShapeDiagram(graph, segment_voronoi(graph.points, graph.segments, **common), placed)
+    return joined_sides(inside, _skeleton_of(again, side="exterior", **wanted), placed, graph)
 
 
-def sides_of(
-    shapes: ShapeDiagram, *, side: str, frame: Extent | None = None, threads: int = 0, progress: Progress = None
-) -> Skeleton:
-    """Give what is outside of the features of one arrangement, and what is inside each of them by itself."""
-    common: dict[str, Any] = {"threads": threads, "progress": progress}
-    if side == "exterior" or are_apart(shapes.graph):
-        return replace(skeleton_of(shapes, side=side, frame=frame, **common), features="separate")
-    polygons = shapes.graph.polygons
+def _are_alone(diagram: AnyDiagram) -> bool:
+    """Whether each feature is as if there were no others."""
+    if isinstance(diagram, ShapeDiagram):
+        return are_apart(diagram.graph)
+    polygons = diagram.shapes.polygons
     assert polygons is not None
-    with warnings.catch_warnings(
-        action="ignore", category=VorotoolWarning
-    ):  # repairs were told where all were put together
-        inside = feature_skeleton(polygons, **common).skeleton
-    if not len(inside):
-        warn_empty(polygons, side)
-    placement = placed_vertices(inside.polygons, **common)
-    again = diagram_of_graph(arranged(inside.polygons, placement, progress=progress).graph, **common)
-    # outlines of pixels are cut where only neighbors meet, and stay outlines of pixels
-    placed = replace(again.placed.polygons, connectivity=inside.polygons.connectivity)
-    again = replace(again, placed=replace(again.placed, polygons=placed))
-    outside = skeleton_of(again, side="exterior", frame=frame, **common)
-    return joined_sides(inside, outside, again.placed, again.graph)
+    assert polygons.feature is not None
+    return len(distinct(polygons.feature)) < 2
 
 
 def joined_sides(inside: Skeleton, outside: Skeleton, placed: PlacedShapes, graph: PlanarGraph) -> Skeleton:
@@ -274,6 +267,6 @@ def _on_polygons(polygons: PolygonSet, table: SiteTable, graph: PlanarGraph) -> 
 def _sources(polygons: PolygonSet, table: SiteTable) -> NDArray[np.int32]:
     """(2, n, 2) the ring and index in the input of each vertex of used polygons, and of the edge after it; or -1."""
     source = np.full((2, len(polygons.xy), 2), -1, dtype=np.int32)
-    vertex = polygons.ring_starts[polygons.polygon_starts[table.polygon] + table.ring] + table.index
+    vertex = table.vertices(polygons)
     source[table.kind, vertex] = np.stack([table.source_ring, table.source_index], axis=1)
     return source

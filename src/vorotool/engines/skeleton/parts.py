@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.numeric.arrays import Indices
+from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
@@ -143,7 +144,8 @@ def contraction(skeleton: Skeleton) -> Contraction | None:
     arcs = np.where(is_single[:, None], skeleton.arcs, root[skeleton.arcs]).astype(np.int32)
     radius = skeleton.radius.copy()
     np.maximum.at(radius, root, skeleton.radius)
-    made, row, is_reversed = _numbered(_with(skeleton, kept, arcs=arcs, radius=radius))
+    columns: dict[str, Any] = {name: getattr(skeleton, name)[kept] for name in PER_ARC}
+    made, row, is_reversed = _numbered(replace(skeleton, **(columns | {"arcs": arcs[kept], "radius": radius})))
     original = kept[row]
     number = np.full(len(skeleton), -1)
     number[original] = np.arange(len(original))
@@ -164,23 +166,35 @@ def _single_places(skeleton: Skeleton, is_equal: NDArray[np.bool_]) -> NDArray[n
     return first & ~has_length[part]
 
 
-def _with(skeleton: Skeleton, kept: Indices, *, arcs: NDArray[np.int32], radius: NDArray[np.float64]) -> Skeleton:
-    """Some arcs, which end at other nodes."""
-    names = ("control", "sites", "polygon", "side", "branch", "length", "error_bound")
-    columns: dict[str, Any] = {name: getattr(skeleton, name)[kept] for name in names}
-    return replace(skeleton, **columns, arcs=arcs[kept], radius=radius)
-
-
 def _numbered(skeleton: Skeleton) -> tuple[Skeleton, NDArray[np.int32], NDArray[np.bool_]]:
     """Number nodes and branches anew, and tell of each arc which it was, and whether it is reversed."""
-    group = np.where(skeleton.polygon < 0, len(skeleton.polygons), skeleton.polygon).astype(np.int32)
     everything = slice(0, len(skeleton)), slice(0, len(skeleton.vertices))
+    core, length = core_skeleton(skeleton), _core.pruning.Criterion.length
     # pruning leaves out nothing that is shorter than 0
-    length = _core.pruning.Criterion.length
-    left: dict[str, Any] = _core.pruning.prune_skeleton(core_skeleton(skeleton), *everything, length, 0.0, group, None)
+    left, original, is_reversed = pruned_part(skeleton, core, groups_of(skeleton), everything, length, 0.0, None)
+    return replace(skeleton, **left), original, is_reversed
+
+
+def groups_of(skeleton: Skeleton) -> NDArray[np.int32]:
+    """(a,) the polygon of each arc; their number outside."""
+    return np.where(skeleton.polygon < 0, len(skeleton.polygons), skeleton.polygon).astype(np.int32)
+
+
+def pruned_part(
+    skeleton: Skeleton,
+    core: _core.skeleton.Skeleton,
+    group: NDArray[np.int32],
+    part: tuple[slice, slice],
+    criterion: _core.pruning.Criterion,
+    threshold: float,
+    progress: Progress,
+) -> tuple[dict[str, Any], NDArray[np.int32], NDArray[np.bool_]]:
+    """Prune some arcs and nodes: arrays of a skeleton, and of each arc which it was, and whether it is reversed."""
+    arcs, _ = part
+    left: dict[str, Any] = _core.pruning.prune_skeleton(core, *part, criterion, threshold, group, progress)
     original, is_reversed = left.pop("original"), left.pop("is_reversed") != 0
     for name in ("polygon", "side", "error_bound"):
-        left[name] = getattr(skeleton, name)[original]
-    sites = skeleton.sites[original]
+        left[name] = getattr(skeleton, name)[arcs][original]
+    sites = skeleton.sites[arcs][original]
     left["sites"] = np.where(is_reversed[:, None], sites[:, ::-1], sites)
-    return replace(skeleton, **left), original, is_reversed
+    return left, original, is_reversed

@@ -368,7 +368,7 @@ class ShortEdges:
             return
         first = int(self.site.argmin())
         site = self.site[first]
-        ring = int(polygons.polygon_starts[sites.polygon[site]] + sites.ring[site])
+        ring = int(sites.rings(polygons, site))
         (ax, ay), (bx, by) = self.ends[first].tolist()
         raise InputError(
             f"{polygons.ring_place(ring)}, edge {int(sites.index[site]) + 1} from ({ax!r}, {ay!r}) to ({bx!r}, {by!r}) "

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -26,7 +25,7 @@ from vorotool.engines.skeleton.verify_regions import (
     face_measures,
     with_corners_apart,
 )
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import silent
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import distinct
@@ -275,13 +274,11 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     if skeleton.gap:  # the lines that lead to the corners are no bisectors of the shortened edges
         skeleton = _without_portions(skeleton)
     elif skeleton.error_bound.any():
-        with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+        with silent():
             check_approximation(skeleton, threads, progress)
         return
     check_equal_distances(skeleton, SitePlaces(skeleton))
-    with warnings.catch_warnings(
-        action="ignore", category=VorotoolWarning
-    ):  # what bounds nothing is still in the rings
+    with silent():  # what bounds nothing is still in the rings
         if skeleton.features == "together" or not len(skeleton.polygons):
             graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
             _check_in_graph(skeleton, graph, threads, progress)

@@ -46,7 +46,7 @@ class LineSamples:
 def sampled_lines(lines: Skeleton | LedOn, tolerance: float) -> LineSamples:
     """Branches of a skeleton, or centerlines, as polylines with what leads on."""
     path = lines if isinstance(lines, Skeleton) else lines.path
-    first = np.flatnonzero(np.diff(path.branch, prepend=-1))
+    first, ends = path.branch_starts, path.branch_ends
     source, target = path.vertices[path.arcs[:, 0]], path.vertices[path.arcs[:, 1]]
     points, start = polylines(source, path.control, target, path.is_parabola, tolerance / NEARNESS)
     off = np.repeat(np.where(path.is_parabola, tolerance / NEARNESS, 0.0), np.diff(start))
@@ -61,7 +61,6 @@ def sampled_lines(lines: Skeleton | LedOn, tolerance: float) -> LineSamples:
     off = off[kept]
     if isinstance(lines, LedOn):
         points, off, start = _led_on(lines, points, off, start)
-    ends = path.arcs[first, 0], path.arcs[np.append(first[1:], len(path))[: len(first)] - 1, 1]
     return _parted(points, off, start, (ends[0] == ends[1]) & (path.degree[ends[0]] == 2))
 
 

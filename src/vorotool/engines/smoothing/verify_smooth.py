@@ -52,7 +52,7 @@ def verify_smooth(smoothed: SmoothLines) -> None:
     """
     check_value(smoothed, "smoothed", "SmoothLines")
     lines, path = smoothed.lines, smoothed.path
-    first = np.flatnonzero(np.diff(path.branch, prepend=-1))
+    first = path.branch_starts
     if len(first) != len(smoothed):
         raise VerificationError(f"there are {len(smoothed)} smooth lines, but {len(first)} branches")
     if not len(first):
@@ -73,8 +73,7 @@ def verify_smooth(smoothed: SmoothLines) -> None:
 def _flattened(path: Skeleton, lines: Skeleton | LedOn, fineness: float) -> tuple[Floats, NDArray[np.int64]]:
     if isinstance(lines, LedOn):
         return lines.flattened(fineness)
-    first = np.flatnonzero(np.diff(path.branch, prepend=-1))
-    return chained(*path.flattened(fineness), first)
+    return chained(*path.flattened(fineness), path.branch_starts)
 
 
 def _check_ends(smoothed: SmoothLines) -> None:

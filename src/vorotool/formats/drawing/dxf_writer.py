@@ -56,8 +56,7 @@ def _add_skeleton(drawing: DxfDrawing, skeleton: Skeleton, what: str) -> None:
 
 def _branches(skeleton: Skeleton) -> Iterator[tuple[int, NDArray[np.int64]]]:
     """The number of each branch, and its arcs."""
-    first = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-    for begin, end in itertools.pairwise([*first.tolist(), len(skeleton)]):
+    for begin, end in itertools.pairwise([*skeleton.branch_starts.tolist(), len(skeleton)]):
         yield int(skeleton.branch[begin]), np.arange(begin, end)
 
 

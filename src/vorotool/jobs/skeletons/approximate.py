@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import warnings
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -14,10 +14,11 @@ from vorotool.engines.sampled_skeleton.approximate import (
     MOST_SEEDS,
     SampledShapes,
     SamplingOptions,
+    Wanted,
     whole_sampled_diagram,
 )
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation, approximation, samples_of_graph
-from vorotool.errors import VorotoolWarning, warn
+from vorotool.errors import silent, warn
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
@@ -41,13 +42,8 @@ class ApproximateProducts(SkeletonProducts):
         options = self.options  # lengths are in pixels, or in steps
         self._sampling = SamplingOptions(options.step, options.tolerance, options.sampling)
         self._complete = (options.tolerance is not None) if options.complete is None else options.complete
-        self._wanted: dict[str, Any] = {
-            "side": options.side,
-            "complete": self._complete,
-            "frame": options.frame,
-            "most": min(options.max_sites, MOST_SEEDS),
-            "threads": options.threads,
-        }
+        most = min(options.max_sites, MOST_SEEDS)
+        self._wanted = Wanted(options.side, options.frame, self._complete, most, options.threads)
         self._apart: dict[str, Any] | None = None
         # what is refused is refused here, where the input has its name
         if set(options.what) & ALL_TOGETHER:
@@ -70,16 +66,15 @@ class ApproximateProducts(SkeletonProducts):
             return self.found.parts[0].shapes
         graph = self.graph
         with self.run.phase("diagram") as progress:
-            return samples_of_graph(graph, self._sampling, **self._wanted, progress=progress)
+            return samples_of_graph(graph, self._sampling, replace(self._wanted, progress=progress))
 
     @cached_property
     def found(self) -> FeatureApproximation:
         """The skeleton, and what it was made of."""
         o = self.options
         with self.run.phase("diagram") as progress, self.telling_once():
-            return approximation(
-                self._polygons, self._sampling, features=o.features, strict=o.strict, **self._wanted, progress=progress
-            )
+            wanted = replace(self._wanted, progress=progress)
+            return approximation(self._polygons, self._sampling, wanted, features=o.features, strict=o.strict)
 
     def _make_skeleton(self) -> Skeleton:
         return self.found.skeleton
@@ -96,8 +91,7 @@ class ApproximateProducts(SkeletonProducts):
         from vorotool.engines.skeleton_api import skeleton_exact
 
         o = self.options
-        with self.run.phase("exact"), warnings.catch_warnings():
-            warnings.simplefilter("ignore", VorotoolWarning)  # all that was told before
+        with self.run.phase("exact"), silent():
             frame = self.found.skeleton.frame
             return skeleton_exact(self._polygons, side=o.side, features=o.features, frame=frame, threads=o.threads)
 

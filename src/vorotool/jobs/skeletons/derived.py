@@ -117,12 +117,6 @@ class InscribedDiscs(Derived):
                 return skeleton_in(shapes, side="interior", features=o.features, threads=o.threads, progress=progress)
             return skeleton_inside(shapes, strict=o.strict, threads=o.threads, progress=progress).skeleton
 
-    def verify(self, progress: Progress) -> None:
-        """Check the discs."""
-        from vorotool.engines.from_skeleton.verify_discs import verify_discs
-
-        verify_discs(self.value, progress=progress)
-
     def stats(self) -> dict[str, Any]:
         """Count discs, and tell of the largest."""
         made = self.value
@@ -159,28 +153,12 @@ class CutParts(Derived):
 
     value: Parts
 
-    @cached_property
-    def _neck(self) -> float:
-        from vorotool.engines.necks.parts import NARROWEST
-
-        return NARROWEST if self.options.neck is None else float(self.options.neck)
-
-    def _make(self) -> Parts:
-        from vorotool.engines.necks.parts import parts
-
-        skeleton = self.origin.whole
-        with self.run.phase("parts") as progress:
-            return parts(skeleton, neck=self._neck, threads=self.options.threads, progress=progress)
-
-    def verify(self, progress: Progress) -> None:
-        """Check them."""
-        from vorotool.engines.necks.verify_necks import verify_parts
-
-        verify_parts(self.value, threads=self.options.threads, progress=progress)
-
     def stats(self) -> dict[str, Any]:
         """Count pieces and cuts."""
-        return {"neck": self._neck, "pieces": len(self.value), "cuts": len(self.value.necks)}
+        from vorotool.engines.necks.parts import NARROWEST
+
+        neck = NARROWEST if self.options.neck is None else float(self.options.neck)
+        return {"neck": neck, "pieces": len(self.value), "cuts": len(self.value.necks)}
 
 
 class Thickness(Derived):

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from fractions import Fraction
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, Kind, Message, RepairWarning, VorotoolWarning
+from vorotool.errors import InputError, Kind, Message, RepairWarning, silent
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options, Place
@@ -66,9 +65,7 @@ class SkeletonProducts(Results, ABC):
     @contextmanager
     def telling_once(self) -> Iterator[None]:
         """Let repairs be told where polygons are placed first."""
-        with warnings.catch_warnings():
-            if self._is_told:
-                warnings.simplefilter("ignore", RepairWarning)
+        with silent(RepairWarning) if self._is_told else nullcontext():
             yield
         self._is_told = True
 
@@ -116,8 +113,7 @@ class SkeletonProducts(Results, ABC):
         """The longest path in each polygon, for tables, which show who has none."""
         if self.options.start is None and self.options.end is None and "centerline" in self.options.what:
             return self.centerlines
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", VorotoolWarning)
+        with silent():
             return self._made_centerlines(None, None)
 
     def _made_centerlines(self, start: Place | None, end: Place | None) -> Centerlines:

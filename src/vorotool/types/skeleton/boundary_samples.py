@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool.numeric.arrays import owners
 from vorotool.plain import plain
-from vorotool.types.identity import names_of, part_table
+from vorotool.types.identity import names_of, part_table, place_columns
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import SiteTable
@@ -81,8 +81,7 @@ def sample_table(samples: BoundarySamples) -> Table:
             **names_of(samples.polygons, sites.polygon[site]),
             "ring": sites.ring[site],
             "vertex_index": sites.index[site],
-            "x": np.ascontiguousarray(xy[:, 0]),
-            "y": np.ascontiguousarray(xy[:, 1]),
+            **place_columns(xy),
             "label_a": np.ma.array(labels[:, 0], mask=labels[:, 0] == 0),
             "label_b": np.ma.array(labels[:, 1], mask=labels[:, 1] == 0),
         },

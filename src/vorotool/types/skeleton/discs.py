@@ -16,7 +16,7 @@ from vorotool.numeric.numbers import checked_flatten
 from vorotool.types import fields as f
 from vorotool.types.features import Rows, of_shapes
 from vorotool.types.fields import record
-from vorotool.types.identity import described_shapes, names_of, with_columns_of
+from vorotool.types.identity import described_shapes, names_of, place_columns, with_columns_of
 from vorotool.types.polygons.polygon_set import SHELL, PolygonSet
 from vorotool.types.skeleton.skeleton import SiteTable
 from vorotool.types.table import Table
@@ -129,8 +129,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         columns = {
             **names,
             "rank": self.rank,
-            "x": self.xy[:, 0].copy(),
-            "y": self.xy[:, 1].copy(),
+            **place_columns(self.xy),
             "r": self.radius,
             "feet": np.diff(self.foot_starts),
         }

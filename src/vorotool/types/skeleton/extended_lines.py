@@ -17,7 +17,7 @@ from vorotool.plain import plain
 from vorotool.types import fields as f
 from vorotool.types.features import Lines, Rows, of_polygons
 from vorotool.types.fields import record
-from vorotool.types.identity import names_of, part_table
+from vorotool.types.identity import names_of, part_table, place_columns
 from vorotool.types.polygons.input_vertices import places_as_given
 from vorotool.types.skeleton.skeleton import KINDS, Skeleton
 from vorotool.types.table import Lookup, Table
@@ -71,7 +71,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
     @cached_property
     def arc_starts(self) -> NDArray[np.int64]:
         """(k + 1,) the first arc of each path, and the number of arcs."""
-        return np.append(np.flatnonzero(np.diff(self.path.branch, prepend=-1)), len(self.path))
+        return np.append(self.path.branch_starts, len(self.path))
 
     @cached_property
     def polygon(self) -> NDArray[np.int32]:
@@ -81,9 +81,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
     @cached_property
     def end_nodes(self) -> NDArray[np.int32]:
         """(k, 2) the first and the last node of each path."""
-        start = self.arc_starts
-        nodes: NDArray[np.int32] = np.stack([self.path.arcs[start[:-1], 0], self.path.arcs[start[1:] - 1, 1]], axis=1)
-        return nodes
+        return self.path.branch_ends.T
 
     @cached_property
     def extended(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -180,11 +178,9 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
             **names_of(path.polygons, polygon),
             **({"branch": line[order]} if has_branches else {}),
             "arc": np.arange(len(line)) - start[line[order]],
-            "x0": begin[:, 0].copy(),
-            "y0": begin[:, 1].copy(),
+            **place_columns(begin, "0"),
             "r0": np.concatenate([nothing[0], r0, path.radius[end_node]])[order],
-            "x1": end[:, 0].copy(),
-            "y1": end[:, 1].copy(),
+            **place_columns(end, "1"),
             "r1": np.concatenate([path.radius[start_node], r1, nothing[1]])[order],
             "kind": Lookup([*KINDS, EXTENSION], kind.astype(np.int32)),
             "cx": control[:, 0].copy(),

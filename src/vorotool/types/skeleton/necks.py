@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.types import fields as f
 from vorotool.types.features import Rows, of_polygons, of_segments, without_places
 from vorotool.types.fields import record
-from vorotool.types.identity import names_of, part_table
+from vorotool.types.identity import names_of, part_table, place_columns
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 from vorotool.types.table import Lookup, Table
 from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
@@ -103,8 +103,7 @@ class Necks(Value, Tabular, Geometric, Pictured):
         table = self.skeleton.site_table
         columns = {
             **names_of(self.skeleton.polygons, self.polygon),
-            "x": self.xy[:, 0].copy(),
-            "y": self.xy[:, 1].copy(),
+            **place_columns(self.xy),
             "width": self.width,
             "ratio": self.ratio,
             "r_smaller": self.beside[:, 0].copy(),
@@ -113,8 +112,7 @@ class Necks(Value, Tabular, Geometric, Pictured):
         for foot, name in enumerate("ab"):
             site = self.sites[:, foot]
             columns |= {
-                f"x_{name}": self.feet[:, foot, 0].copy(),
-                f"y_{name}": self.feet[:, foot, 1].copy(),
+                **place_columns(self.feet[:, foot], f"_{name}"),
                 f"kind_{name}": Lookup(list(SITE_KINDS), (table.kind[site] == EDGE).astype(np.int32)),
                 f"ring_{name}": table.ring[site],
                 f"index_{name}": table.index[site],

@@ -16,7 +16,7 @@ from vorotool.numeric.numbers import checked_flatten
 from vorotool.types import fields as f
 from vorotool.types.features import Rows, of_shapes
 from vorotool.types.fields import record
-from vorotool.types.identity import described_shapes, names_of, part_table
+from vorotool.types.identity import described_shapes, names_of, part_table, place_columns
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.skeleton.skeleton import SiteTable
 from vorotool.types.table import Lookup, Table
@@ -212,10 +212,8 @@ class Offsets(Value, Tabular, Curved, Pictured):
                 "ring_kind": Lookup(list(RING_KINDS), self.ring_kind[ring].astype(np.int32)),
                 "piece": np.arange(len(self.site)),
                 "kind": Lookup(list(PIECE_KINDS), self.is_arc.astype(np.int32)),
-                "x0": self.start[:, 0].copy(),
-                "y0": self.start[:, 1].copy(),
-                "x1": self.end[:, 0].copy(),
-                "y1": self.end[:, 1].copy(),
+                **place_columns(self.start, "0"),
+                **place_columns(self.end, "1"),
                 "cx": np.ma.array(self.center[:, 0], mask=line),
                 "cy": np.ma.array(self.center[:, 1], mask=line),
                 "r": np.ma.array(np.abs(self.piece_distance), mask=line),

@@ -13,7 +13,7 @@ from vorotool.numeric.arrays import following
 from vorotool.types import fields as f
 from vorotool.types.features import Rows, of_shapes
 from vorotool.types.fields import record
-from vorotool.types.identity import described_shapes, names_of, with_columns_of
+from vorotool.types.identity import described_shapes, names_of, place_columns, with_columns_of
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.necks import Necks
 from vorotool.types.table import Table, object_column
@@ -111,8 +111,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
                 **names_of(self.necks.skeleton.polygons, self.source),
                 "area": self.area,
                 "width": self.width,
-                "x": self.center[:, 0].copy(),
-                "y": self.center[:, 1].copy(),
+                **place_columns(self.center),
                 "cuts": self.cuts,
             },
             self.necks.skeleton.polygons,

@@ -13,10 +13,10 @@ from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types import fields as f
 from vorotool.types.features import Corners, Rows, chosen, of_points, of_polygons, of_segments, without_places
 from vorotool.types.fields import record
-from vorotool.types.identity import names_of, part_table
+from vorotool.types.identity import names_of, part_table, place_columns
 from vorotool.types.polygons.input_vertices import moved_feet
-from vorotool.types.skeleton.skeleton import SIDES, Skeleton
-from vorotool.types.table import Lookup, Table
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.table import Table
 from vorotool.types.values import Pictured, Tabular, Value, WithParts, counted, placed
 
 
@@ -109,21 +109,17 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
     def columns(self) -> dict[str, Any]:
         """Return the columns of the table that are not of the input."""
         skeleton, arc, given = self.skeleton, self.arc, self.as_given
-        side = skeleton.side[arc]
         return {
             **names_of(skeleton.polygons, self.polygon),
             "branch": skeleton.branch[arc],
             "arc": arc,
-            "side": Lookup([*SIDES, None], np.where(side < 0, len(SIDES), side).astype(np.int32)),
+            "side": skeleton.side_names(arc),
             "along": self.along,
-            "x": given.xy[:, 0].copy(),
-            "y": given.xy[:, 1].copy(),
+            **place_columns(given.xy),
             "r": self.radius,
             "width": self.width,
-            "x_a": given.feet[:, 0, 0].copy(),
-            "y_a": given.feet[:, 0, 1].copy(),
-            "x_b": given.feet[:, 1, 0].copy(),
-            "y_b": given.feet[:, 1, 1].copy(),
+            **place_columns(given.feet[:, 0], "_a"),
+            **place_columns(given.feet[:, 1], "_b"),
             **self._ring_columns(),
         }
 

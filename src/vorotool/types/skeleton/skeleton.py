@@ -19,6 +19,7 @@ from vorotool.types import fields as f
 from vorotool.types.fields import Record, record
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.arc_measures import ArcMeasures
+from vorotool.types.table import Lookup
 from vorotool.types.values import Branched, Pictured, Tabular, Value, counted, placed
 
 if TYPE_CHECKING:
@@ -59,6 +60,16 @@ class SiteTable(Record):
 
     def __len__(self) -> int:
         return len(self.kind)
+
+    def rings(self, polygons: PolygonSet, sites: Any = slice(None)) -> NDArray[np.int64]:
+        """Rings of all polygons that some sites are on, or all."""
+        rings: NDArray[np.int64] = polygons.polygon_starts[self.polygon[sites]] + self.ring[sites]
+        return rings
+
+    def vertices(self, polygons: PolygonSet, sites: Any = slice(None)) -> NDArray[np.int64]:
+        """Vertices of all polygons that some sites are at, or begin at."""
+        vertices: NDArray[np.int64] = polygons.ring_starts[self.rings(polygons, sites)] + self.index[sites]
+        return vertices
 
     def taken(self, chosen: NDArray[np.intp]) -> SiteTable:
         """Some of the sites."""
@@ -172,10 +183,26 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         """(a,) ``line`` or ``parabola``."""
         return np.array(KINDS)[self.is_parabola.astype(np.int8)]
 
+    def side_names(self, arcs: Any = slice(None)) -> Lookup:
+        """Return the side of some arcs, or of all, as a column."""
+        side = self.side[arcs]
+        return Lookup([*SIDES, None], np.where(side < 0, len(SIDES), side).astype(np.int32))
+
     @cached_property
     def degree(self) -> NDArray[np.int64]:
         """(v,) number of arcs that end at each node."""
         return np.bincount(self.arcs.reshape(-1), minlength=len(self.vertices))
+
+    @cached_property
+    def branch_starts(self) -> NDArray[np.int64]:
+        """(b,) the first arc of each branch."""
+        return np.flatnonzero(np.diff(self.branch, prepend=-1))
+
+    @cached_property
+    def branch_ends(self) -> NDArray[np.int32]:
+        """(2, b) the nodes that branches begin and end at."""
+        last = np.append(self.branch_starts, len(self))[1:] - 1
+        return np.stack([self.arcs[self.branch_starts, 0], self.arcs[last, 1]])
 
     @cached_property
     def on_frame(self) -> NDArray[np.bool_]:

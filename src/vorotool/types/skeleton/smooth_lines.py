@@ -82,7 +82,7 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
     @cached_property
     def polygon(self) -> NDArray[np.int32]:
         """(n,) the polygon of each line; -1 outside."""
-        return self.path.polygon[np.flatnonzero(np.diff(self.path.branch, prepend=-1))]
+        return self.path.polygon[self.path.branch_starts]
 
     @cached_property
     def line(self) -> NDArray[np.int64]:
@@ -156,7 +156,5 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
 def ends_of_lines(lines: Skeleton | LedOn) -> Floats:
     """(n, 2, 2) where each branch begins and ends, with what leads on."""
     path = lines if isinstance(lines, Skeleton) else lines.path
-    first = np.flatnonzero(np.diff(path.branch, prepend=-1))
-    last = np.append(first[1:], len(path))[: len(first)] - 1
-    ends: Floats = path.vertices[np.stack([path.arcs[first, 0], path.arcs[last, 1]], axis=1)]
+    ends: Floats = path.vertices[path.branch_ends.T]
     return ends if isinstance(lines, Skeleton) else np.where(np.isnan(lines.ends), ends, lines.ends)

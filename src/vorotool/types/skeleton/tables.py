@@ -20,7 +20,7 @@ from vorotool.types.features import Lines, Rows, of_polygons
 from vorotool.types.identity import names_of, part_table
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import to_shapely
-from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, KINDS, SIDES, Skeleton
+from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, KINDS, Skeleton
 from vorotool.types.table import Lookup, Table
 
 BRANCH_TYPES = ("end-end", "junction-end", "junction-junction", "cycle")
@@ -75,7 +75,7 @@ def arc_table(skeleton: Skeleton) -> Table:
             "cy": cy,
             "site_a_index": site_a,
             "site_b_index": site_b,
-            "side": Lookup([*SIDES, None], np.where(skeleton.side < 0, len(SIDES), skeleton.side).astype(np.int32)),
+            "side": skeleton.side_names(),
             "length": skeleton.length,
             "error_bound": skeleton.error_bound,
             "branch": skeleton.branch,
@@ -192,18 +192,18 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     (1, 4)
     """
     check_value(skeleton, "skeleton", "Skeleton")
-    polygon = skeleton.polygon[_branch_starts(skeleton)]
+    polygon = skeleton.polygon[skeleton.branch_starts]
     columns = {**names_of(skeleton.polygons, polygon), **branch_columns(skeleton, threads=threads)}
     return part_table(columns, skeleton.polygons, polygon)
 
 
 def branch_columns(skeleton: Skeleton, *, threads: int = 0) -> dict[str, Any]:
     """Return the columns of the table of branches without those that name polygons."""
-    start = _branch_starts(skeleton)
+    start = skeleton.branch_starts
     if not len(start):
         empty: NDArray[Any] = np.empty(0)
         return dict.fromkeys(BRANCH_COLUMNS, empty)
-    a, b = both = _branch_ends(skeleton, start)
+    a, b = both = skeleton.branch_ends
     least, most, integral = skeleton.arc_radii_on(threads)
     length = np.add.reduceat(skeleton.length, start)
     integral = np.add.reduceat(integral, start)
@@ -231,16 +231,6 @@ def _branch_types(skeleton: Skeleton, ends: NDArray[np.int32]) -> NDArray[np.int
     is_junction = skeleton.degree[ends] > 2
     is_cycle = (ends[0] == ends[1]) & ~is_junction[0]
     return np.where(is_cycle, 3, is_junction.sum(axis=0)).astype(np.int32)
-
-
-def _branch_starts(skeleton: Skeleton) -> NDArray[np.int64]:
-    return np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-
-
-def _branch_ends(skeleton: Skeleton, starts: NDArray[np.int64]) -> NDArray[np.int32]:
-    """(2, b) the nodes that branches begin and end at."""
-    last = np.append(starts, len(skeleton))[1:] - 1
-    return np.stack([skeleton.arcs[starts, 0], skeleton.arcs[last, 1]])
 
 
 def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -297,7 +287,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     widest = np.zeros(count)
     np.maximum.at(widest, of_arc, 2 * most[inside])
     mean = np.divide(2 * np.bincount(of_arc, integral[inside], count), length, out=np.zeros(count), where=length > 0)
-    starts = _branch_starts(skeleton)
+    starts = skeleton.branch_starts
     cycles = arcs - counted(own) + _components(skeleton, starts, node_polygon, count)
     area, perimeter = _measures(polygons.as_given, threads)
     empty = arcs == 0
@@ -334,7 +324,7 @@ def _components(
 ) -> NDArray[np.int64]:
     """Connected components of the skeleton in each polygon: of its branches, each counted at its first node."""
     inner = skeleton.side[starts] == INTERIOR
-    ends = _branch_ends(skeleton, starts)[:, inner]
+    ends = skeleton.branch_ends[:, inner]
     is_end = np.zeros(len(skeleton.vertices), dtype=bool)
     is_end[ends] = True
     number = np.cumsum(is_end) - 1
@@ -447,11 +437,10 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
     if not is_choice(by, BY):
         raise UsageError(f"by is {shown_number(by)}: use {' or '.join(BY)}")
     points, start = skeleton.as_given.flattened(flatten)
-    first = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
+    first, ends = skeleton.branch_starts, skeleton.branch_ends
     if by == "arc":
-        first = np.arange(len(skeleton))
-    last = np.append(first[1:], len(skeleton))[: len(first)] - 1
-    source, target = skeleton.arcs[first, 0].astype(np.int64), skeleton.arcs[last, 1].astype(np.int64)
+        first, ends = np.arange(len(skeleton)), skeleton.arcs.T
+    source, target = ends.astype(np.int64)
     return SkeletonGraph(
         skeleton,
         distinct(np.concatenate([source, target])),
@@ -473,7 +462,7 @@ def skeleton_features(skeleton: Skeleton, what: str | None, flatten: float | Non
 def _branches(skeleton: Skeleton, first: NDArray[np.int64]) -> dict[str, Any]:
     columns = branch_columns(skeleton, threads=1)
     del columns["chord"]
-    return {"branch": columns.pop("branch"), "side": _sides(skeleton, first), **columns}
+    return {"branch": columns.pop("branch"), "side": skeleton.side_names(first), **columns}
 
 
 def _arcs(skeleton: Skeleton) -> dict[str, Any]:
@@ -483,15 +472,10 @@ def _arcs(skeleton: Skeleton) -> dict[str, Any]:
     return {
         "arc": np.arange(len(skeleton)),
         "branch": skeleton.branch,
-        "side": _sides(skeleton, np.arange(len(skeleton))),
+        "side": skeleton.side_names(),
         "kind": Lookup(list(KINDS), skeleton.is_parabola.astype(np.int32)),
         "length": skeleton.length,
         "r_min": least,
         "r_max": most,
         "r_mean": mean,
     }
-
-
-def _sides(skeleton: Skeleton, arcs: NDArray[np.int64]) -> Lookup:
-    side = skeleton.side[arcs]
-    return Lookup([*SIDES, None], np.where(side < 0, len(SIDES), side).astype(np.int32))
