@@ -15,7 +15,7 @@ from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
 from vorotool.formats.io.arrays import MAGIC, npy_header
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import Source, read_source, reading
-from vorotool.formats.parsing.reader_options import ReadOptions, no_note
+from vorotool.formats.parsing.reader_options import ReadOptions, no_note, with_crs, with_stated_axis
 from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.numbers import Flatten, checked_flatten, checked_tolerance
@@ -61,11 +61,8 @@ class Opened:
     name: str  # the path as the user wrote it; `-` is standard input
     # what must be in it, its format, its page and its layer, as far as the caller says; as of `read`
     geometry: str | None
-    # what must be in it, its format, its page and its layer, as far as the caller says; as of `read`
     said: str | None
-    # what must be in it, its format, its page and its layer, as far as the caller says; as of `read`
     page: int | None
-    # what must be in it, its format, its page and its layer, as far as the caller says; as of `read`
     layer: str | None
     array: ZarrRows | None  # the rows of a Zarr array, which is no file
     content: Source | None = None  # what is in it, if it has been read; streams are read once
@@ -108,22 +105,14 @@ class Opened:
 
             refuse_for_images(given, self.layer)
             told("zarr")
-            return self._turned(read_rows(self.array, max_pixels=given.max_pixels, note=given.note), given)
-        content = read_source(self.name, self.layer) if self.content is None else self.content
-        content = replace(content, max_sites=given.max_sites, flatten=given.flatten)
-        holds, source = recognized(content, self.geometry, self.said, given.columns)
-        told(source.format)
-        return self._turned(read_recognized(holds, source, given), given)
-
-    def _turned(
-        self, value: Any, given: ReadOptions
-    ) -> PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap:
-        """Give what was read with y as the caller says."""
-        if given.y_axis is None:
-            return value  # type: ignore[no-any-return]
-        from vorotool.formats.parsing.reader_options import with_stated_axis
-
-        return with_stated_axis(value, self.name, given.y_axis)  # type: ignore[no-any-return]
+            value: Any = read_rows(self.array, max_pixels=given.max_pixels, note=given.note)
+        else:
+            content = read_source(self.name, self.layer) if self.content is None else self.content
+            content = replace(content, max_sites=given.max_sites, flatten=given.flatten)
+            holds, source = recognized(content, self.geometry, self.said, given.columns)
+            told(source.format)
+            value = read_recognized(holds, source, given)
+        return value if given.y_axis is None else with_stated_axis(value, self.name, given.y_axis)  # type: ignore[no-any-return]
 
 
 def _member(crs: str) -> dict[str, Any]:
@@ -180,10 +169,7 @@ _LAYER = option("--input-layer or FILE:LAYER", "layer or FILE:LAYER")
 _IMAGE_SUFFIXES = {f".{name}": kind for name, kind in IMAGE_NAMES.items() if kind != "zarr"}
 _IMAGE_HEADS = (
     (b"\x89PNG", "png"),
-    (b"II*\x00", "tiff"),
-    (b"MM\x00*", "tiff"),
-    (b"II+\x00", "tiff"),
-    (b"MM\x00+", "tiff"),
+    *((head, "tiff") for head in TIFF_MAGIC),
     (MAGIC, "npy"),
 )
 _RESULTS: dict[bytes, Holds] = {
@@ -223,8 +209,6 @@ def read_recognized(holds: Holds, source: Source, options: ReadOptions) -> Any:
         value = resolved("formats.points.columns:point_set")(value)
     if holds not in ("points", "polygons", "sites"):
         return value
-    from vorotool.formats.parsing.reader_options import with_crs
-
     if is_of(value, "Sites"):
         return replace(value, polygons=with_crs(value.polygons, source.name, options))
     return with_crs(value, source.name, options)
@@ -278,10 +262,8 @@ def _is_npy_image(source: Source) -> bool:
 
 
 def _image_by_content(data: bytes) -> str | None:
-    for head, name in _IMAGE_HEADS:
-        if data.startswith(head):
-            return name
-    return "pnm" if looks_like_pnm(data) else picture_format(data)
+    found = next((name for head, name in _IMAGE_HEADS if data.startswith(head)), None)
+    return found or ("pnm" if looks_like_pnm(data) else picture_format(data))
 
 
 def _result(data: bytes) -> Holds | None:
@@ -293,26 +275,24 @@ def _result(data: bytes) -> Holds | None:
 # ---- how images begin ----------------------------------------------------------------------------
 PICTURES = {"jpeg": "JPEG", "bmp": "BMP", "gif": "GIF", "webp": "WebP", "avif": "AVIF"}
 """Formats and what they are called."""
-_BMP_HEADERS = (12, 16, 40, 52, 56, 64, 108, 124)
 
 GAP = rb"(?:\s|#[^\n\r]*[\n\r])+"
 """Between the numbers of a header of PBM, PGM or PPM: space and comments."""
 _START = re.compile(rb"P([1-6])" + GAP + rb"(?=[0-9])")
 
 
+_PICTURE_HEADS = {
+    "jpeg": rb"\xff\xd8\xff",
+    "gif": rb"GIF8[79]a",
+    "webp": rb"(?s:RIFF.{4}WEBP)",
+    "avif": rb"(?s:.{4}ftypavi[fs])",
+    "bmp": rb"(?s:BM.{12})[\x0c\x10\x28\x34\x38\x40\x6c\x7c](\0{3}|\0{0,2}\Z)",  # the size of its header
+}
+
+
 def picture_format(data: bytes) -> str | None:
     """Which of `PICTURES` data begins as."""
-    if data.startswith(b"\xff\xd8\xff"):
-        return "jpeg"
-    if data.startswith((b"GIF87a", b"GIF89a")):
-        return "gif"
-    if data.startswith(b"RIFF") and data[8:12] == b"WEBP":
-        return "webp"
-    if data[4:12] in (b"ftypavif", b"ftypavis"):
-        return "avif"
-    if data.startswith(b"BM") and int.from_bytes(data[14:18], "little") in _BMP_HEADERS:
-        return "bmp"
-    return None
+    return next((name for name, head in _PICTURE_HEADS.items() if re.match(head, data[:32])), None)
 
 
 def looks_like_pnm(data: bytes) -> bool:

@@ -63,7 +63,7 @@ def _nesting(rings: Sequence[Floats], shapes: Any) -> Nesting | None:
         return None
     if _meet_often(shapes):
         return nesting_of(rings, _turns(shapes).tolist(), shapely.area(shapes).tolist())
-    return None if _cross(shapes) else _nesting_of_pairs(shapes)
+    return _nesting_of_pairs(shapes)
 
 
 def _meet_often(shapes: Any) -> bool:
@@ -82,28 +82,19 @@ def _meet_often(shapes: Any) -> bool:
     return False
 
 
-def _cross(shapes: Any) -> bool:
-    """Whether any two lie over one another, neither within the other, or are the same."""
+def _nesting_of_pairs(shapes: Any) -> Nesting | None:
+    """Look at every ring that covers another, whose smallest is its parent; None where two cross or are the same."""
     import shapely
 
-    if len(shapes) < 2:
-        return False
     tree = shapely.STRtree(shapes)
-    first, second = tree.query(shapes, predicate="overlaps")
-    if len(first):
-        return True
-    first, second = (indices.tolist() for indices in tree.query(shapes, predicate="covers"))
-    pairs = {pair for pair in zip(first, second, strict=True) if pair[0] != pair[1]}
-    return any((second, first) in pairs for first, second in pairs)
-
-
-def _nesting_of_pairs(shapes: Any) -> Nesting:
-    """Look at every ring that covers another; the smallest is its parent."""
-    import shapely
-
-    inner, outer = shapely.STRtree(shapes).query(shapes, predicate="covered_by")
+    if tree.query(shapes, predicate="overlaps").size:
+        return None
+    outer, inner = tree.query(shapes, predicate="covers")
     is_other = inner != outer
     inner, outer = inner[is_other], outer[is_other]
+    pairs = set(zip(outer.tolist(), inner.tolist(), strict=True))
+    if any((second, first) in pairs for first, second in pairs):
+        return None
     parent = np.full(len(shapes), OUTSIDE)
     largest_first = np.argsort(-shapely.area(shapes)[outer], kind="stable")
     parent[inner[largest_first]] = outer[largest_first]

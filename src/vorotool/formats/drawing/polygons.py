@@ -14,6 +14,7 @@ from vorotool.errors import InputError
 from vorotool.formats.drawing.curves import Arc, Bezier, Curve, Line, Piece, Point, extent_of
 from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.polygons.poly import chains_of
 from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.length_units import ratio
 from vorotool.types.box import Box
@@ -203,38 +204,14 @@ def joined(curves: Sequence[Curve], tolerance: float) -> list[Curve]:
     )
     numbers = iter(_places(ends.reshape(-1, 2), tolerance))
     places = [(next(numbers), next(numbers)) if each else None for each in is_open]
-    at: dict[int, list[int]] = {}
-    for index, pair in enumerate(places):
-        for place in pair or ():
-            at.setdefault(place, []).append(index)
-    used = [False] * len(curves)
-
-    def walk(index: int, place: int) -> list[tuple[int, bool]]:
-        """Go along a curve that begins at a place, and on while there is one way only."""
-        path = []
-        while not used[index]:
-            used[index] = True
-            a, b = places[index] or (-1, -1)
-            path.append((index, a == place))
-            place = b if a == place else a
-            here = at[place]
-            if len(here) != 2:
-                break
-            index = here[0] if here[1] == index else here[1]
-        return path
-
+    chains = {index: (path, is_closed) for index, path, is_closed in chains_of(places)}
     made: list[Curve] = []
     for index, pair in enumerate(places):
         if pair is None:
             made.append(curves[index])
-        elif not used[index]:
-            path = walk(index, pair[0])
-            last, is_forward = path[-1]
-            end = (places[last] or pair)[1 if is_forward else 0]
-            behind = [other for other in at[pair[0]] if other != index]
-            if end != pair[0] and len(at[pair[0]]) == 2 and behind and not used[behind[0]]:
-                path = [(number, not way) for number, way in reversed(walk(behind[0], pair[0]))] + path
-            made.append(_chain([curves[k] if way else _reversed(curves[k]) for k, way in path], end == pair[0]))
+        elif index in chains:
+            path, is_closed = chains[index]
+            made.append(_chain([curves[k] if way else _reversed(curves[k]) for k, way in path], is_closed))
     return made
 
 

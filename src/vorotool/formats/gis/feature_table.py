@@ -70,8 +70,9 @@ class Features:
         return self.where(index) + ("" if self.texts is None else f": {shortened(self.texts[index])}")
 
 
-def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet:
-    """Give the polygons and lines of features; those without a geometry are left out."""
+def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
+    """Read polygons and lines with their attributes; features without a geometry are left out."""
+    features = features_of(source)
     if features.is_table and features.columns:
         raise InputError(f"{features.has_none}; polygons or lines are expected, columns x, y are read as points")
     kept = _kept(features)
@@ -80,8 +81,9 @@ def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet
     return _shapes_of(features, kept, options)
 
 
-def sites_of_features(features: Features, options: ReadOptions) -> Sites:
-    """Give points, lines and polygons, each feature a site; one without a geometry is a site without places."""
+def read_sites(source: Source, options: ReadOptions) -> Sites:
+    """Read points, lines and polygons, each feature a site; one without a geometry is a site without places."""
+    features = features_of(source)
     kept = _kept(features)
     options.note_empty(features.name, len(features.geometry) - len(kept))
     expected = (*_POINTS, *_SHAPES)
@@ -122,7 +124,7 @@ def _shapes_of(features: Features, kept: NDArray[np.int64], options: ReadOptions
         raise
 
 
-def feature_points(features: Features, options: ReadOptions) -> PointRows:
+def _points(features: Features, options: ReadOptions) -> PointRows:
     """Give the points of features, those of several in one as its parts; those without a geometry are left out."""
     import shapely
 
@@ -232,6 +234,19 @@ def layer_fault(source: Source, layer: str, layers: Mapping[str, str | None]) ->
     return f"the layer {layer!r} of {source.name} {fault}: the layers with geometry are {held}{others}"
 
 
+def checked_geometry(
+    source: Source,
+    written: Sequence[Any],
+    fault: str = "{}: the geometry of feature {} cannot be read; is the file damaged?",
+) -> tuple[NDArray[np.object_], int]:
+    """Give the geometry of well-known binary, and how many curves were flattened; what is none is refused."""
+    geometry, curves = geometry_of_binary(written, source.flatten)
+    bad = next((row for row, each in enumerate(written) if each is not None and geometry[row] is None), None)
+    if bad is not None:
+        raise InputError(fault.format(source.name, bad + 1))
+    return geometry, curves
+
+
 def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> int:
     """Give the number of the layer that is wanted, or of the only one that has geometry, or else is a table."""
     numbers = {name: number for number, (name, kind) in enumerate(layers) if kind is not None}
@@ -268,17 +283,7 @@ def read_points(source: Source, options: ReadOptions) -> PointRows:
         )
     if features.is_table:
         return rows_of_columns(source.name, {name: list(values) for name, values in features.columns.items()}, options)
-    return feature_points(features, options)
-
-
-def read_sites(source: Source, options: ReadOptions) -> Sites:
-    """Read points, lines and polygons with their attributes, each feature a site."""
-    return sites_of_features(features_of(source), options)
-
-
-def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
-    """Read polygons and lines with their attributes."""
-    return polygons_of_features(features_of(source), options)
+    return _points(features, options)
 
 
 _COMMENT = re.compile(rb"^\s*#.*$", re.MULTILINE)
@@ -372,18 +377,15 @@ _HEXADECIMAL = re.compile(rb"[0-9A-Fa-f\s]*")
 
 def features_of_binary(source: Source) -> Features:
     """Read one geometry, or one a line."""
-    import shapely
-
     if not source.data.strip():
         raise InputError(
             f"{source.name} is empty, but well-known binary (WKB) is expected; check the program that wrote it"
         )
     is_digits = _HEXADECIMAL.fullmatch(source.data) is not None
     written = source.data.split() if is_digits else [source.data]
-    geometry, curves = geometry_of_binary([item.decode() for item in written] if is_digits else written, source.flatten)
-    bad = np.flatnonzero(shapely.is_missing(geometry))
-    if bad.size:
-        raise InputError(f"{source.name}: geometry {bad[0] + 1} is not WKB; is the file damaged or cut off?")
+    items = [item.decode() for item in written] if is_digits else written
+    fault = "{}: geometry {} is not WKB; is the file damaged or cut off?"
+    geometry, curves = checked_geometry(source, items, fault)
     crs = crs_of_geometry(source.name, geometry, lambda row: row + 1)
     return Features(source.name, geometry, {}, None, crs, curves=curves)
 

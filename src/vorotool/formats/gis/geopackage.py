@@ -20,14 +20,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from vorotool.errors import INPUT_FORMAT, OUTPUT, OVERWRITE, InputError, LimitError, OutputError
-from vorotool.formats.gis.feature_table import TABLE, Features, chosen_layer, layer_fault
+from vorotool.formats.gis.feature_table import TABLE, Features, checked_geometry, chosen_layer, layer_fault
 from vorotool.formats.gis.feature_writer import GdalFeatures, move_into
 from vorotool.formats.io.atomic_output import current_rules, failure
 from vorotool.formats.io.sources import Source, check_unpacked, decoding, interruptible, read_source
 from vorotool.formats.io.temporaries import committed_together, new_folder
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.numeric.crs import member_of_text
-from vorotool.numeric.curves.well_known import geometry_of_binary
 
 MAGIC = b"SQLite format 3\0"
 JOURNALS = ("-wal", "-journal")
@@ -213,10 +212,7 @@ def _features(source: Source, database: sqlite3.Connection, layer: _Layer) -> Fe
         raise InputError(f"{source.name}: the layer {layer.table!r} has no geometry column {layer.column!r}")
     ids, attributes, (blobs,) = _attributes(source, database, layer.table, columns, [geometry])
     binary = [None if blob is None else _well_known(source, blob, row) for row, blob in enumerate(blobs, 1)]
-    shapes, curves = geometry_of_binary(binary, source.flatten)
-    bad = next((row for row, blob in enumerate(binary, 1) if blob is not None and shapes[row - 1] is None), None)
-    if bad is not None:
-        raise _geometry_error(source, bad)
+    shapes, curves = checked_geometry(source, binary)
     return Features(source.name, shapes, attributes, ids, _system(database, layer.system), curves=curves)
 
 

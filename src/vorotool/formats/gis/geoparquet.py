@@ -9,12 +9,11 @@ import numpy as np
 
 from vorotool.convert.extras import needed
 from vorotool.errors import InputError
-from vorotool.formats.gis.feature_table import Features
+from vorotool.formats.gis.feature_table import Features, checked_geometry
 from vorotool.formats.gis.feature_writer import FeatureRows, TypedColumn
 from vorotool.formats.io.sources import Source, check_unpacked, decoding
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member, crs_text, member_of_text
-from vorotool.numeric.curves.well_known import geometry_of_binary
 
 _TITLE = "Parquet"
 _BATCH = 4096
@@ -37,10 +36,8 @@ def features_of(source: Source) -> Features:
                 "write the file again with WKB, the default of geopandas"
             )
         others = [each for each in document["columns"] if each != name]
-        geometry, curves = geometry_of_binary(written := columns.pop(name), source.flatten)
-        bad = next((row for row, each in enumerate(written) if each is not None and geometry[row] is None), None)
-        if bad is not None:
-            raise InputError(f"{source.name}: the geometry of row {bad + 1} is not WKB; is the file damaged?")
+        fault = "{}: the geometry of row {} is not WKB; is the file damaged?"
+        geometry, curves = checked_geometry(source, columns.pop(name), fault)
         kept = {each: values for each, values in columns.items() if each not in others}
         ids = kept.pop("id", None) if document.get("vorotool_ids") else None
     return Features(source.name, geometry, kept, ids, _crs(described), curves=curves)

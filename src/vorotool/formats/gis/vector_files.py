@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from vorotool.convert.extras import needed
 from vorotool.errors import INPUT_FORMAT, InputError, LimitError, OutputError, UsageError, option
-from vorotool.formats.gis.feature_table import Features, chosen_layer
+from vorotool.formats.gis.feature_table import Features, checked_geometry, chosen_layer
 from vorotool.formats.gis.feature_writer import GdalFeatures, common_kind, move_into
 from vorotool.formats.io.atomic_output import (
     Rules,
@@ -41,7 +41,6 @@ from vorotool.formats.io.sources import Source, check_unpacked, decoding, interr
 from vorotool.formats.io.temporaries import Placement, committed_together, new_folder
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.numeric.crs import member_of_text
-from vorotool.numeric.curves.well_known import geometry_of_binary
 
 TITLES = {"fgb": "FlatGeobuf", "shp": "Shapefile", "kml": "KML", "gpx": "GPX"}
 """Formats and what they are called."""
@@ -107,10 +106,7 @@ def _read(pyogrio: Any, data: bytes, source: Source) -> Features:
     if lossy:
         exact = pyogrio.read_arrow(data, columns=lossy, read_geometry=False, **options)[1].to_pydict()
         columns |= {name: exact[name] for name in lossy}
-    geometry, curves = geometry_of_binary(wkb.tolist(), source.flatten)
-    bad = next((k for k, each in enumerate(wkb) if each is not None and geometry[k] is None), None)
-    if bad is not None:
-        raise InputError(f"{source.name}: the geometry of feature {bad + 1} cannot be read; is the file damaged?")
+    geometry, curves = checked_geometry(source, wkb.tolist())
     return Features(source.name, geometry, columns, None, member_of_text(meta["crs"]), curves=curves)
 
 

@@ -19,6 +19,7 @@ from vorotool.formats.io.descriptors import (
     check_writable,
     descriptor_of,
     is_of_another_process,
+    number_of,
     open_onward,
     open_output_descriptor,
 )
@@ -120,7 +121,7 @@ def _checked_descriptor(name: str, binary: bool, option: str) -> int | None:
         number = descriptor_of(name)
         is_terminal = number is not None and os.isatty(number)
     else:
-        number, is_terminal = _number_of_standard_output(), sys.stdout.isatty()
+        number, is_terminal = number_of(sys.stdout), sys.stdout.isatty()
     if binary and is_terminal:
         raise terminal_error()
     if number is not None:
@@ -134,13 +135,6 @@ def terminal_error() -> UsageError:
     return UsageError(
         f"binary output is not written to a terminal: name a file with {OUTPUT}, or a text format with {FORMAT}"
     )
-
-
-def _number_of_standard_output() -> int | None:
-    try:
-        return sys.stdout.fileno()
-    except (AttributeError, OSError, ValueError):
-        return None
 
 
 def spoken(name: str) -> str:

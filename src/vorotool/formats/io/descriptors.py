@@ -123,7 +123,7 @@ def open_output_descriptor(descriptor: int) -> BinaryIO:
     """Open what a descriptor writes, from where it stands, or from the end of what is appended to."""
     check_writable(descriptor)
     for stream in (sys.stdout, sys.stderr):  # what was said before comes first
-        if _number(stream) == descriptor:
+        if number_of(stream) == descriptor:
             stream.flush()
     return io.BufferedWriter(_OnwardOnly(os.dup(descriptor), "wb"))
 
@@ -158,7 +158,8 @@ def _mode(descriptor: int) -> int | None:
     return fcntl.fcntl(descriptor, fcntl.F_GETFL) & os.O_ACCMODE
 
 
-def _number(stream: object) -> int | None:
+def number_of(stream: object) -> int | None:
+    """Return the number of the descriptor of a stream; None where it has none, or is closed."""
     try:
         return int(stream.fileno())  # type: ignore[attr-defined]  # what has none is no stream of the system
     except (AttributeError, OSError, ValueError):

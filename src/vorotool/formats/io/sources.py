@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
 
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolError, option
-from vorotool.formats.io.descriptors import STANDARD, descriptor_of, open_input, stream_kind
+from vorotool.formats.io.descriptors import STANDARD, descriptor_of, number_of, open_input, stream_kind
 from vorotool.numeric.parallel import start
 from vorotool.plain import plain
 
@@ -136,7 +136,7 @@ def read_bytes(name: str) -> bytes:
     if number is None:
         return Path(name).read_bytes()
     spoken = STANDARD_INPUT if name == STANDARD else name
-    standard, begun = _number_of_standard_input(), b""
+    standard, begun = number_of(sys.stdin), b""
     try:
         if name == STANDARD or standard == number:
             begun = sys.stdin.buffer.read() or b""  # with what is in its buffer already
@@ -161,25 +161,18 @@ def copy_stream(name: str, out: BinaryIO) -> None:
         with Path(name).open("rb") as file:
             shutil.copyfileobj(file, out)
         return
-    is_standard = name == STANDARD or _number_of_standard_input() == number
+    is_standard = name == STANDARD or number_of(sys.stdin) == number
     try:
         waits = os.get_blocking(number) if hasattr(os, "get_blocking") else True
     except OSError:
         waits = False
-    if not waits or (is_standard and _number_of_standard_input() is None):
+    if not waits or (is_standard and number_of(sys.stdin) is None):
         out.write(read_bytes(name))  # which waits itself, or says what is wrong
     elif is_standard:
         shutil.copyfileobj(sys.stdin.buffer, out)
     else:
         with open_input(number) as file:
             shutil.copyfileobj(file, out)
-
-
-def _number_of_standard_input() -> int | None:
-    try:
-        return sys.stdin.fileno()
-    except (AttributeError, OSError, ValueError):
-        return None
 
 
 def _place(name: str) -> str:

@@ -178,13 +178,12 @@ def _remove_dead_once(folder: Path) -> None:
 
 def _discard_ours(names: Sequence[Path]) -> None:
     """Remove what is left under names: 64 random bits are nobody else's, so that whatever happens they are ours."""
-    try:
+
+    def discard() -> None:
         for path in names:
             _discard(path)
-    except BaseException:
-        for path in names:
-            _discard(path)
-        raise
+
+    _insist(discard)
 
 
 def _make_ours(folder: Path, make: Callable[[Path], int], ending: str, names: list[Path]) -> int:

@@ -11,7 +11,7 @@ import importlib.util
 import lzma
 import zlib
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any
 
 from vorotool import _core
 from vorotool.errors import UsageError
@@ -27,18 +27,6 @@ _SPARSE_BLOCKS = 8
 
 Packed = bytes | memoryview
 Unpacker = Callable[[Packed, int], Any]
-
-
-class _Stream(Protocol):
-    """Decoders as those of bz2 and lzma."""
-
-    @property
-    def eof(self) -> bool: ...
-    @property
-    def needs_input(self) -> bool: ...
-    @property
-    def unused_data(self) -> bytes: ...
-    def decompress(self, data: Packed, max_length: int) -> bytes: ...
 
 
 def unpack_zlib(data: Packed, limit: int) -> bytes:
@@ -135,10 +123,10 @@ def _inflated(data: Packed, limit: int, window: int) -> tuple[bytes, bytes]:
             pieces.append(piece)
         size += len(piece)
         data = stream.unconsumed_tail
-    return pieces[0] if len(pieces) == 1 else b"".join(pieces), stream.unused_data
+    return b"".join(pieces), stream.unused_data
 
 
-def _streamed(stream: _Stream, data: Packed, limit: int) -> tuple[bytes, bytes]:
+def _streamed(stream: Any, data: Packed, limit: int) -> tuple[bytes, bytes]:
     pieces: list[bytes] = []
     size = 0
     while not stream.eof and size <= limit:
@@ -148,7 +136,7 @@ def _streamed(stream: _Stream, data: Packed, limit: int) -> tuple[bytes, bytes]:
         pieces.append(piece)
         size += len(piece)
         data = b""
-    return pieces[0] if len(pieces) == 1 else b"".join(pieces), stream.unused_data
+    return b"".join(pieces), stream.unused_data
 
 
 # ---- how much Zstandard data can hold (RFC 8878, section 3) --------------------------------------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any, BinaryIO
 
@@ -29,7 +30,7 @@ def read_poly(source: Source, options: ReadOptions) -> PolygonSet:
     xy, base = _read_vertices(lines, options)
     segments = _read_segments(lines, len(xy), base)
     holes = _read_holes(lines)
-    chains = _chains(segments, len(xy))
+    chains = _chains(segments)
     unused = len(xy) - len(distinct(segments))
     if unused:
         options.note(f"{source.name}: {counted(unused, 'vertex', 'vertices')} without a segment skipped")
@@ -142,41 +143,47 @@ def _read_holes(lines: _Lines) -> NDArray[np.float64]:
     return lines.table(lines.header("<holes>", [])[0], 3, 3, "holes")[:, 1:]
 
 
-def _chains(segments: NDArray[np.int64], vertices: int) -> list[list[int]]:
+def _chains(segments: NDArray[np.int64]) -> list[list[int]]:
     """Vertices along each maximal chain of segments that meet at vertices of exactly two segments."""
-    segments = segments[segments[:, 0] != segments[:, 1]]
-    ends = segments.ravel()
-    order = np.argsort(ends, kind="stable")
-    start = np.searchsorted(ends[order], np.arange(vertices + 1))
-    incident = (order // 2).tolist()
-    first = start.tolist()
-    pairs = segments.tolist()
-    used = [False] * len(pairs)
+    pairs: list[Any] = segments[segments[:, 0] != segments[:, 1]].tolist()
+    return [
+        [pairs[path[0][0]][0 if path[0][1] else 1], *(pairs[k][1 if is_forward else 0] for k, is_forward in path)]
+        for _, path, _ in chains_of(pairs)
+    ]
 
-    def walk(segment: int, vertex: int) -> list[int]:
-        """Go along a segment from a vertex, and on while there is one way only."""
-        path = [vertex]
-        while not used[segment]:
-            used[segment] = True
-            a, b = pairs[segment]
-            vertex = b if vertex == a else a
-            path.append(vertex)
-            here = incident[first[vertex] : first[vertex + 1]]
+
+def chains_of(ends: Sequence[tuple[int, int] | None]) -> Iterator[tuple[int, list[tuple[int, bool]], bool]]:
+    """Go along edges where exactly two meet: the first edge of each chain, all with their directions, if it closes."""
+    at: dict[int, list[int]] = {}
+    for index, pair in enumerate(ends):
+        for place in pair or ():
+            at.setdefault(place, []).append(index)
+    used = [False] * len(ends)
+
+    def walk(index: int, place: int) -> list[tuple[int, bool]]:
+        """Go along an edge that begins at a place, and on while there is one way only."""
+        path = []
+        while not used[index]:
+            used[index] = True
+            a, b = ends[index] or (-1, -1)
+            path.append((index, a == place))
+            place = b if a == place else a
+            here = at[place]
             if len(here) != 2:
                 break
-            segment = here[0] if here[1] == segment else here[1]
+            index = here[0] if here[1] == index else here[1]
         return path
 
-    chains = []
-    for segment, (a, _) in enumerate(pairs):
-        if used[segment]:
+    for index, pair in enumerate(ends):
+        if pair is None or used[index]:
             continue
-        ahead = walk(segment, a)
-        behind = [s for s in incident[first[a] : first[a + 1]] if s != segment]
-        if ahead[-1] != a and len(behind) == 1 and not used[behind[0]]:
-            ahead = walk(behind[0], a)[:0:-1] + ahead
-        chains.append(ahead)
-    return chains
+        path = walk(index, pair[0])
+        last, is_forward = path[-1]
+        is_closed = (ends[last] or pair)[1 if is_forward else 0] == pair[0]
+        behind = [other for other in at[pair[0]] if other != index]
+        if not is_closed and len(at[pair[0]]) == 2 and behind and not used[behind[0]]:
+            path = [(number, not way) for number, way in reversed(walk(behind[0], pair[0]))] + path
+        yield index, path, is_closed
 
 
 @plain

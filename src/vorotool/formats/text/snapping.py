@@ -52,12 +52,15 @@ class Snapped:
 
 def is_among(points: Floats, others: Floats) -> NDArray[np.bool_]:
     """(n,) whether points may be among others: false for most that are not, true for all that are."""
-    keys = np.sort(_hashes(others))
+    return _ranks(np.sort(_hashes(others)), _hashes(points)) >= 0
+
+
+def _ranks(keys: NDArray[Any], wanted: NDArray[Any]) -> Indices:
+    """(n,) where each is among sorted keys, -1 for those that are not."""
     if not len(keys):
-        return np.zeros(len(points), dtype=bool)
-    own = _hashes(points)
-    found: NDArray[np.bool_] = keys[np.minimum(np.searchsorted(keys, own), len(keys) - 1)] == own
-    return found
+        return np.full(len(wanted), -1)
+    ranks = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
+    return np.where(keys[ranks] == wanted, ranks, -1)
 
 
 def _hashes(points: Floats) -> NDArray[np.uint64]:
@@ -82,9 +85,7 @@ class _Names:
 
     def find(self, points: Floats) -> Indices:
         """(n,) the number of each point, -1 of those that are not here."""
-        own = _complex(points)
-        rank = np.minimum(np.searchsorted(self.points, own), len(self.points) - 1)
-        return np.where(self.points[rank] == own, rank, -1)
+        return _ranks(self.points, _complex(points))
 
 
 def _complex(points: Floats) -> NDArray[np.complex128]:
@@ -187,9 +188,8 @@ class _Places:
         made = self.lattice.values(places)
         if not len(self.keys):
             return made
-        own = _place_keys(places)
-        rank = np.minimum(np.searchsorted(self.keys, own), len(self.keys) - 1)
-        return np.where((self.keys[rank] == own)[:, None], self.kept[rank], made)
+        rank = _ranks(self.keys, _place_keys(places))
+        return np.where((rank >= 0)[:, None], self.kept[rank], made)
 
 
 def _place_keys(places: NDArray[np.int32]) -> Indices:
