@@ -157,6 +157,15 @@ def distinct(values: NDArray[Integer]) -> NDArray[Integer]:
     return found[is_new]
 
 
+def rows_of(keys: NDArray[np.int64], wanted: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the first row in which a column of keys has each number; -1 where it has not."""
+    if not len(keys):
+        return np.full(len(wanted), -1)
+    order = np.argsort(keys, kind="stable")
+    row = order[np.searchsorted(keys, wanted, sorter=order).clip(max=len(keys) - 1)]
+    return np.where(keys[row] == wanted, row, -1)
+
+
 def is_among(values: NDArray[Integer], chosen: NDArray[Integer]) -> NDArray[np.bool_]:
     """Whether each value is one of those that are chosen."""
     found = distinct(chosen)

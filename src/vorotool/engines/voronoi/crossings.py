@@ -8,10 +8,11 @@ import numpy as np
 
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.cut_curves import FAR, SLACK, CutCurves, CutEdges, cut_curves
-from vorotool.engines.voronoi.elements import packed
 from vorotool.engines.voronoi.regions import LocalDiagrams
 from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.numbers import rows_of
 from vorotool.plain import plain
+from vorotool.types.polygons.planar_graph import packed
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Pairs = tuple[Indices, Indices]
@@ -102,13 +103,9 @@ def _draw_places(local: LocalDiagrams, edges: CutEdges, tree: Any, region: Indic
     for end in borders.ends.T:
         of_place[end[end >= 0]] = region[end >= 0]
     is_site = (borders.radius == 0) & (of_place >= 0)
-    corner = packed(edges.points.astype(np.int64))
-    order = np.argsort(corner, kind="stable")
     sites = np.flatnonzero(is_site)
-    wanted = packed(borders.places[sites].astype(np.int64))
-    at = np.searchsorted(corner[order], wanted).clip(max=len(order) - 1)
-    same = corner[order[at]] == wanted
-    node[sites[same]] = count + order[at[same]]
+    corner = rows_of(packed(edges.points), packed(borders.places[sites]))
+    node[sites[corner >= 0]] = count + corner[corner >= 0]
     free = np.flatnonzero((of_place >= 0) & ~is_site & (np.abs(borders.places) < FAR).all(axis=1))
     point, near = tree.query(shapely.points(borders.places[free]), predicate="dwithin", distance=SLACK)
     point = free[point]

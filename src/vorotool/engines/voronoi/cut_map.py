@@ -12,7 +12,7 @@ from vorotool.engines.voronoi.assembly import Arcs, by_ends, without_lost
 from vorotool.engines.voronoi.nearest import NearestElements
 from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay, RegionOverlay
 from vorotool.errors import VerificationError
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, following
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 _MOST_TRIED = 7
@@ -72,9 +72,7 @@ class CutMap:
         around = half[np.lexsort((self.order.ravel()[half], tail))]
         tail = self.ends.ravel()[around]
         starts = np.flatnonzero(np.diff(tail, prepend=-1))
-        after = np.arange(1, len(around) + 1)
-        if len(starts):
-            after[np.append(starts[1:], len(around)) - 1] = starts
+        after = following(np.append(starts, len(around)))
         # on the left of what leaves a place is the face that is on the right of what leaves it next
         side, number = np.unique(np.stack([around, around[after] ^ 1], axis=1), return_inverse=True)
         root = _core.graphs.connected_components(number.reshape(-1, 2).astype(np.int32), len(side))
@@ -199,9 +197,7 @@ def order_around(tail: Indices, angle: Floats, left: Indices, right: Indices) ->
     starts = np.flatnonzero(np.diff(tail[sorting], prepend=-1))
     sizes = np.diff(starts, append=len(tail))
     order = np.empty(len(tail), dtype=np.int64)
-    after = np.arange(1, len(tail) + 1)
-    if len(starts):
-        after[starts + sizes - 1] = starts
+    after = following(np.append(starts, len(tail)))
     thin = _is_thin_inside(angle[sorting], left[sorting], right[sorting], after)
     sorting[thin], sorting[after[thin]] = sorting[after[thin]], sorting[thin]
     order[sorting] = np.arange(len(tail))

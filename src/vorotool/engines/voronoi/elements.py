@@ -18,7 +18,7 @@ from vorotool.engines.arrangement.repaired_polygons import flat_holes, with_flat
 from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import LimitError
-from vorotool.numeric.arrays import owners, ranges, starts_of
+from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.box import check_magnitude
@@ -193,25 +193,19 @@ def _bounding_sources(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np
 
 def _lone_places(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
     """Points that are a whole line or hole, and the polygons that these are of."""
+    ring = rings_at_one_place(graph, given)
+    ring = ring[given.ring_kind[ring] == LINE]
     assert graph.vertices is not None
-    places = packed(graph.vertices)
-    starts = given.ring_starts[:-1]
-    if not len(starts):
-        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int32)
-    is_one = np.minimum.reduceat(places, starts) == np.maximum.reduceat(places, starts)
-    is_one &= np.equal(given.ring_kind, LINE)
-    order = np.argsort(packed(graph.points), kind="stable")
-    known = packed(graph.points)[order]
-    at = np.searchsorted(known, places[starts[is_one]])
-    point = np.concatenate([order[at], graph.point_holes[:, 0]])
-    return point, np.concatenate([given.ring_polygon[is_one], graph.point_holes[:, 2]])
+    point = np.concatenate([graph.points_at(graph.vertices[given.ring_starts[ring]]), graph.point_holes[:, 0]])
+    return point, np.concatenate([given.ring_polygon[ring], graph.point_holes[:, 2]])
 
 
-def packed(places: NDArray[np.integer]) -> NDArray[np.int64]:
-    """One number a place of the lattice."""
-    x, y = places.astype(np.int64).T
-    made: NDArray[np.int64] = x * 2**32 + y
-    return made
+def rings_at_one_place(graph: PlanarGraph, given: PolygonSet) -> Indices:
+    """Find the rings of which all vertices are at one place of the lattice."""
+    assert graph.vertices is not None
+    sizes = np.diff(given.ring_starts)
+    is_other = (graph.vertices != np.repeat(graph.vertices[given.ring_starts[:-1]], sizes, axis=0)).any(axis=1)
+    return np.flatnonzero(np.bincount(owners(sizes)[is_other], minlength=len(sizes)) == 0)
 
 
 def diagram_of(

@@ -160,28 +160,17 @@ def _states(borders: Borders, places: Floats, graph: PlanarGraph, control: Float
         corners[2] = np.where(np.isnan(corners[2]), corners[0], corners[2])
         a, b, c = corners
         low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-        _extend_to_circles(low, high, corners, graph.coordinates(borders.center[some]), borders.level * graph.scale)
+        _extend_to_circles(low, high, graph.coordinates(borders.center[some]), borders.level * graph.scale)
         is_within = is_finite & _all_of(low >= box.low) & _all_of(high <= box.high)
         is_off = is_finite & ~(_all_of(low < box.high) & _all_of(high > box.low))
         state[some] = np.where(is_off, _OFF, np.where(is_within, _WITHIN, _CROSSING))
     return state
 
 
-def _extend_to_circles(low: Floats, high: Floats, corners: list[Floats], center: Floats, radius: float) -> None:
+def _extend_to_circles(low: Floats, high: Floats, center: Floats, radius: float) -> None:
     """Add what circular arcs, counter-clockwise and of at most half a circle, reach beyond their ends."""
     arc = np.flatnonzero(~np.isnan(center[:, 0]))
-    if not arc.size:
-        return
-    a, b = (place[arc] - center[arc] for place in corners[:2])
-    for axis, sign in ((0, -1), (1, -1), (0, 1), (1, 1)):
-        after_first = a[:, 1 - axis] * (sign if axis else -sign) >= 0
-        before_last = b[:, 1 - axis] * (-sign if axis else sign) >= 0
-        passed = arc[after_first & before_last]
-        reach = center[passed, axis] + sign * radius
-        if sign < 0:
-            low[passed, axis] = np.minimum(low[passed, axis], reach)
-        else:
-            high[passed, axis] = np.maximum(high[passed, axis], reach)
+    low[arc], high[arc] = np.minimum(low[arc], center[arc] - radius), np.maximum(high[arc], center[arc] + radius)
 
 
 def _all_of(pairs: NDArray[np.bool_]) -> NDArray[np.bool_]:

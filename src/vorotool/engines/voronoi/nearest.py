@@ -24,7 +24,6 @@ class NearestElements:
         graph = local.owned.graph
         degree = np.bincount(graph.segments.ravel(), minlength=len(graph.points))
         self.lone = np.flatnonzero((degree == 0) | self._has_wedge())
-        self.trees: dict[int, tuple[Any, Indices]] = {}
 
     def _has_wedge(self) -> NDArray[np.bool_]:
         """(n,) whether a site smaller than those of the segments at a point may have what is nearest to the point."""
@@ -69,18 +68,13 @@ class NearestElements:
     def _tree(self, region: int) -> tuple[Any, Indices]:
         import shapely
 
-        if region not in self.trees:
-            local, graph = self.local, self.local.owned.graph
-            count = len(graph.points)
-            points = self.lone[local.point_region[self.lone] == region]
-            segments = np.flatnonzero(local.segment_region == region)
-            places = graph.points.astype(np.float64)
-            shapes = np.concatenate(
-                [shapely.points(places[points]), shapely.linestrings(places[graph.segments[segments]])]
-            )
-            site = local.owned.element[np.concatenate([points, count + segments])].astype(np.int64)
-            self.trees[region] = shapely.STRtree(shapes), site
-        return self.trees[region]
+        local, graph = self.local, self.local.owned.graph
+        count = len(graph.points)
+        points = self.lone[local.point_region[self.lone] == region]
+        segments = np.flatnonzero(local.segment_region == region)
+        places = graph.points.astype(np.float64)
+        shapes = np.concatenate([shapely.points(places[points]), shapely.linestrings(places[graph.segments[segments]])])
+        return shapely.STRtree(shapes), local.owned.element[np.concatenate([points, count + segments])].astype(np.int64)
 
 
 Exact = tuple[Fraction, Fraction]

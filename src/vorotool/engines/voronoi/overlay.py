@@ -9,11 +9,11 @@ from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders, sites_beside_segments
 from vorotool.engines.voronoi.crossings import Crossings, crossings_of
 from vorotool.engines.voronoi.cut_curves import NOBODY, SLACK, CutEdges, controls_of
-from vorotool.engines.voronoi.elements import packed
 from vorotool.engines.voronoi.regions import LocalDiagrams, faces_of_sides
-from vorotool.numeric.arrays import Floats, Indices, owners, starts_of
+from vorotool.numeric.arrays import Floats, Indices, owners, ranges
+from vorotool.numeric.numbers import rows_of
 from vorotool.plain import plain
-from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.planar_graph import PlanarGraph, packed
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 UNKNOWN = -2
@@ -183,7 +183,7 @@ class Overlay:
         start = np.searchsorted(cuts.edge, np.arange(len(self.edges.ends) + 1))
         sizes = start[edge + 1] - start[edge]
         row = owners(sizes)
-        part = np.arange(int(sizes.sum())) + np.repeat(start[edge] - starts_of(sizes)[:-1], sizes)
+        part = ranges(start[edge], sizes)
         middle = (self._far(cuts.ends[part, 0], edge[row]) + self._far(cuts.ends[part, 1], edge[row])) / 2
         held = (middle > np.minimum(first, last)[row]) & (middle < np.maximum(first, last)[row])
         row, part = row[held], part[held]
@@ -242,7 +242,7 @@ class RegionOverlay(Overlay):
         graph = local.owned.graph
         if not len(graph):
             return
-        row = _rows_of(packed(edges.points.astype(np.int64))[edges.ends], packed(graph.points)[graph.segments])
+        row = _rows_of(packed(edges.points)[edges.ends], packed(graph.points)[graph.segments])
         chosen = np.flatnonzero(row >= 0)
         edge = row[chosen]
         sites = sites_beside_segments(local.owned)
@@ -303,9 +303,7 @@ def _rows_of(pairs: Indices, wanted: Indices) -> Indices:
     values, number = np.unique(np.concatenate([pairs, wanted]), return_inverse=True)
     low, high = np.sort(number.reshape(-1, 2), axis=1).T
     key = low * len(values) + high
-    order = np.argsort(key[: len(pairs)], kind="stable")
-    row = order[np.searchsorted(key[order], key[len(pairs) :]).clip(max=len(pairs) - 1)]
-    return np.where(key[row] == key[len(pairs) :], row, -1)
+    return rows_of(key[: len(pairs)], key[len(pairs) :])
 
 
 def _norm(way: Floats) -> Floats:

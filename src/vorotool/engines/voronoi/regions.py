@@ -13,15 +13,15 @@ from vorotool.engines.arrangement.planar_graph import Placement, arranged
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi_of_groups
 from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.cut_curves import NOBODY, CutEdges
-from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owners_of, packed
+from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owners_of, rings_at_one_place
 from vorotool.engines.voronoi.joint_graph import JointGraph
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
 from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of
-from vorotool.numeric.numbers import distinct, is_among
+from vorotool.numeric.numbers import distinct, is_among, rows_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
-from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.planar_graph import PlanarGraph, packed
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
 
@@ -194,16 +194,13 @@ def _meetings_of_points(
     given = graph.polygons
     assert given is not None
     assert graph.vertices is not None
-    keys = packed(graph.vertices)
-    starts = given.ring_starts[:-1]
-    is_one = np.minimum.reduceat(keys, starts) == np.maximum.reduceat(keys, starts)
-    is_one &= given.ring_polygon < len(site)
-    lone = np.flatnonzero(is_one)
+    lone = rings_at_one_place(graph, given)
+    lone = lone[given.ring_polygon[lone] < len(site)]
+    places = graph.vertices[given.ring_starts[lone]]
+    is_free = ~is_among(packed(places), distinct(packed(graph.points[graph.segments[is_line].ravel()])))
+    lone, places = lone[is_free], places[is_free].astype(np.float64)
     if not lone.size:
         return np.empty((0, 2), dtype=np.int64)
-    on_line = distinct(packed(graph.points[graph.segments[is_line].ravel()]))
-    lone = lone[~is_among(keys[starts[lone]], on_line)]
-    places = graph.vertices[starts[lone]].astype(np.float64)
     sides = face[graph.segment_faces].reshape(-1, 2)
     boundary = np.flatnonzero(sides[:, 0] != sides[:, 1])
     sides = sides[boundary]
@@ -227,12 +224,11 @@ def faces_of_sides(lines: Floats, sides: Indices) -> tuple[Indices, NDArray[Any]
     first = np.searchsorted(ring, np.arange(len(shapes)))
     wanted = np.stack([places[first], places[first + 1]], axis=1)
     ways = np.concatenate([lines, lines[:, ::-1]])
-    key = packed(np.concatenate([ways, wanted]).reshape(-1, 2).astype(np.int64))
+    key = packed(np.concatenate([ways, wanted]).reshape(-1, 2))
     _, number = np.unique(key, return_inverse=True)
     first, second = number.reshape(-1, 2).T.astype(np.int64)
     pair = first * len(key) + second
-    order = np.argsort(pair[: len(ways)], kind="stable")
-    row = order[np.searchsorted(pair[order], pair[len(ways) :])]
+    row = rows_of(pair[: len(ways)], pair[len(ways) :])
     is_right = (row >= len(lines)) == shapely.is_ccw(shells)
     names: Indices = sides[row % len(lines), is_right.astype(np.int64)]
     return names, shapes

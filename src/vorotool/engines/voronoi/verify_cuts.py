@@ -95,8 +95,7 @@ class _Faces:
         self.sure, self.possible = (
             self._meeting(shapely.buffer(np.array([*self.shapes, *around]), step)) for step in (-near, near)
         )
-        self.possible_of = self._whole_faces(shared, around)
-        self.sure_of = self._without_beyond(around, cuts)
+        self.possible_of, self.sure_of = self._wholes(shared, around, cuts)
         self.tree = shapely.STRtree(self.shapes)
 
     def _closed(self, lines: Any, shared: Any, geometry: NDArray[Any]) -> list[Any]:
@@ -108,29 +107,21 @@ class _Faces:
         margin = max(bounds.length, 1.0)
         return [*closed, shapely.difference(shapely.buffer(bounds, margin), shapely.union_all(closed))]
 
-    def _whole_faces(self, shared: Any, around: list[Any]) -> list[int]:
-        """For each face the one whose sites it has: one of those around, unless lines with open ends part that."""
+    def _wholes(self, shared: Any, around: list[Any], cuts: Any) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """For each face the one whose sites it may have, and that whose sites it surely has."""
         import shapely
 
         middles = shapely.point_on_surface(self.shapes)
-        found = list(range(len(self.shapes)))
-        for k, each in enumerate(around):
-            inside = np.flatnonzero(shapely.covers(each, middles))
+        possible, sure = np.arange(len(self.shapes)), np.arange(len(self.shapes))
+        for k, each in enumerate(around, len(self.shapes)):
+            inside = shapely.covers(each, middles)
             parts = shapely.get_parts(shapely.intersection(each, shared))
-            if np.count_nonzero(shapely.area(parts) > 0) == len(inside):
-                for face in inside.tolist():
-                    found[face] = len(self.shapes) + k
-        return found
-
-    def _without_beyond(self, around: list[Any], cuts: Any) -> list[int]:
-        """The same, but each face for itself where open lines may part what is around it at the frame or the clip."""
-        import shapely
-
-        found = list(self.possible_of)
-        for k, each in enumerate(around):
-            if shapely.intersects(cuts, shapely.buffer(each, -2 * self.near)):
-                found = [face if whole == len(self.shapes) + k else whole for face, whole in enumerate(found)]
-        return found
+            if np.count_nonzero(shapely.area(parts) > 0) != np.count_nonzero(inside):
+                continue  # lines with open ends part it
+            possible[inside] = k
+            if not shapely.intersects(cuts, shapely.buffer(each, -2 * self.near)):
+                sure[inside] = k  # else open lines may part it at the frame or the clip
+        return possible, sure
 
     def _meeting(self, shapes: NDArray[Any]) -> list[NDArray[np.int64]]:
         import shapely

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.voronoi.verify_cuts import EnclosedFaces, shared_out
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Floats, Indices, owners
+from vorotool.numeric.arrays import Floats, Indices, following, owners
 from vorotool.numeric.curves.inverse_functions import PI, angle_of
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.types.arguments import check_value
@@ -113,8 +113,7 @@ def _check_rings(cells: VoronoiMap) -> None:
         fail(f"arc {at // 2} is passed {passed[at]} times with its {('left', 'right')[at % 2]} side")
     begin = np.where(is_back, high[arc], low[arc])
     end = np.where(is_back, low[arc], high[arc])
-    after = np.arange(1, len(arc) + 1)
-    after[cells.ring_starts[1:] - 1] = cells.ring_starts[:-1]
+    after = following(cells.ring_starts)
     at = first_wrong(end != begin[after])
     if at is not None:
         fail(f"ring {ring[at]} continues at vertex {begin[after[at]]}, but arc {arc[at]} ends at {end[at]}")

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import InputError
+from vorotool.numeric.numbers import rows_of
 from vorotool.types import fields as f
 from vorotool.types.features import Corners, Rows
 from vorotool.types.fields import record
@@ -170,19 +172,13 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
         if not self.largest_move:
             return made
         whole = np.flatnonzero((np.abs(places) < _FAR).all(axis=1) & (places == np.rint(places)).all(axis=1))
-        point = self._points_at(places[whole].astype(np.int64))
+        point = self.points_at(places[whole])
         made[whole[point >= 0]] = self.coordinates_as_given[point[point >= 0]]
         return made
 
-    def _points_at(self, places: NDArray[np.integer]) -> NDArray[np.int64]:
+    def points_at(self, places: NDArray[Any]) -> NDArray[np.int64]:
         """(k,) the point at each place of the lattice; -1 where there is none."""
-        keys = _packed(self.points)
-        order = np.argsort(keys, kind="stable")
-        if not len(keys):
-            return np.full(len(places), -1)
-        wanted = _packed(places)
-        point = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)]
-        return np.where(keys[point] == wanted, point, -1)
+        return rows_of(packed(self.points), packed(places))
 
     def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
         (a, b), (left, right) = np.ascontiguousarray(self.segments.T), np.ascontiguousarray(self.segment_faces.T)
@@ -194,8 +190,8 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
         return placed(", ".join(sizes), None if self.polygons is None else self.polygons.crs)
 
 
-def _packed(places: NDArray[np.integer]) -> NDArray[np.int64]:
+def packed(places: NDArray[Any]) -> NDArray[np.int64]:
     """One number for each place of the lattice."""
     x, y = places.astype(np.int64).T
-    packed: NDArray[np.int64] = x * 2**32 + y
-    return packed
+    made: NDArray[np.int64] = x * 2**32 + y
+    return made

@@ -107,7 +107,9 @@ def with_feet_of_corners(
     row, at = shapely.STRtree(shapely.points(cells.vertices[corner])).query(hulls, predicate="intersects")
     arc, vertex = curved[row], corner[at]
     place = cells.vertices[vertex]
-    near = np.where(cells.is_circle[arc], _from_circles(arcs[arc], place), _from_parabolas(arcs[arc], place))
+    own = arcs[arc]
+    from_circles = np.abs(_size(place - own.center) - _size(own.source - own.center))
+    near = np.where(own.is_circle, from_circles, _from_parabolas(own, place))
     chosen = (cells.arcs[arc] != vertex[:, None]).all(axis=1) & (near <= 2 * tolerance[arc])
     arc, place = arc[chosen], place[chosen]
     if not arc.size:
@@ -188,12 +190,6 @@ def _hulls(arcs: MixedArcs) -> Floats:
         corner = [np.where(arcs.is_circle[:, None], circle, arcs.control) for circle in of_circles]
     hulls: Floats = np.stack([arcs.source, *corner, arcs.target, arcs.source], axis=1)
     return hulls
-
-
-def _from_circles(arcs: MixedArcs, place: Floats) -> Floats:
-    offset, end = place - arcs.center, arcs.source - arcs.center
-    near: Floats = np.abs(np.sqrt((offset * offset).sum(axis=1)) - np.sqrt((end * end).sum(axis=1)))
-    return near
 
 
 def _from_parabolas(arcs: MixedArcs, place: Floats) -> Floats:
