@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -27,18 +28,29 @@ from vorotool.types.polygons.shapely_geometry import RingArrays
 class JointGraph:
     """The planar graph of sites, a frame, clips and enclosures together."""
 
-    # of all; its polygons are those of the sites first, then the frame, the clips and the enclosures
-    graph: PlanarGraph
-    of_clip: range  # their polygons; no polygon is of a clip that was not given
-    of_enclosures: range  # their polygons; no polygon is of a clip that was not given
-    frame: int  # the polygon of the frame; -1 without
+    graph: PlanarGraph  # of all
+    polygons: PolygonSet  # those of the sites first, then the frame, the clips and the enclosures
+    of_frame: range  # its polygon; none without a frame
+    of_clip: range  # their polygons; none without a clip
+    of_enclosures: range
     sites: PlanarGraph  # of the sites alone, on the same lattice, with a vertex wherever one of the others meets them
+
+    @cached_property
+    def source_polygon(self) -> NDArray[np.int32]:
+        """(k,) the polygon of each edge that segments are part of."""
+        ring = np.searchsorted(self.polygons.ring_starts, self.graph.source_edge, side="right") - 1
+        return self.polygons.ring_polygon[ring]
 
     @property
     def clips(self) -> bool:
         """Whether a clip covers any face."""
-        polygon = self.graph.face_polygon
-        return bool(((polygon >= self.of_clip.start) & (polygon < self.of_clip.stop)).any())
+        return bool(is_of(self.of_clip, self.graph.face_polygon).any())
+
+
+def is_of(polygons: range, number: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """(k,) whether each is the number of one of some polygons."""
+    found: NDArray[np.bool_] = (number >= polygons.start) & (number < polygons.stop)
+    return found
 
 
 def joint_graph(
@@ -67,9 +79,10 @@ def joint_graph(
     of_sites = Placement(vertices, placement.origin, placement.exponent, placement.largest_move)
     return JointGraph(
         graph,
+        joined,
+        range(frame, first),
         range(first, second),
         range(second, len(joined)),
-        -1 if sides is None else frame,
         graph_of_sites(noded, of_sites, progress=progress),
     )
 

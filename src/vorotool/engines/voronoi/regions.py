@@ -14,7 +14,7 @@ from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi_of_
 from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.cut_curves import NOBODY, CutEdges
 from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owners_of, rings_at_one_place
-from vorotool.engines.voronoi.joint_graph import JointGraph
+from vorotool.engines.voronoi.joint_graph import JointGraph, is_of
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
 from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of
 from vorotool.numeric.numbers import distinct, is_among, rows_of
@@ -50,7 +50,12 @@ def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Region
         reason = "no area lies both in the frame and in the clip" if joint.of_clip else "the frame is too small"
         warn(VorotoolWarning(Message(f"all {count} cells are empty: {reason}", Kind.EMPTY_RESULT)))
     if len(joint.of_enclosures):
-        is_line = np.bincount(owners(graph.source_count)[_is_of(joint.of_enclosures, graph)], minlength=len(graph)) > 0
+        is_line = (
+            np.bincount(
+                owners(graph.source_count)[is_of(joint.of_enclosures, joint.source_polygon)], minlength=len(graph)
+            )
+            > 0
+        )
         face = _parted(joint, _faces(graph, is_line), is_line, shared)
         left, right = face[graph.segment_faces].T
         pairs = _meetings(joint, site, face, is_line & (left != right))
@@ -85,28 +90,19 @@ def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Region
 def _as_given(joint: JointGraph) -> Floats:
     """(n, 2) coordinates of points in the input; others on an edge along an axis have its coordinate."""
     graph = joint.graph
-    given, made = graph.polygons, graph.coordinates_as_given.copy()
-    if given is None or not graph.largest_move:
+    given, made = joint.polygons, graph.coordinates_as_given.copy()
+    if not graph.largest_move:
         return made
     edge = graph.source_edge.astype(np.int64)
     source, target = given.xy[edge], given.xy[given.following[edge]]
     ends = graph.segments[owners(graph.source_count)].astype(np.int64)
-    of_frame = given.ring_polygon[np.searchsorted(given.ring_starts, edge, side="right") - 1] == joint.frame
+    of_frame = is_of(joint.of_frame, joint.source_polygon)
     for axis in (0, 1):
         along = source[:, axis] == target[:, axis]
         for chosen, may_move in ((along, graph.point_vertex < 0), (along & of_frame, np.ones(len(made), dtype=bool))):
             point, value = ends[chosen].ravel(), np.repeat(source[chosen, axis], 2)
             made[point[may_move[point]], axis] = value[may_move[point]]
     return made
-
-
-def _is_of(polygons: range, graph: PlanarGraph) -> NDArray[np.bool_]:
-    """(k,) whether each source of a segment is an edge of some polygons."""
-    given = graph.polygons
-    assert given is not None
-    first = given.ring_starts[np.searchsorted(given.ring_polygon, [polygons.start, polygons.stop])]
-    is_source: NDArray[np.bool_] = (graph.source_edge >= first[0]) & (graph.source_edge < first[1])
-    return is_source
 
 
 def _faces(graph: PlanarGraph, is_line: NDArray[np.bool_]) -> Indices:
@@ -121,8 +117,7 @@ def _parted(joint: JointGraph, face: Indices, is_line: NDArray[np.bool_], shared
     graph = joint.graph
     left, right = graph.segment_faces.T
     is_inner = shared[left] & shared[right]
-    joined = graph.segment_faces[~is_line & is_inner].astype(np.int32)
-    part = _core.graphs.connected_components(joined, graph.faces).astype(np.int64)
+    part = _faces(graph, is_line | ~is_inner)
     is_along = is_line & (shared[left] != shared[right])  # an edge of the frame or the clip
     is_along[is_along] = _run_together(joint, np.flatnonzero(is_along))
     divides = is_line & (face[left] == face[right]) & (is_along | (is_inner & (part[left] != part[right])))
@@ -136,17 +131,15 @@ def _run_together(joint: JointGraph, segments: Indices) -> NDArray[np.bool_]:
     Others cross, and are led through one more place of the lattice together.
     """
     graph = joint.graph
-    given, vertices = graph.polygons, graph.vertices
-    assert given is not None
+    vertices = graph.vertices
     assert vertices is not None
     sizes = graph.source_count[segments].astype(np.int64)
     row, source = owners(sizes), ranges(graph.source_starts[segments], sizes)
-    own = np.flatnonzero(_is_of(joint.of_enclosures, graph)[source])
+    own = np.flatnonzero(is_of(joint.of_enclosures, joint.source_polygon[source]))
     pair = ranges(graph.source_starts[segments[row[own]]], sizes[row[own]])  # each line with all on its segment
     row, line = np.repeat(row[own], sizes[row[own]]), np.repeat(source[own], sizes[row[own]])
-    first = joint.of_clip.start - (joint.frame >= 0)
-    is_cut = _is_of(range(first, joint.of_clip.stop), graph)[pair]
-    way = vertices[given.following].astype(np.int64) - vertices
+    is_cut = is_of(range(joint.of_frame.start, joint.of_clip.stop), joint.source_polygon[pair])
+    way = vertices[joint.polygons.following].astype(np.int64) - vertices
     (a, b), (c, d) = way[graph.source_edge[line[is_cut]]].T, way[graph.source_edge[pair[is_cut]]].T
     # rounding moves each coordinate of an end by half a step at most, and those of a way between two by a step
     is_parallel = np.abs(a * d - b * c) <= np.abs(a) + np.abs(b) + np.abs(c) + np.abs(d) + 2
@@ -158,9 +151,9 @@ def _is_shared_out(joint: JointGraph) -> NDArray[np.bool_]:
     graph = joint.graph
     face = owners(np.diff(graph.face_starts))
     shared = np.ones(graph.faces, dtype=bool)
-    for polygons in (range(joint.frame, joint.frame + 1) if joint.frame >= 0 else None, joint.of_clip or None):
-        if polygons is not None:
-            is_in = (graph.face_polygon >= polygons.start) & (graph.face_polygon < polygons.stop)
+    for polygons in (joint.of_frame, joint.of_clip):
+        if polygons:
+            is_in = is_of(polygons, graph.face_polygon)
             shared &= np.bincount(face[is_in], minlength=graph.faces) > 0
     shared[0] = False
     return shared
@@ -169,15 +162,12 @@ def _is_shared_out(joint: JointGraph) -> NDArray[np.bool_]:
 def _meetings(joint: JointGraph, site: NDArray[np.int32], face: Indices, is_line: NDArray[np.bool_]) -> Indices:
     """(k, 2) faces of enclosures and sites that meet their inside, each pair once."""
     graph = joint.graph
-    given = graph.polygons
-    assert given is not None
     # what polygons cover
     covered, polygon = face[owners(np.diff(graph.face_starts))], graph.face_polygon
     own = polygon < len(site)
     pairs = [np.stack([covered[own], site[polygon[own]]], axis=1)]
     # what open segments of sites lie in
-    ring = np.searchsorted(given.ring_starts, graph.source_edge, side="right") - 1
-    polygon, segment = given.ring_polygon[ring], owners(graph.source_count)
+    polygon, segment = joint.source_polygon, owners(graph.source_count)
     own = (polygon < len(site)) & ~is_line[segment]
     pairs += [np.stack([face[side], site[polygon[own]]], axis=1) for side in graph.segment_faces[segment[own]].T]
     pairs.append(_meetings_of_points(joint, site, face, is_line))
@@ -190,9 +180,7 @@ def _meetings_of_points(
     """(k, 2) the same of sites that are places, unless an enclosure runs through these."""
     import shapely
 
-    graph = joint.graph
-    given = graph.polygons
-    assert given is not None
+    graph, given = joint.graph, joint.polygons
     assert graph.vertices is not None
     lone = rings_at_one_place(graph, given)
     lone = lone[given.ring_polygon[lone] < len(site)]
