@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,9 @@ from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.numbers import shown_number
 from vorotool.types.fields import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet, labels_of
-from vorotool.types.volumes.volume_points import VolumePoints
+
+if TYPE_CHECKING:
+    from vorotool.types.volumes.volume_points import VolumePoints
 
 ROWS_FIRST = ("y", "lat", "north", "row", "r", "i")
 """How names begin, or are, of a first column that may be the y of two."""
@@ -51,6 +53,8 @@ def points_of_table(table: Any, name: str) -> PointSet:
 
 def volume_points_of_table(table: Any) -> VolumePoints:
     """Take coordinates of space, labels, further columns and the index of a table."""
+    from vorotool.types.volumes.volume_points import VolumePoints
+
     names, columns = _columns_of(table)
     texts = [str(each) for each in names]
     chosen = space_columns(texts)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import glob
 import os
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
@@ -13,7 +12,6 @@ from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import STANDARD, input_identity
 from vorotool.formats.io.sources import file_of
 from vorotool.formats.zarr.store import is_folder, is_store
-from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
@@ -161,7 +159,7 @@ def is_several(name: str) -> bool:
 
 def is_pattern(name: str) -> bool:
     """Return whether a name is a pattern, and no file has it."""
-    return glob.has_magic(name) and not os.path.lexists(file_of(name))
+    return not {*"*?["}.isdisjoint(name) and not os.path.lexists(file_of(name))
 
 
 def is_searched(path: str | os.PathLike[str]) -> bool:
@@ -197,6 +195,7 @@ def read_sites(
 def seeds_of_image(run: Run, o: Options, image: Raster, mode: SeedMode | None) -> SeedSet:
     """Find the seeds of an image, as the options say."""
     from vorotool.engines.tessellation.seeding import seeds_from_raster
+    from vorotool.jobs.masks import settled_foreground
 
     image, threshold, invert, _ = settled_foreground(run, o, image)
     return seeds_from_raster(

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from vorotool.products.inputs import DRAWINGS
 from vorotool.products.options import DEFAULTS, options_of
 from vorotool.products.registry import OF_ONE_SHAPE
-from vorotool.render.looks import Looks
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
     from vorotool.jobs.units import PixelSize
+    from vorotool.render.looks import Looks
 
 Place = tuple[float, float]
 ALL_PAGES = -1
@@ -188,6 +188,8 @@ class Options:
     @property
     def looks(self) -> Looks:
         """The looks of pictures."""
+        from vorotool.render.looks import Looks
+
         return Looks(
             self.scale,
             self.drawing_unit,

@@ -21,7 +21,6 @@ from vorotool.jobs.units import (
 )
 from vorotool.products.options import flag, options_of
 from vorotool.types.fields import UP
-from vorotool.types.scaling import stretched
 
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
@@ -137,6 +136,8 @@ def _mirrored_places(o: Options) -> Options:
 
 def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
     """Give outlines of an image as they lie on its map, in pixels; in steps where these have sides."""
+    from vorotool.types.scaling import stretched
+
     if size is not None and size.sides is not None:
         polygons = stretched(polygons, size.sides.x, size.sides.y)
     if size is None or size.origin is None:
@@ -155,14 +156,22 @@ def placed_sites(
     o = lengths_in_steps(with_pixel_size(run, o, given, points.grid))
     if o.pixel_size is None or not o.pixel_size.y_up:
         return o, points
+    from vorotool.types.scaling import stretched
+
     return o, stretched(points, 1, -1)
 
 
 def in_steps(o: Options, points: PointSet | SeedSet) -> PointSet:
     """Give points in pixels, or the sites of an image, in steps of ``--spacing``."""
-    from vorotool.convert.points import as_points
+    from vorotool.types.pixels import SQUARE
+    from vorotool.types.points.point_set import PointSet
 
     sides = sides_of(o)
+    if sides == SQUARE and isinstance(points, PointSet):
+        return replace(points, xy=points.xy + 0.0)  # there is no -0
+    from vorotool.convert.points import as_points
+    from vorotool.types.scaling import stretched
+
     return stretched(as_points(points), sides.x, sides.y)
 
 

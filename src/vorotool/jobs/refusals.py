@@ -16,7 +16,6 @@ from vorotool.products.options import flag, options_of
 from vorotool.products.options.row import Option
 from vorotool.products.options.rules import EXCLUDING, NEEDING, Rule
 from vorotool.products.registry import NAMING_FEATURES, PRODUCTS, Product
-from vorotool.render.looks import SCALE_BAR
 
 if TYPE_CHECKING:
     from vorotool.jobs.run_log import Run
@@ -235,6 +234,10 @@ def _check_chosen(o: Options, fmt: str, what: str, layers: Sequence[str]) -> Non
 
 def _check_styles(o: Options, layers: Sequence[str]) -> None:
     """Refuse colors and widths of layers that no picture has; the scale bar has a color, too."""
+    if not o.colors and not o.line_widths:
+        return
+    from vorotool.render.looks import SCALE_BAR
+
     for option, chosen in (("color", o.colors), ("line-width", o.line_widths)):
         names = list(dict.fromkeys([*layers, *([SCALE_BAR] if o.scale_bar and option == "color" else [])]))
         for layer in (layer for layer, _ in chosen if layer not in names):

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.convert.points import as_points
 from vorotool.errors import STRICT, InputError, LimitError, VerificationError, warn
 from vorotool.numeric.checks import checked_flag, checked_threads, joined_index, whole_numbers
 from vorotool.numeric.parallel import Progress
@@ -69,7 +68,7 @@ def delaunay(points: SeedsLike, *, strict: bool = False, threads: int = 0, progr
     >>> mesh.triangles.tolist(), mesh.hull.tolist()
     ([[0, 3, 2], [0, 1, 3], [3, 1, 2]], [0, 1, 2])
     """
-    given = as_points(points)
+    given = _point_set(points)
     if len(given) > MOST_POINTS:
         raise LimitError(f"the input has {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
     threads = checked_threads(threads)
@@ -78,6 +77,15 @@ def delaunay(points: SeedsLike, *, strict: bool = False, threads: int = 0, progr
     mesh = Triangulation(given.xy, **arrays, **known, first_number=given.first_number, frame=given.frame)
     report_duplicates(mesh, strict=strict)
     return mesh
+
+
+def _point_set(points: Any) -> PointSet:
+    """Return a set of points, or convert what holds them."""
+    if isinstance(points, PointSet):
+        return points
+    from vorotool.convert.points import as_points
+
+    return as_points(points)
 
 
 def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
@@ -210,7 +218,7 @@ def insert_points(
     [[0, 3, 2], [0, 1, 3], [3, 1, 2]]
     """
     check_value(mesh, "mesh", "Triangulation")
-    given = as_points(points)
+    given = _point_set(points)
     total = len(mesh.points) + len(given)
     if total > MOST_POINTS:
         raise LimitError(f"there would be {total} points, more than {MOST_POINTS}: triangulate them in parts")

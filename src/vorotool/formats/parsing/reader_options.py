@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import chain
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +16,10 @@ from vorotool.plain import plain
 from vorotool.types.fields import DOWN, UP, YAxis, with_y_axis
 from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.points.point_set import PointSet
-from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.values import counted
+
+if TYPE_CHECKING:
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
 LARGEST_LABEL = 0xFFFFFFFF
 """Labels are uint32: there cannot be more sites either."""
@@ -130,7 +132,7 @@ def shortened(value: Any, size: int = 40) -> str:
 _CRS = option("--input-crs", "crs")
 _Y_DOWN = option("--y-down", "y_up=False")
 
-Placed = TypeVar("Placed", PointSet, PolygonSet)
+Placed = TypeVar("Placed", PointSet, "PolygonSet")
 
 
 def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:

@@ -31,7 +31,6 @@ from vorotool.plain import scoped
 from vorotool.products.formats import TABLES, resolved
 from vorotool.types.features import Areas, features_of, matrix_of, rows_of
 from vorotool.types.fields import MEMBER, UP, YAxis
-from vorotool.types.mesh.tables import MEASURE, unit_of_measure
 from vorotool.types.table import Computed, Lookup, Table
 
 if TYPE_CHECKING:
@@ -89,8 +88,10 @@ def _with_unit(table: Table) -> dict[str, Any]:
     if unit is None or not columns:
         return columns
     column: Lookup | list[str | None] = Lookup([unit], np.zeros(table.rows, dtype=np.int32))
-    if next(iter(columns)) == MEASURE:  # a row is a measure: lengths, areas, and numbers without a unit
-        column = [unit_of_measure(name, unit) for name in columns[MEASURE]]
+    if next(iter(columns)) == "measure":  # a row is a measure: lengths, areas, and numbers without a unit
+        from vorotool.types.mesh.tables import unit_of_measure
+
+        column = [unit_of_measure(name, unit) for name in columns["measure"]]
     return columns | {"voro_unit" if "unit" in columns else "unit": column}
 
 
