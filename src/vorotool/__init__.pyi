@@ -110,12 +110,6 @@ from vorotool.engines.from_skeleton.verify_discs import (
 from vorotool.engines.from_skeleton.verify_thickness import (
     verify_thickness as verify_thickness,
 )
-from vorotool.engines.junctions.joining import (
-    join_junctions as join_junctions,
-)
-from vorotool.engines.junctions.verify_joining import (
-    verify_joining as verify_joining,
-)
 from vorotool.engines.label_images.outlines import (
     outlines as outlines,
 )
@@ -152,6 +146,9 @@ from vorotool.engines.offsets.verify_offsets import (
 from vorotool.engines.peers.medial_axis import (
     local_thickness as local_thickness,
 )
+from vorotool.engines.pruning.joining import (
+    join_junctions as join_junctions,
+)
 from vorotool.engines.pruning.pruning import (
     arc_profiles as arc_profiles,
 )
@@ -160,6 +157,9 @@ from vorotool.engines.pruning.pruning import (
 )
 from vorotool.engines.pruning.pruning import (
     prune as prune,
+)
+from vorotool.engines.pruning.verify_joining import (
+    verify_joining as verify_joining,
 )
 from vorotool.engines.pruning.verify_pruning import (
     verify_pruning as verify_pruning,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -15,6 +15,19 @@ Booleans = NDArray[np.bool_]
 
 
 Lengths = NDArray[Any] | Sequence[int]
+
+
+class Columns:
+    """Arrays of the same length, the fields of a data class: rows are chosen and joined of all of them."""
+
+    def __getitem__(self, chosen: NDArray[np.generic]) -> Self:
+        return type(self)(*(getattr(self, name)[chosen] for name in self.__annotations__))
+
+    def joined(self, more: Self) -> Self:
+        """Return these rows and others."""
+        return type(self)(
+            *(np.concatenate([getattr(self, name), getattr(more, name)]) for name in self.__annotations__)
+        )
 
 
 class Nesting(NamedTuple):

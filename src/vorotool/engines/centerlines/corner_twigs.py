@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Booleans, Floats, Numbers, owners, ranges
+from vorotool.numeric.arrays import Booleans, Columns, Floats, Numbers, owners, ranges
 from vorotool.numeric.numbers import difference, product
 from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -113,7 +113,7 @@ def _cosine(ends: Floats, meets: Booleans) -> Floats:
 
 
 @plain(eq=False)
-class Pairs:
+class Pairs(Columns):
     """Twigs at both corners of an edge."""
 
     one: Numbers  # (p,) integer array: the twigs, the smaller number first
@@ -121,14 +121,6 @@ class Pairs:
     edge: Numbers  # (p,) integer array: the site
     # (p,) bool array: whether the angles at both corners differ by no more than a right angle: neither is a tip
     is_blunt: Booleans
-
-    def __getitem__(self, chosen: NDArray[np.generic]) -> Pairs:
-        return Pairs(*(values[chosen] for values in self.__dict__.values()))
-
-    def and_these(self, more: Pairs) -> Pairs:
-        """All of both."""
-        both = zip(self.__dict__.values(), more.__dict__.values(), strict=True)
-        return Pairs(*(np.concatenate(columns) for columns in both))
 
 
 def pairs_of(skeleton: Skeleton, twigs: Twigs) -> Pairs:

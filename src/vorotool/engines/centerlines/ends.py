@@ -81,7 +81,7 @@ def unforked(skeleton: Skeleton) -> Unforked:
     ends = grown_runs(branches, skeleton.radius, twigs, plain)
     size = np.bincount(ends.run, minlength=len(twigs))[ends.run]
     at_one = twigs.node[plain.one] == twigs.node[plain.other]
-    forks = plain[at_one & plain.is_blunt & (size[plain.one] == 2)].and_these(star_forks)
+    forks = plain[at_one & plain.is_blunt & (size[plain.one] == 2)].joined(star_forks)
     forks = forks[twigs.node[forks.one] < nodes]  # others hang on what was pruned
     around = np.where(is_settled[twigs.node] & (branches.degree[twigs.node] > MOST_WITH_ENDS), twigs.node, -1)
     around = np.where(np.isin(ends.run, ends.closed), len(branches.degree) + ends.run, around)

@@ -25,7 +25,7 @@ def led_on(lines: LedOn, wanted: NDArray[np.bool_], *, to_middles: bool | NDArra
         return ends
     places = np.full((np.count_nonzero(wanted), 2), np.nan)
     is_led = (wanted & to_middles)[wanted]
-    places[is_led] = end_middles(path, lines.end_nodes[wanted][is_led].astype(np.intp)).places
+    places[is_led] = end_middles(path, lines.end_nodes[wanted][is_led].astype(np.intp))
     rest = np.isnan(places[:, 0])
     way, origin = (origin - _places_before(lines))[wanted], origin[wanted]
     polygon = np.stack([lines.polygon] * 2, axis=1)[wanted]
@@ -117,14 +117,6 @@ TIMES = 3
 
 
 @plain(eq=False)
-class EndMiddles:
-    """Middles of ends."""
-
-    places: Floats  # (k, 2) float64 array: NaN where there is none
-    vertices: Numbers  # (k,) integer array: where the edges begin that they are on; -1 for none
-
-
-@plain(eq=False)
 class _Outlines:
     """The outline of each end: a place on a side, vertices of the polygon, a place on the other side."""
 
@@ -135,13 +127,13 @@ class _Outlines:
     is_left: Booleans  # (k,) bool array: whether each turns to the left at corners that the inside goes into
 
 
-def end_middles(skeleton: Skeleton, leaves: Numbers) -> EndMiddles:
-    """Find the middles of the ends of strips beyond leaves inside."""
+def end_middles(skeleton: Skeleton, leaves: Numbers) -> Floats:
+    """(k, 2) the middles of the ends of strips beyond leaves inside; NaN where there is none."""
     walks = Walks(skeleton, leaves)
     origin, arcs, at_target = skeleton.vertices[leaves], walks.arcs, walks.at_target
     sites = np.where(at_target[:, None], skeleton.sites[arcs], skeleton.sites[arcs][:, ::-1]).astype(np.intp)
     ways = walks.directions(is_smooth=skeleton.polygons.connectivity is None)
-    places, vertices = np.full((len(arcs), 2), np.nan), np.full(len(arcs), -1, dtype=np.intp)
+    places = np.full((len(arcs), 2), np.nan)
     table = skeleton.site_table
     own = (table.polygon[sites] == skeleton.polygon[arcs][:, None]).all(axis=1) & (ways != 0).any(axis=1)
     chosen = np.flatnonzero(own & (table.ring[sites[:, 0]] == table.ring[sites[:, 1]]))
@@ -150,12 +142,11 @@ def end_middles(skeleton: Skeleton, leaves: Numbers) -> EndMiddles:
         to_middle, corners = _half_way(outlines, ways[chosen])
         if skeleton.polygons.connectivity is not None:  # of pixels: shoulders are steps
             _set_single_edges(outlines, skeleton.radius[leaves[chosen]], to_middle, corners)
-        met, edges = _met(skeleton, outlines, origin[chosen], to_middle, corners)
+        met = _met(skeleton, outlines, origin[chosen], to_middle, corners)
         is_round = _square(to_middle) < FLAT * FLAT * _square(met - origin[chosen])
-        axis, beyond = _met(skeleton, outlines, origin[chosen], ways[chosen], corners)
+        axis = _met(skeleton, outlines, origin[chosen], ways[chosen], corners)
         places[chosen] = np.where(is_round[:, None], axis, met)
-        vertices[chosen] = np.where(is_round, beyond, edges)
-    return EndMiddles(places, vertices)
+    return places
 
 
 # ---- outlines -------------------------------------------------------------------------------------
@@ -258,25 +249,23 @@ def _unit(ways: Floats) -> Floats:
 
 
 # ---- rays -----------------------------------------------------------------------------------------
-def _met(
-    skeleton: Skeleton, outlines: _Outlines, origin: Floats, way: Floats, corners: Numbers
-) -> tuple[Floats, Numbers]:
-    """Where rays meet outlines first, and where the edges begin that they meet; midpoints of whole edges exactly."""
+def _met(skeleton: Skeleton, outlines: _Outlines, origin: Floats, way: Floats, corners: Numbers) -> Floats:
+    """Where rays meet outlines first; midpoints of whole edges exactly."""
     polygons = skeleton.polygons
     edge = np.delete(np.arange(len(outlines.points)), outlines.start[1:] - 1)
     ray = owners(np.diff(outlines.start) - 1)
     at, met = first_crossings(ray, outlines.points[edge], outlines.points[edge + 1], way)
-    places, vertices = np.full((len(way), 2), np.nan), np.full(len(way), -1, dtype=np.intp)
+    places = np.full((len(way), 2), np.nan)
     hit = np.flatnonzero(met >= 0)
     places[hit] = origin[hit] + at[hit]
     one = edge[met[hit]]
-    vertices[hit] = outlines.vertex[one]
-    a, b = polygons.xy[vertices[hit]], polygons.xy[polygons.following[vertices[hit]]]
+    vertex = outlines.vertex[one]
+    a, b = polygons.xy[vertex], polygons.xy[polygons.following[vertex]]
     places[hit] = np.where(a == b, a, places[hit])  # exactly on edges along an axis
     is_whole = (np.sort(corners[hit], axis=1) == np.stack([one, one + 1], axis=1)).all(axis=1)
     is_whole &= outlines.is_vertex[one] & outlines.is_vertex[np.minimum(one + 1, len(outlines.vertex) - 1)]
     places[hit[is_whole]] = a[is_whole] / 2 + b[is_whole] / 2
-    return places, vertices
+    return places
 
 
 BACK = (0.0625, 0.125, 0.1875, 1.0)

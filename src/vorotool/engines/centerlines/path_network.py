@@ -11,7 +11,7 @@ from vorotool import _core
 from vorotool.engines.centerlines.corner_twigs import TIE
 from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.skeleton.parts import core_skeleton
-from vorotool.numeric.arrays import Booleans, Floats, owners, starts_of
+from vorotool.numeric.arrays import Booleans, Columns, Floats, owners, starts_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -56,7 +56,7 @@ class Paths:
 
 
 @plain(eq=False)
-class Pieces:
+class Pieces(Columns):
     """Parts of arcs along lines, each in the direction of its line."""
 
     line: Indices
@@ -64,9 +64,6 @@ class Pieces:
     first: Floats
     last: Floats
     is_turned: Booleans
-
-    def __getitem__(self, chosen: NDArray[np.generic]) -> Pieces:
-        return Pieces(*(values[chosen] for values in self.__dict__.values()))
 
 
 class Network:

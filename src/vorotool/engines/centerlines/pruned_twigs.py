@@ -18,26 +18,22 @@ from dataclasses import replace
 from heapq import heapify, heappop, heappush
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.parts import with_straight_arcs
-from vorotool.numeric.arrays import Booleans, Floats, Numbers, owners, starts_of, within
+from vorotool.numeric.arrays import Booleans, Columns, Floats, Numbers, owners, starts_of, within
 from vorotool.numeric.numbers import is_among
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
 
 @plain(eq=False)
-class _Sides:
+class _Sides(Columns):
     """Edges on one side of arcs around nodes that are on the other side of no arc there."""
 
     node: Numbers  # (k,) integer array: the node, the arc, the edge, and the vertex where that begins
     arc: Numbers  # (k,) integer array: the node, the arc, the edge, and the vertex where that begins
     site: Numbers  # (k,) integer array: the node, the arc, the edge, and the vertex where that begins
     vertex: Numbers  # (k,) integer array: the node, the arc, the edge, and the vertex where that begins
-
-    def __getitem__(self, chosen: NDArray[np.generic]) -> _Sides:
-        return _Sides(*(values[chosen] for values in self.__dict__.values()))
 
 
 @plain(eq=False)

@@ -15,12 +15,14 @@ from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import (
     MOST_VERTICES,
     Arrangement,
+    Found,
     Placement,
     arranged,
     placed_vertices,
+    report_repairs,
+    report_small,
 )
 from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes, with_flat_shells_as_lines
-from vorotool.engines.arrangement.reports import Found, report_repairs, report_small
 from vorotool.errors import LimitError, warn
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
 from vorotool.numeric.checks import available_threads

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.engines.skeleton.clearance import SitePlaces, clearance_course, is_maximum, plateaus
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Floats, Numbers, starts_of, within
+from vorotool.numeric.arrays import Columns, Floats, Numbers, starts_of, within
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import whole_number
 from vorotool.numeric.parallel import Progress
@@ -128,7 +128,7 @@ TIE = 2.0**-48
 
 
 @plain(eq=False)
-class Candidates:
+class Candidates(Columns):
     """Places with the discs around them."""
 
     xy: Floats  # (n, 2) and (n,) float64 array: the discs
@@ -139,14 +139,6 @@ class Candidates:
 
     def __len__(self) -> int:
         return len(self.radius)
-
-    def __getitem__(self, chosen: NDArray[np.generic]) -> Candidates:
-        return Candidates(*(getattr(self, each.name)[chosen] for each in fields(self)))
-
-    def joined(self, others: Candidates) -> Candidates:
-        """These and others."""
-        both = (np.concatenate([getattr(self, each.name), getattr(others, each.name)]) for each in fields(self))
-        return Candidates(*both)
 
     def largest(self, rounding: float) -> Numbers:
         """Give the first of each feature: of the largest ones with the smallest x, of these with the smallest y."""

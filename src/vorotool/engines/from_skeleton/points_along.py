@@ -138,14 +138,12 @@ def _pieces(lines: LedOn) -> _Pieces:
     nodes = path.vertices[lines.end_nodes]
     of_first = np.stack([lines.ends[first, 0], nodes[first, 0]], axis=1)
     of_last = np.stack([nodes[last, 1], lines.ends[last, 1]], axis=1)
-    line = np.concatenate([first, owners(np.diff(start)), last])
-    order = np.argsort(line, kind="stable")
-    line = line[order]
-    arc = np.concatenate([np.full(len(first), -1), arcs, np.full(len(last), -1)])[order]
-    nearest = np.concatenate([start[:-1][first], arcs, start[1:][last] - 1])[order]
-    ends = np.concatenate([of_first, path.vertices[path.arcs], of_last])[order]
+    line = lines.line_of_row
+    arc = lines.in_rows(np.full(len(first), -1), arcs, np.full(len(last), -1))
+    nearest = lines.in_rows(start[:-1][first], arcs, start[1:][last] - 1)
+    ends = lines.in_rows(of_first, path.vertices[path.arcs], of_last)
     extension = lines.extension_length
-    length = np.concatenate([extension[first, 0], path.length, extension[last, 1]])[order]
+    length = lines.in_rows(extension[first, 0], path.length, extension[last, 1])
     whole = np.concatenate([[0.0], np.cumsum(length)])
     begin = whole[:-1] - whole[np.searchsorted(line, line)]
     return _Pieces(arc, nearest, ends, length, begin, line)

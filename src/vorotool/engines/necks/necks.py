@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.engines.skeleton.clearance import clearance_course, plateaus
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError, option
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Columns, Floats, Indices
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
@@ -131,7 +131,7 @@ def found_necks(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
     feet = feet_of(skeleton, ways)
     x, y = feet.xy.mean(axis=1).T
     order = np.lexsort((ways.arc[:, 0], y, x, skeleton.polygon[ways.arc[:, 0]]))
-    ways, feet = ways.taken(order), feet.taken(order)
+    ways, feet = ways[order], feet[order]
     clearance = np.zeros(len(flow.top))
     np.maximum.at(clearance, flow.plateau, skeleton.radius)
     beside = largest_beside(ways.top, feet.square, clearance)
@@ -174,7 +174,7 @@ def _found(root: list[int], place: int) -> int:
 
 
 @plain(eq=False)
-class Ways:
+class Ways(Columns):
     """The two ways that lead on from each neck."""
 
     # (n, 2) int64 array: the arc that each way begins with: the same twice where the neck is inside an arc
@@ -193,10 +193,6 @@ class Ways:
     def is_inside(self) -> NDArray[np.bool_]:
         """(n,) whether each neck is inside an arc, not at a node."""
         return np.equal(self.arc[:, 0], self.arc[:, 1])
-
-    def taken(self, chosen: NDArray[np.bool_] | Indices) -> Ways:
-        """Those of some necks."""
-        return Ways(self.arc[chosen], self.end[chosen], self.middle[chosen], self.top[chosen])
 
 
 @plain(eq=False)
@@ -287,7 +283,7 @@ _SNAP = 4
 
 
 @plain(eq=False)
-class Feet:
+class Feet(Columns):
     """Feet of necks: left and right of the way from the first of their ways to the second."""
 
     site: Indices  # (n, 2) int64 array: what each foot is on
@@ -297,10 +293,6 @@ class Feet:
     # number, the second is 0. Else one is on an edge: it is the square of the first number over the second, the
     # square of the length of that edge
     square: Indices
-
-    def taken(self, chosen: NDArray[np.bool_] | Indices) -> Feet:
-        """Those of some necks."""
-        return Feet(self.site[chosen], self.xy[chosen], self.width[chosen], self.square[chosen])
 
 
 def feet_of(skeleton: Skeleton, ways: Ways) -> Feet:

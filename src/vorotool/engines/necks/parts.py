@@ -96,7 +96,7 @@ def cut_parts(found: FoundNecks, neck: float) -> Parts:
     a, b = sides.part[sides.node].T
     chosen = chosen[a != b]
     axis = _cut(found, chosen)
-    feet, necks = found.feet.taken(chosen), found.necks.taken(chosen)
+    feet, necks = found.feet[chosen], found.necks.taken(chosen)
     return _parts_of(axis, _as_given(outlines_of(axis, feet), feet, necks), necks)
 
 
@@ -112,7 +112,7 @@ def _as_given(outlines: Outlines, feet: Feet, necks: Necks) -> Outlines:
 
 def _cut(found: FoundNecks, chosen: Indices) -> CutAxis:
     necks = found.necks
-    return cut_axis(necks.skeleton, found.ways.taken(chosen), necks.xy[chosen], necks.width[chosen])
+    return cut_axis(necks.skeleton, found.ways[chosen], necks.xy[chosen], necks.width[chosen])
 
 
 # ---- pieces --------------------------------------------------------------------------------------

@@ -1,1 +1,1 @@
-"""Skeletons without the pieces that matter less than a threshold, and their check."""
+"""Skeletons without the pieces that matter less than a threshold, or with near junctions made one; their checks."""

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton, Wanted, approximate_skeleton
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
-from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
+from vorotool.engines.skeleton.exact import diagram_of_placed, skeleton_of
 from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
 from vorotool.errors import silent
 from vorotool.numeric.arrays import starts_of
@@ -152,10 +151,9 @@ def exact_skeleton(
     found: ApproximateSkeleton, *, side: str = "interior", frame: Extent | None = None, threads: int = 0
 ) -> Skeleton:
     """Compute the exact skeleton of the shapes that were sampled."""
-    graph, placed = found.shapes.graph, found.shapes.placed
-    diagram = segment_voronoi(graph.points, graph.segments, threads=threads)
+    diagram = diagram_of_placed(found.shapes.graph, found.shapes.placed, threads=threads)
     with silent():  # that there is no interior was told before
-        return skeleton_of(ShapeDiagram(graph, diagram, placed), side=side, frame=frame, threads=threads)
+        return skeleton_of(diagram, side=side, frame=frame, threads=threads)
 
 
 def _as_dict(found: Deviation | None) -> dict[str, Any] | None:

@@ -8,13 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
-from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton
+from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton, BoundarySamples
 from vorotool.engines.skeleton.verify_bounds import place_error
 from vorotool.engines.skeleton.verify_skeleton import check_arrays, verify_skeleton
 from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.parallel import Progress
-from vorotool.types.skeleton.boundary_samples import BoundarySamples
 
 SEED_ERROR = 2.0**-20
 """Of a lattice step: how far seeds may be from their edges, and gaps from what they should be."""

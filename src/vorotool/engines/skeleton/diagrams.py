@@ -13,8 +13,14 @@ from vorotool.engines.arrangement.planar_graph import arranged, graph_for_skelet
 from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, are_apart, in_batches, together
 from vorotool.engines.features.order import InputOrder
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
-from vorotool.engines.skeleton.exact import ShapeDiagram, diagram_of_graph, skeleton_of, warn_empty, whole_diagram
+from vorotool.engines.skeleton.exact import (
+    ShapeDiagram,
+    diagram_of_graph,
+    diagram_of_placed,
+    skeleton_of,
+    warn_empty,
+    whole_diagram,
+)
 from vorotool.engines.skeleton.parts import PER_ARC, without_equal_nodes
 from vorotool.engines.skeleton.per_feature import FeatureSkeleton, Seen, feature_skeleton, joined_skeletons
 from vorotool.engines.skeleton.shortened_edges import (
@@ -193,7 +199,7 @@ def sides_of(
         ShortEdges.of(graph, gap).refuse(placed.polygons, placed.sites, gap)
         again = elements_of_shapes(graph, placed, gap, **common)
     else:
-        again = ShapeDiagram(graph, segment_voronoi(graph.points, graph.segments, **common), placed)
+        again = diagram_of_placed(graph, placed, **common)
     return joined_sides(inside, _skeleton_of(again, side="exterior", **wanted), placed, graph)
 
 

@@ -69,8 +69,13 @@ def diagram_of_graph(
     """Compute the segment Voronoi diagram of polygons that are placed."""
     threads = checked_threads(threads)
     unwanted = sides_not_interior(graph) if interior_only else None
-    diagram = segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
-    return ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads))
+    placed = placed_shapes(graph, threads=threads)
+    return diagram_of_placed(graph, placed, unwanted=unwanted, threads=threads, progress=progress)
+
+
+def diagram_of_placed(graph: PlanarGraph, placed: PlacedShapes, **options: Any) -> ShapeDiagram:
+    """Compute what `diagram_of_graph` gives; options as of `segment_voronoi`."""
+    return ShapeDiagram(graph, segment_voronoi(graph.points, graph.segments, **options), placed)
 
 
 def sides_not_interior(graph: PlanarGraph) -> NDArray[np.uint8] | None:

@@ -15,6 +15,7 @@ from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, se
 from vorotool.engines.skeleton.exact import (
     ShapeDiagram,
     assembled,
+    diagram_of_placed,
     face_groups,
     interior_skeleton,
     of_one_arrangement,
@@ -330,17 +331,13 @@ def gap_deviation(skeleton: Skeleton, exact: Skeleton) -> float:
 
 def exact_for(elements: ElementDiagram, side: str, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:
     """Compute the exact skeleton of the shapes that were decomposed."""
-    shapes = elements.shapes
-    diagram = segment_voronoi(shapes.points, shapes.segments, threads=threads)
-    whole = ShapeDiagram(shapes, diagram, elements.placed)
+    whole = diagram_of_placed(elements.shapes, elements.placed, threads=threads)
     return skeleton_of(whole, side=side, frame=frame, threads=threads)
 
 
 def exact_inside(elements: ElementDiagram) -> Skeleton:
     """Compute what is inside the shapes that were decomposed exactly, and say no word if there is nothing."""
-    shapes = elements.shapes
-    diagram = segment_voronoi(shapes.points, shapes.segments, threads=1)
-    return interior_skeleton(ShapeDiagram(shapes, diagram, elements.placed))
+    return interior_skeleton(diagram_of_placed(elements.shapes, elements.placed, threads=1))
 
 
 @plain(eq=False)

@@ -13,9 +13,10 @@ from vorotool.engines.arrangement.planar_graph import (
     Placement,
     arranged,
     placed_vertices,
+    report_repairs,
+    report_small,
 )
 from vorotool.engines.arrangement.repaired_polygons import flat_holes, with_flat_shells_as_lines
-from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import LimitError
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of

@@ -15,6 +15,7 @@ from vorotool.engines.sampled_skeleton.approximate import (
     SampledShapes,
     SamplingOptions,
     Wanted,
+    sample_table,
     whole_sampled_diagram,
 )
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation, approximation, samples_of_graph
@@ -27,7 +28,6 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import table_in_units
 from vorotool.numeric.parallel import Progress
 from vorotool.types.polygons.planar_graph import PlanarGraph
-from vorotool.types.skeleton.boundary_samples import sample_table
 from vorotool.types.skeleton.skeleton import Skeleton
 
 ALL_TOGETHER = {"diagram", "elements"}

@@ -97,7 +97,7 @@ class SkeletonProducts(Results, ABC):
         """What is left, with near junctions made one: of what is drawn and counted, but not of what is measured."""
         if not self.options.join_junctions:
             return self.skeleton
-        from vorotool.engines.junctions.joining import join_junctions
+        from vorotool.engines.pruning.joining import join_junctions
 
         skeleton = self.skeleton
         with self.run.phase("join"):
@@ -223,7 +223,7 @@ class SkeletonProducts(Results, ABC):
 
             verify_pruning(self.skeleton, self.whole)
         if self.options.join_junctions:
-            from vorotool.engines.junctions.verify_joining import verify_joining
+            from vorotool.engines.pruning.verify_joining import verify_joining
 
             verify_joining(self.joined, self.skeleton)
 

@@ -99,8 +99,18 @@ class LedOn(Value, Tabular, Curved, Pictured):
     @cached_property
     def line_of_row(self) -> NDArray[np.intp]:
         """(m,) the path of each row of the table, in which extensions are rows, too."""
+        return np.sort(self._paths_of_rows)
+
+    @cached_property
+    def _paths_of_rows(self) -> NDArray[np.intp]:
+        """Paths of extensions at starts, of arcs, and of extensions at ends."""
         first, last = self.extended
-        return np.sort(np.concatenate([first, owners(np.diff(self.arc_starts)), last]))
+        return np.concatenate([first, owners(np.diff(self.arc_starts)), last])
+
+    def in_rows(self, at_starts: Any, of_arcs: Any, at_ends: Any) -> NDArray[Any]:
+        """Return values of extensions at starts, of arcs, and of extensions at ends in the order of rows."""
+        order = np.argsort(self._paths_of_rows, kind="stable")  # starts before the arcs of their line, ends behind them
+        return np.concatenate([at_starts, of_arcs, at_ends])[order]
 
     @cached_property
     def length(self) -> Floats:
@@ -157,35 +167,32 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
     """Return one row an arc, line by line, with the straight lines that lead on."""
     given, nodes = lines.as_given, lines.end_nodes
     path = given.path
-    first, last = lines.extended
-    line = np.concatenate([first, owners(np.diff(lines.arc_starts)), last])
-    # starts before the arcs of their line, ends behind them: the order is stable
-    order = np.argsort(line, kind="stable")
-    nothing = np.zeros(len(first)), np.zeros(len(last))
+    (first, last), line = lines.extended, lines.line_of_row
+    at_start, at_end = np.zeros(len(first)), np.zeros(len(last))
     source, target = path.vertices[path.arcs].swapaxes(0, 1)
     r0, r1 = path.radius[path.arcs].T
     start_node, end_node = nodes[first, 0], nodes[last, 1]
-    begin = np.concatenate([given.ends[first, 0], source, path.vertices[end_node]])[order]
-    end = np.concatenate([path.vertices[start_node], target, given.ends[last, 1]])[order]
-    blank = [np.full((len(some), 2), np.nan) for some in nothing]
-    control = np.concatenate([blank[0], path.control, blank[1]])[order]
-    kind = np.concatenate([np.full(len(first), 2), path.is_parabola, np.full(len(last), 2)])[order]
-    polygon = lines.polygon[line[order]]
-    start = np.searchsorted(line[order], np.arange(len(lines)))
-    length = np.concatenate([lines.extension_length[first, 0], path.length, lines.extension_length[last, 1]])
+    begin = lines.in_rows(given.ends[first, 0], source, path.vertices[end_node])
+    end = lines.in_rows(path.vertices[start_node], target, given.ends[last, 1])
+    blank = [np.full((len(some), 2), np.nan) for some in (first, last)]
+    control = lines.in_rows(blank[0], path.control, blank[1])
+    kind = lines.in_rows(at_start + 2, path.is_parabola, at_end + 2)
+    polygon = lines.polygon[line]
+    start = np.searchsorted(line, np.arange(len(lines)))
+    extension = lines.extension_length
     return part_table(
         {
             **names_of(path.polygons, polygon),
-            **({"branch": line[order]} if has_branches else {}),
-            "arc": np.arange(len(line)) - start[line[order]],
+            **({"branch": line} if has_branches else {}),
+            "arc": np.arange(len(line)) - start[line],
             **place_columns(begin, "0"),
-            "r0": np.concatenate([nothing[0], r0, path.radius[end_node]])[order],
+            "r0": lines.in_rows(at_start, r0, path.radius[end_node]),
             **place_columns(end, "1"),
-            "r1": np.concatenate([path.radius[start_node], r1, nothing[1]])[order],
+            "r1": lines.in_rows(path.radius[start_node], r1, at_end),
             "kind": Lookup([*KINDS, EXTENSION], kind.astype(np.int32)),
             "cx": control[:, 0].copy(),
             "cy": control[:, 1].copy(),
-            "length": length[order],
+            "length": lines.in_rows(extension[first, 0], path.length, extension[last, 1]),
         },
         path.polygons,
         polygon,
