@@ -44,7 +44,7 @@ def asked_sides(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
         return pixel_sides(None, axes)
     if grid is None:
         raise UsageError(f"spacing='auto' needs an image that states the size of its {what}: give numbers instead")
-    sides = sides_of_grid(grid) if isinstance(grid, PixelGrid) else sides_of_voxels(grid)
+    sides = sides_of_grid(*((grid.height, grid.width) if isinstance(grid, PixelGrid) else grid.sides))
     if sides is None:
         raise UsageError(
             f"spacing='auto': the input has {what} of {grid.size_text()}, whose sides have no common step that is "
@@ -92,19 +92,6 @@ def _voxels(source: Any) -> VoxelGrid | None:
         return None
     depth, height, width = (step * (factor or 1) for step, factor in zip(steps, factors, strict=True))
     return VoxelGrid(width, height, depth, units[-1])
-
-
-def sides_of_voxels(grid: VoxelGrid) -> PixelSides | None:
-    """Give sides with a common step: as the file has them, else as the shortest decimal numbers that are alike."""
-    depth, height, width = grid.sides
-    alike = {side: width for side in (height, depth) if abs(side - width) <= ALIKE * width}
-    exact = [alike.get(side, side) for side in (depth, height, width)]
-    for sides in (exact, [*map(rounded_side, exact)]):
-        try:
-            return pixel_sides(sides, 3)
-        except UsageError:
-            continue
-    return None
 
 
 COLUMN_AXES = ("x", "lon", "longitude", "easting", "column", "col")

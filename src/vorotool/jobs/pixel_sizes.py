@@ -63,7 +63,7 @@ def size_of_file(grid: PixelGrid | None, o: Options) -> PixelSize:
     """Return the size of pixels that an image states, or refuse one that states none."""
     grid = sized(grid, o)
     if o.pixel_size is not None and o.pixel_size.is_spacing:
-        return _spacing_of(grid)
+        return _spacing_of_pixels(grid)
     if not grid.is_square:
         instead = "give a number and its unit, such as --pixel-size 0.325um"
         measure = "use --spacing auto, or " if o.takes_spacing else ""
@@ -71,17 +71,23 @@ def size_of_file(grid: PixelGrid | None, o: Options) -> PixelSize:
     return PixelSize(grid.width, grid.unit)
 
 
-def _spacing_of(grid: PixelGrid) -> PixelSize:
+def _spacing_of_pixels(grid: PixelGrid) -> PixelSize:
     """Both sides as distances take them."""
+    instead = "give rounded sides, such as --spacing 0.325,0.5um"
+    return spacing_of(grid, (grid.height, grid.width), "image has pixels", instead)
+
+
+def spacing_of(grid: PixelGrid | VoxelGrid, sides: tuple[Fraction, ...], what: str, instead: str) -> PixelSize:
+    """Return the sides of pixels or voxels as distances take them, or refuse those that have no common step."""
     from vorotool.types.pixels import sides_of_grid
 
-    sides = sides_of_grid(grid)
-    if sides is None:
+    found = sides_of_grid(*sides)
+    if found is None:
         raise InputError(
-            f"the image has pixels of {grid.size_text()}, whose sides have no common step that is coarse enough for "
-            "exact distances: give rounded sides, such as --spacing 0.325,0.5um"
+            f"the {what} of {grid.size_text()}, whose sides have no common step that is coarse enough for exact "
+            f"distances: {instead}"
         )
-    return PixelSize(Fraction(1), grid.unit, is_spacing=True, sides=sides)
+    return PixelSize(Fraction(1), grid.unit, is_spacing=True, sides=found)
 
 
 def _note_of_size(given: JobInput, grid: PixelGrid, o: Options, what: str = "results") -> str:
@@ -117,7 +123,7 @@ def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: Options) -> PixelSize
     if asked is None:
         where = "on a map" if grid.crs is None else f"in {crs_name(grid.crs)}"
         run.note(f"{given.name} lies {where}: results are in its coordinates; {in_pixels}")
-    size = _spacing_of(grid) if is_spacing else PixelSize(grid.width, grid.unit)
+    size = _spacing_of_pixels(grid) if is_spacing else PixelSize(grid.width, grid.unit)
     return size._replace(origin=grid.center, y_up=grid.is_north_up, crs=grid.crs)
 
 

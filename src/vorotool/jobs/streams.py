@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.bands import Band, SeedBands, with_neighbors
-from vorotool.engines.tessellation.frames import CELL, band_limits, label_dtype, require_memory
+from vorotool.engines.tessellation.frames import band_limits, label_dtype, require_memory
 from vorotool.engines.tessellation.tessellate import labeled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
@@ -28,7 +28,7 @@ from vorotool.jobs.units import sides_of, table_in_units
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.images import LabelImage
-from vorotool.types.pixels import SQUARE, Frame, PixelSides
+from vorotool.types.pixels import CELL, SQUARE, Frame, PixelSides
 from vorotool.types.table import Table
 from vorotool.types.volumes.volume import LabelVolume
 from vorotool.types.volumes.voxel_frame import VoxelFrame

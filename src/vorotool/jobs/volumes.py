@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.convert.spacings import sides_of_voxels
 from vorotool.engines.tessellation.cleaned_masks import Cleaning
 from vorotool.engines.tessellation.frames import require_memory
 from vorotool.engines.tessellation.volume_seeding import (
@@ -22,7 +20,7 @@ from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.sources import reading
-from vorotool.formats.volumes.opening import open_volume
+from vorotool.formats.volumes.opening import kind_of_head, open_volume
 from vorotool.formats.volumes.points import read_xyz
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
@@ -30,7 +28,7 @@ from vorotool.jobs.inputs import JobInput, frame_of, report_no_seeds
 from vorotool.jobs.masks import report_cleaning
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.picture_world import world_of
-from vorotool.jobs.pixel_sizes import lengths_of_voxels
+from vorotool.jobs.pixel_sizes import lengths_of_voxels, spacing_of
 from vorotool.jobs.refusals import check_voxel_size, refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streams import Tessellated, check_chunks, tessellated_rows
@@ -47,8 +45,6 @@ from vorotool.types.volumes.voxel_frame import VoxelGrid
 if TYPE_CHECKING:
     from vorotool.render.label_images.picture import LabelPicture
     from vorotool.render.looks import World
-
-_TIFF_HEADS = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 
 _OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert", "min-area", "fill-holes"})
 """Options that images and volumes have, and points have not."""
@@ -218,7 +214,8 @@ def _is_volume(o: Options, path: str) -> bool:
             head = file.read(len(MAGIC))
     except (OSError, ValueError):
         return False  # who reads it says what is wrong
-    return head.startswith(_TIFF_HEADS) or (head == MAGIC and o.columns is None)
+    kind = kind_of_head(head)
+    return kind == "tiff" or (kind == "npy" and o.columns is None)
 
 
 def _foreground(run: Run, o: Options, source: VolumeSource) -> tuple[float | None, bool]:
@@ -264,13 +261,7 @@ def _of_file(grid: VoxelGrid | None) -> PixelSize:
     instead = "give numbers and their unit, such as --spacing 0.325,0.325,1.5um"
     if grid is None:
         raise InputError(f"the volume states no voxel size: {instead}")
-    sides = sides_of_voxels(grid)
-    if sides is None:
-        raise InputError(
-            f"the volume has voxels of {grid.size_text()}, whose sides have no common step that is coarse enough for "
-            f"exact distances: {instead}"
-        )
-    return PixelSize(Fraction(1), grid.unit, is_spacing=True, sides=sides)
+    return spacing_of(grid, grid.sides, "volume has voxels", instead)
 
 
 def _written_grid(size: PixelSize | None, sides: PixelSides, grid: VoxelGrid | None) -> VoxelGrid | None:

@@ -128,12 +128,13 @@ class PixelGrid:
         return " ".join([" x ".join(f"{float(side):.10g}" for side in sides), *([self.unit] if self.unit else [])])
 
 
-def sides_of_grid(grid: PixelGrid) -> PixelSides | None:
-    """Return the sides of the pixels of a grid for exact distances, if their common step is coarse enough."""
-    height = grid.width if grid.is_square else grid.height
-    for sides in ((height, grid.width), (rounded_side(height), rounded_side(grid.width))):
+def sides_of_grid(*sides: Fraction) -> PixelSides | None:
+    """Return the sides of pixels or voxels, the width last, for exact distances, if their step is coarse enough."""
+    width = sides[-1]
+    exact = [width if abs(side - width) <= ALIKE * width else side for side in sides]
+    for each in (exact, [*map(rounded_side, exact)]):
         try:
-            return pixel_sides(sides)
+            return pixel_sides(each, len(sides))
         except UsageError:
             continue
     return None
@@ -320,6 +321,9 @@ def check_frame(frame: Any, cells: str, instead: str) -> None:
         size, least = " x ".join(map(shown_number, frame.shape[::-1])), " x ".join("1" * len(frame.shape))
         raise InputError(f"the frame is {size} {cells}: it needs at least {least}, use {instead}")
 
+
+CELL = {2: "pixel", 3: "voxel"}
+"""What frames of so many axes consist of."""
 
 MAX_PIXELS = 2**31
 """Pixels held in memory at most, unless told otherwise (``--max-pixels``)."""

@@ -7,7 +7,7 @@ from scipy import ndimage
 from support.few import few
 from vorotool import seeds_from_volume
 from vorotool.engines.tessellation.cleaned_masks import CleanedSlices, Cleaning
-from vorotool.engines.tessellation.raster_objects import HeldParts, PartwiseObjects
+from vorotool.engines.tessellation.raster_objects import PartwiseObjects
 from vorotool.engines.tessellation.volume_seeding import seeds_of_slabs
 from vorotool.types.volumes.volume import Volume
 
@@ -45,7 +45,7 @@ def cleaned(mask, cleaning, connectivity):
 @pytest.mark.parametrize("mask", MASKS)
 def test_volumes_are_cleaned_as_by_scipy(mask, cleaning, connectivity, step):
     expected, filled, removed, count = cleaned(mask, cleaning, connectivity)
-    made = CleanedSlices(PartwiseObjects(HeldParts(Volume(mask)), connectivity=connectivity, step=step), cleaning)
+    made = CleanedSlices(PartwiseObjects(Volume(mask), connectivity=connectivity, step=step), cleaning)
     assert (made.slices(0, len(mask)) == expected).all()
     assert made.filled == filled
     assert (made.removed, made.objects) == ((removed, count) if cleaning.min_area > 1 else (0, 0))
@@ -54,7 +54,7 @@ def test_volumes_are_cleaned_as_by_scipy(mask, cleaning, connectivity, step):
 def test_slices_are_read_in_any_order():
     mask = MASKS[1]
     expected = cleaned(mask, Cleaning(4, True), 26)[0]
-    made = CleanedSlices(PartwiseObjects(HeldParts(Volume(mask)), connectivity=26, step=1), Cleaning(4, True))
+    made = CleanedSlices(PartwiseObjects(Volume(mask), connectivity=26, step=1), Cleaning(4, True))
     for first, count in [(0, 3), (5, 1), (8, 1), (2, 4), (0, 9), (8, 1), (8, 1)]:
         assert (made.slices(first, count) == expected[first : first + count]).all()
     assert (made.shape, made.grid) == (mask.shape, None)
@@ -70,7 +70,7 @@ def test_seeds_are_those_of_the_clean_volume(mode, connectivity, slices):
     options = {"mode": mode, "connectivity": connectivity, "threshold": 200, "invert": True}
     assert seeds_from_volume(grey, **options, min_area=2.5, fill_holes=2) == expected
     reported = []
-    source = HeldParts(Volume(grey))
+    source = Volume(grey)
     made = seeds_of_slabs(source, **options, cleaning=Cleaning(3, 2), slices=slices, report=reported.append)
     assert made == expected
     assert len(reported) == 1

@@ -10,7 +10,6 @@ from skimage.filters import threshold_otsu
 import vorotool
 from support.few import few
 from vorotool.engines.tessellation.interior_seeds import paint_inner
-from vorotool.engines.tessellation.raster_objects import HeldParts
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.volume_seeding import (
     objects_of_volume,
@@ -74,7 +73,7 @@ def test_slabs_give_what_the_whole_gives(mode, connectivity):
     values = np.where(mask_of(random, (13, 20, 16), 0.03), random.integers(1, 4, (13, 1, 16)), 0)
     grid = VoxelGrid(Fraction(1), Fraction(1), Fraction(2), "um")
     told = []
-    source = HeldParts(Volume(values, grid))
+    source = Volume(values, grid)
     whole = seeds_of_slabs(source, mode=mode, connectivity=connectivity)
     for slices in (1, 2, 3, 5, 12, 13, 99):
         asked = {"mode": mode, "connectivity": connectivity, "slices": slices, "progress": told.append}
@@ -168,14 +167,14 @@ def test_thresholds():
     for values in (grey, (20 * grey + 100).astype(np.uint8), (20 * grey).astype(np.int16), (9 * grey).astype(np.int64)):
         level = threshold_otsu(values)
         for slices in (1, 4, 6):
-            source = HeldParts(Volume(values))
+            source = Volume(values)
             found = objects_of_volume(source, "otsu", slices=slices).threshold
             assert np.array_equal(values > found, values > level)
         above = seeds_from_volume(values, threshold="otsu", mode="pixels")
         assert len(above) == (values > level).sum()
         below = seeds_from_volume(values, threshold=float(level), invert=True, mode="pixels")
         assert len(below) == (values <= level).sum()
-    flat = objects_of_volume(HeldParts(Volume(np.full((2, 2, 2), 5))), "otsu", invert=True)
+    flat = objects_of_volume(Volume(np.full((2, 2, 2), 5)), "otsu", invert=True)
     assert (flat.threshold, flat.invert) == (5, False)
 
 
@@ -224,7 +223,8 @@ def test_a_volume_without_foreground_has_no_seeds():
     for mode in ("components", "labels", "pixels", "centroids", None):
         with pytest.warns(VorotoolWarning, match="the volume has no foreground"):
             seeds = seeds_from_volume(np.zeros((2, 3, 4), np.uint8), mode=mode)
-        assert seeds.is_empty_volume
+        assert not len(seeds)
+        assert seeds.frame is not None
         assert (seeds.object_volume is None) == (mode == "pixels")
         sweep = Tessellator(seeds)
         assert not sweep.labels().any()

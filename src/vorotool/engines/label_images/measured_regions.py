@@ -17,13 +17,11 @@ from vorotool.errors import InputError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.pixels import Frame, PixelSides
+from vorotool.types.pixels import CELL, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.table import Table
 from vorotool.types.volumes.volume import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
-
-CELL = {2: "pixel", 3: "voxel"}
 
 _MEASURES = {2: ("area", "perimeter", "border_length"), 3: ("volume", "surface", "border_area")}
 """Columns: the size of a region and of its border, and of the border that two share."""

@@ -15,6 +15,7 @@ from vorotool.engines.tessellation.raster_objects import (
     Note,
     Objects,
     Threshold,
+    check_objects,
     default_objects,
     foreground_values,
     gray_values,
@@ -160,10 +161,7 @@ def outlines(
         raise UsageError(f"the outline is {outline!r}: it must be one of {', '.join(KINDS)}")
     if not is_choice(border, BORDERS):
         raise UsageError(f"the border is {border!r}: it must be one of {', '.join(BORDERS)}")
-    if not is_choice(mode, (None, *get_args(Objects))):
-        raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(Objects))}")
-    if not is_choice(connectivity, (4, 8)):
-        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
+    check_objects(mode, get_args(Objects), connectivity)
     origin = (0, 0)
     if isinstance(image, LabelImage):
         assert image.frame is not None  # LabelImage has filled it in

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,6 @@ from vorotool.convert.images import as_label_image
 from vorotool.convert.volumes import as_volume, is_of_space
 from vorotool.engines.common import described, label_array, next_row
 from vorotool.engines.label_images.measured_regions import (
-    CELL,
     RegionMeasures,
     Regions,
     largest_by_label,
@@ -24,6 +23,7 @@ from vorotool.errors import InputError, LimitError
 from vorotool.numeric.checks import as_array, checked_flag, checked_threads, naming
 from vorotool.numeric.numbers import finite_double
 from vorotool.numeric.parallel import Progress
+from vorotool.types.pixels import CELL
 from vorotool.types.table import Table
 from vorotool.types.volumes.volume import LabelVolume
 
@@ -32,18 +32,6 @@ if TYPE_CHECKING:
 
 LARGEST_COLOR_TABLE = 1 << 28
 """Entries that an array indexed by label may have."""
-
-
-class Bordered(Protocol):
-    """Measures that say which regions are neighbors, of an image or of a volume."""
-
-    @property
-    def labels(self) -> NDArray[np.uint32]:
-        """(k,) of the regions, increasing."""
-
-    @property
-    def borders(self) -> NDArray[np.uint32]:
-        """(b, 2) indices of neighbors."""
 
 
 def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
@@ -237,7 +225,7 @@ def diagram_of(
 def region_colors(
     image: Any,
     *,
-    measures: Bordered | None = None,
+    measures: RegionMeasures | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
@@ -250,7 +238,7 @@ def region_colors(
 def color_regions(
     image: ImageLike | VolumeLike,
     *,
-    measures: Bordered | None = None,
+    measures: RegionMeasures | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> NDArray[Any]:

@@ -12,9 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.tessellation.raster_objects import PartwiseObjects, default_objects, numbered_components
+from vorotool.engines.tessellation.raster_objects import (
+    PartwiseObjects,
+    check_objects,
+    default_objects,
+    numbered_components,
+)
 from vorotool.errors import InputError, UsageError, option
-from vorotool.numeric.checks import is_choice
 from vorotool.numeric.numbers import real_number, shown_number
 
 if TYPE_CHECKING:
@@ -101,8 +105,7 @@ def cleaned_mask(
     missing: NDArray[np.bool_] | None = None,
 ) -> CleanedMask:
     """Fill the holes of the objects of a mask, and then leave out the objects that are small."""
-    if not is_choice(connectivity, (4, 8)):
-        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
+    check_objects(None, (), connectivity)
     made = mask
     if cleaning.fill_holes is not False:
         background = numbered_components(~mask, 12 - connectivity)

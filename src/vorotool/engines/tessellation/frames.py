@@ -23,7 +23,7 @@ from vorotool.engines.tessellation.seeding import FrameOf, moved_to, seeds_from_
 from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.numeric.numbers import real_number, shown_number
 from vorotool.types.images import LabelImage
-from vorotool.types.pixels import MAX_PIXELS, SQUARE, Frame, PixelSides
+from vorotool.types.pixels import CELL, MAX_PIXELS, SQUARE, Frame, PixelSides
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds
@@ -39,9 +39,6 @@ MOST_UNASKED = 2**28
 
 _VOXELS_A_SEED, _MOST_VOXELS = 64, 2**27
 """Of a slab of a volume."""
-
-CELL = {2: "pixel", 3: "voxel"}
-"""What frames of so many axes consist of."""
 
 _CELLS = option("delaunay --what cells", "voronoi_cells")
 _WINDOW = {

@@ -5,21 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from math import floor
-from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.errors import OTSU, STRICT, InputError, Kind, Message, VorotoolWarning, option, warn
-from vorotool.numeric.checks import checked_flag
-from vorotool.numeric.numbers import finite_double
+from vorotool.errors import OTSU, STRICT, InputError, Kind, Message, UsageError, VorotoolWarning, option, warn
+from vorotool.numeric.checks import checked_flag, is_choice
+from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.plain import plain
 from vorotool.types.images import Raster
-
-if TYPE_CHECKING:
-    from vorotool.types.volumes.volume import Volume
-    from vorotool.types.volumes.voxel_frame import VoxelGrid
+from vorotool.types.volumes.volume import Volume
 
 Objects = Literal["components", "labels"]
 Threshold = float | Literal["otsu"] | None
@@ -47,6 +44,19 @@ _NARROW = 2
 
 _LUMINANCE = (0.2125, 0.7154, 0.0721)
 """Weights of red, green and blue (ITU-R BT.709, as scikit-image has them)."""
+
+
+def check_objects(mode: Any, modes: tuple[str, ...], connectivity: Any, axes: int = 2) -> None:
+    """Refuse what no object is by, and neighborhoods that an image, or a volume, has not."""
+    known, others = ((4, 8), (26, 6)) if axes == 2 else ((26, 6), (8, 4))
+    if not is_choice(connectivity, known):
+        what, other = ("", "volumes") if axes == 2 else (" in a volume", "images")
+        more = f"; {others[0]} and {others[1]} apply to {other}" if is_choice(connectivity, others) else ""
+        raise UsageError(
+            f"connectivity is {shown_number(connectivity)}: it must be {known[0]} or {known[1]}{what}{more}"
+        )
+    if not is_choice(mode, (None, *modes)):
+        raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(modes)}")
 
 
 def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> NDArray[Any]:
@@ -255,40 +265,11 @@ def label_values(values: NDArray[Any], *, first: int = 0) -> NDArray[Any]:
 # ---- objects of what is read part by part
 
 
-class Parts(Protocol):
-    """An image that is read by ``rows``, or a volume by ``slices``; it can be pickled."""
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Rows and columns, after slices if there are some."""
-
-
-@plain
-class HeldParts:
-    """A volume in memory, as one that is read."""
-
-    volume: Volume
-
-    @property
-    def shape(self) -> tuple[int, int, int]:
-        """Slices, rows and columns."""
-        return self.volume.shape
-
-    @property
-    def grid(self) -> VoxelGrid | None:
-        """Sides of the voxels."""
-        return self.volume.grid
-
-    def slices(self, first: int, count: int) -> NDArray[Any]:
-        """Give some slices."""
-        return self.volume.values[first : first + count]
-
-
 @plain
 class PartwiseObjects:
     """The rows of an image, or the slices of a volume, of which the objects are seeds."""
 
-    source: Any  # `Parts`
+    source: Any  # with a shape; an image is read by its ``rows``, a volume by its ``slices`` unless it is in memory
     # what shares a label; by default as in `seeds_from_raster`, but a photograph is looked for only in the first part
     # that has two values
     mode: str | None = None
@@ -309,6 +290,8 @@ class PartwiseObjects:
 
     def read(self, first: int, count: int) -> NDArray[Any]:
         """Read some rows or slices."""
+        if isinstance(self.source, Volume):
+            return self.source.values[first : first + count]
         is_flat = len(self.source.shape) == 2
         values: NDArray[Any] = (self.source.rows if is_flat else self.source.slices)(first, count)
         return values

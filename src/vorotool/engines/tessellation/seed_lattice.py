@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vorotool.errors import STRICT, InputError, warn
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.types.pixels import SQUARE, Frame, PixelSides
+from vorotool.types.pixels import CELL, SQUARE, Frame, PixelSides
 from vorotool.types.points.seed_set import SCALES
 from vorotool.types.values import counted
 from vorotool.types.volumes.volume import FINEST_SCALE
@@ -34,8 +34,6 @@ _MOST_COUNTED = 2**61
 
 _LARGE_MOVE = 2.0**-20
 """Seeds of decimals move by less, in pixels or voxels, where the lattice is not coarse for the frame."""
-
-_CELL = {2: "pixel", 3: "voxel"}
 
 
 class SnappedPlaces(NamedTuple):
@@ -104,7 +102,7 @@ def snapped_places(places: NDArray[np.float64], finest: int = FINEST_SCALE) -> S
     if far.size:
         raise InputError(
             f"point {far[0] + 1} is ({', '.join(f'{each:.17g}' for each in places[far[0]].tolist())}): "
-            f"coordinates of seeds must be at most 2^44 {_CELL[places.shape[1]]}s; scale the points"
+            f"coordinates of seeds must be at most 2^44 {CELL[places.shape[1]]}s; scale the points"
         )
     fine = places * finest
     steps = np.rint(fine)
@@ -157,7 +155,7 @@ def _columns_of_regions(
 
 def report_snapped(places: NDArray[np.float64], snapped: SnappedPlaces, *, strict: bool) -> None:
     """Refuse places that moved to the lattice, or warn if one moved far; the seeds have the count in any case."""
-    count, cell = snapped.moves, _CELL[places.shape[1]]
+    count, cell = snapped.moves, CELL[places.shape[1]]
     step = f"1/{snapped.finest}" if snapped.finest <= FINEST_SCALE else f"2^-{snapped.finest.bit_length() - 1}"
     if not count:
         return

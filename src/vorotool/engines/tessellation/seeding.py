@@ -15,6 +15,7 @@ from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
     Note,
+    check_objects,
     default_objects,
     foreground_values,
     label_values,
@@ -29,9 +30,8 @@ from vorotool.engines.tessellation.seed_lattice import (
     sites_of_points,
     snapped_places,
 )
-from vorotool.errors import LimitError, UsageError, option
-from vorotool.numeric.checks import is_choice
-from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.errors import LimitError, option
+from vorotool.numeric.numbers import whole_number
 from vorotool.types.arguments import check_value
 from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.points.point_set import PointSet
@@ -189,14 +189,10 @@ def seeds_from_raster(
     >>> seeds_from_raster(np.array([[1, 0, 1], [0, 0, 1]])).labels.tolist()
     [1, 2, 2]
     """
-    if not is_choice(connectivity, (4, 8)):
-        of_volumes = "; 26 and 6 apply to volumes" if is_choice(connectivity, (26, 6)) else ""
-        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8{of_volumes}")
+    check_objects(mode, get_args(SeedMode), connectivity)
     max_sites = whole_number(max_sites, "max_sites")
     raster = as_raster(raster, "raster", is_gray=True)
     values = foreground_values(raster, threshold, invert=invert)
-    if not is_choice(mode, (None, *get_args(SeedMode))):
-        raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
     frame = Frame(0, 0, values.shape[1], values.shape[0])
     if cleaning := Cleaning.of(min_area, fill_holes):
         values = cleaned_values(values, cleaning, mode, connectivity=connectivity, missing=raster.mask).mask

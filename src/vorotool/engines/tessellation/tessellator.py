@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.tessellation.frames import (
-    CELL,
     check_out,
     default_frame,
     label_dtype,
@@ -28,7 +27,7 @@ from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
-from vorotool.types.pixels import MAX_SIDE, Frame, PixelSides
+from vorotool.types.pixels import CELL, MAX_SIDE, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.volumes.volume import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame

@@ -14,16 +14,15 @@ from vorotool.convert.volumes import as_volume, as_volume_points, is_volume
 from vorotool.engines.tessellation.cleaned_masks import CleanedSlices, Cleaning
 from vorotool.engines.tessellation.interior_seeds import inner_runs, surrounded
 from vorotool.engines.tessellation.raster_objects import (
-    HeldParts,
     Note,
     PartwiseObjects,
+    check_objects,
     report_no_foreground,
 )
 from vorotool.engines.tessellation.seed_lattice import report_snapped, sites_of_points, snapped_places
 from vorotool.engines.tessellation.seeding import SeedMode, moved_to, numbered, parts, sums
-from vorotool.errors import LimitError, UsageError, option
-from vorotool.numeric.checks import is_choice
-from vorotool.numeric.numbers import finite_double, shown_number, whole_number
+from vorotool.errors import LimitError, option
+from vorotool.numeric.numbers import finite_double, whole_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds
@@ -47,7 +46,6 @@ SLAB_VOXELS = 2**23
 CHUNK = 1 << 22
 """Seeds that are placed at a time."""
 
-_CONNECTIVITY = (26, 6)
 _CENTROIDS = option("--seeds centroids", 'mode="centroids"')
 
 
@@ -190,7 +188,7 @@ def seeds_from_volume(
     [1, 2, 2]
     """
     return seeds_of_slabs(
-        HeldParts(as_volume(volume, "volume", is_gray=True)),
+        as_volume(volume, "volume", is_gray=True),
         mode=mode,
         connectivity=connectivity,
         threshold=threshold,
@@ -218,11 +216,7 @@ def seeds_of_slabs(
     report: Callable[[CleanedSlices], None] | None = None,
 ) -> VolumeSeeds:
     """Take seeds from a volume that is read slab by slab, and never held; the rest is as of `seeds_from_volume`."""
-    if not is_choice(connectivity, _CONNECTIVITY):
-        of_images = "; 8 and 4 apply to images" if is_choice(connectivity, (8, 4)) else ""
-        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 26 or 6 in a volume{of_images}")
-    if not is_choice(mode, (None, *get_args(SeedMode))):
-        raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
+    check_objects(mode, get_args(SeedMode), connectivity, axes=3)
     depth, height, width = source.shape
     frame = VoxelFrame(0, 0, 0, width, height, depth)
     objects = objects_of_volume(source, threshold, invert=invert, slices=slices)

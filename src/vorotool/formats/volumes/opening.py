@@ -73,9 +73,14 @@ def _opened(name: str, said: str | None) -> VolumeSource:
     return NpyVolume(spoken, place, spool) if kind == "npy" else TiffStack(spoken, place, spool)
 
 
+def kind_of_head(head: bytes) -> str | None:
+    """Tell the format of a volume by its first bytes."""
+    return next((kind for start, kind in _HEADS if head.startswith(start)), None)
+
+
 def _kind(name: str, head: bytes, said: str | None) -> str:
     """Tell the format by the content, which must be what the caller says."""
-    found = next((kind for start, kind in _HEADS if head.startswith(start)), None)
+    found = kind_of_head(head)
     if not head:
         raise InputError(f"{name} is empty, but a volume is expected: check the program that wrote it")
     if said == "zarr":

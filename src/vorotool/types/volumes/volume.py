@@ -244,11 +244,6 @@ class VolumeSeeds(Value):
         """Columns, rows and slices of the seeds, in steps."""
         return (self.x, self.y, self.z)
 
-    @property
-    def is_empty_volume(self) -> bool:
-        """Whether these are the seeds of a volume without foreground: no list of points brings a frame."""
-        return not len(self) and self.frame is not None
-
     @cached_property
     def largest_label(self) -> int:
         """The largest label, 0 for no seeds."""
