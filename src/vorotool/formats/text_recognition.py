@@ -57,7 +57,7 @@ def recognized_geometry(
 
 def point_format(source: Source) -> str:
     """Tell the format of points, if it is one, by the extension, else by the content."""
-    if source.suffix == ".zip" and _holds_shapefile(source.data):
+    if source.suffix == ".zip" and resolved("formats.gis.vector_files:holds_shapefile")(source.data):
         return "shp"
     refuse_drawing(source)
     refuse_convertible(source)
@@ -73,15 +73,10 @@ def _by_header(source: Source, chosen: str, columns: str | None = None) -> str:
     return "csv-wkt" if geometry_column(fields) is not None and coordinate_columns(fields) is None else chosen
 
 
-def _holds_shapefile(data: bytes) -> bool:
-    holds: bool = resolved("formats.gis.vector_files:holds_shapefile")(data)
-    return holds
-
-
 def _by_content(data: bytes) -> str:
     head = data[:4096].removeprefix(_UTF8_MARK).lstrip()
     found = next((name for start, name in _HEADS if head.startswith(start)), None)
-    if found == "npz" and _holds_shapefile(data):
+    if found == "npz" and resolved("formats.gis.vector_files:holds_shapefile")(data):
         return "shp"
     if found is not None:
         return found

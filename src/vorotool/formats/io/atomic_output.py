@@ -68,11 +68,9 @@ def open_output(
     elif name == STANDARD:
         writer = _embedded_output()
     else:
-        target = _checked_target(name, no_clobber, inputs, option)
-        if _is_regular(target):
-            writer = _replacing(name, target, Rules(no_clobber, tuple(inputs), option))
-        else:
-            writer = _direct(name, target, binary, option)
+        rules = Rules(no_clobber, tuple(inputs), option)
+        target = _checked_target(name, rules)
+        writer = _replacing(name, target, rules) if _is_regular(target) else _direct(name, target, binary, option)
     with writer as out:
         yield out
 
@@ -90,10 +88,9 @@ def check_output(
     name = os.fspath(path)
     if _checked_descriptor(name, binary, option) is not None or name == STANDARD:
         return
-    target = _checked_target(name, no_clobber, inputs, option)
-    if not _is_regular(target):
-        return
-    check_folder(name, target.parent, makes_folder=makes_folder, option=option)
+    target = _checked_target(name, Rules(no_clobber, tuple(inputs), option))
+    if _is_regular(target):
+        check_folder(name, target.parent, makes_folder=makes_folder, option=option)
 
 
 def check_folder(name: str, folder: Path, *, makes_folder: bool = False, option: str = OUTPUT) -> None:
@@ -158,8 +155,8 @@ def _embedded_output() -> Iterator[BinaryIO]:
         sys.stdout.buffer.flush()
 
 
-def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathLike[str]], option: str) -> Path:
-    target = followed(name, option)
+def _checked_target(name: str, rules: Rules) -> Path:
+    target = followed(name, rules.option)
     exists = target.exists()
     if not name:
         raise OutputError("the name of the output is empty: name a file")
@@ -167,9 +164,9 @@ def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathL
         raise OutputError(f"{name!r} is a directory: name a file in it")
     if not exists or not _is_regular(target):
         return target
-    _check_replaced(name, target, Rules(no_clobber, tuple(inputs), option))
+    _check_replaced(name, target, rules)
     if not os.access(target, os.W_OK):
-        raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with {option}")
+        raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with {rules.option}")
     return target
 
 
@@ -278,13 +275,9 @@ def failure(name: str, error: OSError, option: str = OUTPUT) -> OutputError:
         "ENOSPC": f"free some space, or {elsewhere}",
         "EDQUOT": f"free some space, or {elsewhere}",
     }
-    code, reason = _error_name(error), error.strerror or error
+    code, reason = errno.errorcode.get(error.errno or 0, ""), error.strerror or error
     if code == "ENOENT":
         reason = "the directory does not exist"
         if (folder := Path(name).parent).is_dir():  # as in /proc and /dev/fd, which are made by the system
             code, reason = "", f"no file can be created in {folder}"
     return OutputError(f"{name} cannot be written: {reason}; {advice.get(code, elsewhere)}")
-
-
-def _error_name(error: OSError) -> str:
-    return errno.errorcode.get(error.errno or 0, "")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -92,7 +91,8 @@ def _recognize(name: str, fields: list[str], options: ReadOptions) -> tuple[bool
         meanings = [*plain, "label"][: len(chosen)]
         if [plain_name(each) for each in used] != meanings:  # plain x, y need no word
             options.note(f"{name}: columns {', '.join(used)} are read as {', '.join(meanings)}")
-        return True, _chosen(chosen, options)
+        label = chosen[options.axes] if len(chosen) > options.axes else None
+        return True, Chosen(chosen[0], chosen[1], label, chosen[2] if options.wants_z else None)
     header = not any(_looks_numeric(field) for field in fields) and any(fields)
     if not header and len(fields) == 2 and not options.wants_z:
         return False, Chosen(0, 1)
@@ -102,12 +102,6 @@ def _recognize(name: str, fields: list[str], options: ReadOptions) -> tuple[bool
 def note_no_label(name: str, options: ReadOptions) -> None:
     """Say that a column that is called label holds something else."""
     options.note(f"{name}: the column label holds other values than integers from 1: points are numbered from 1")
-
-
-def _chosen(columns: Sequence[int], options: ReadOptions) -> Chosen:
-    """Columns of x, y, z if it is wanted, and the label if there is one."""
-    label = columns[options.axes] if len(columns) > options.axes else None
-    return Chosen(columns[0], columns[1], label, columns[2] if options.wants_z else None)
 
 
 def _look_up(name: str, fields: list[str], wanted: Wanted, options: ReadOptions) -> tuple[bool, Chosen]:

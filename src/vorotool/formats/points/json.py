@@ -89,7 +89,11 @@ def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions)
     place = feature_places(name, document)
     collected = _Collected()
     for index, feature in enumerate(features):
-        _collect(collected, index, feature, place(index))
+        positions = _positions(geometry_of(feature, place(index)), place(index))
+        collected.without_geometry += not positions
+        collected.positions.extend(positions)
+        collected.features.extend([index] * len(positions))
+        collected.parts.extend(range(1, len(positions) + 1))
     options.check_sites(name, len(collected.positions))
     found = position_array(collected.positions, lambda i: place(collected.features[i]), options.axes)
     options.note_left_out(name, collected.without_geometry)
@@ -100,15 +104,6 @@ def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions)
         note_unnamed(name, found[:, :2], options.note)
     properties = _properties(name, features, collected) if options.properties else {}
     return PointRows(found, None, properties, {"y_axis": read_y_axis(name, document, UP), "crs": crs, "unit": unit})
-
-
-def _collect(collected: _Collected, index: int, feature: Any, place: str) -> None:
-    positions = _positions(geometry_of(feature, place), place)
-    if not positions:
-        collected.without_geometry += 1
-    collected.positions.extend(positions)
-    collected.features.extend([index] * len(positions))
-    collected.parts.extend(range(1, len(positions) + 1))
 
 
 def _positions(geometry: Any, place: str) -> list[Any]:
