@@ -108,6 +108,34 @@ def test_click_has_what_the_table_has(command):
         assert {*made[name].opts, *made[name].secondary_opts} == {f for s in row.spellings for f in s.split("/")}
 
 
+def made_for(command, *arguments):
+    """The parameters of a command that is made for some arguments."""
+    return {each.name for each in vorotool.resolve_command(click.Context(vorotool), [command, *arguments])[1].params}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_command_has_the_options_that_its_arguments_name(command):
+    rows = options_of(command)
+    for name, row in rows.items():
+        for flag in (flag for spelling in row.spellings for flag in spelling.split("/")):
+            for typed in (
+                flag,
+                f"{flag}=1",
+                f"{flag}1" if flag[1] != "-" else flag,
+                flag if len(flag) > 2 else f"-q{flag[1]}",
+            ):
+                assert name in made_for(command, "a.csv", typed), typed
+    assert rows.keys() <= made_for(command, "--help")
+    assert rows.keys() <= made_for(command, "-qh")
+    assert not rows.keys() & made_for(command, "a.csv")
+
+
+def test_a_command_has_the_options_of_the_environment(monkeypatch):
+    monkeypatch.setenv("VOROTOOL_MAX_SITES", "3")
+    assert "max_sites" in made_for("delaunay", "a.csv")
+    assert "max_sites" not in made_for("draw", "a.png")
+
+
 ADDED = """
 import sys
 from vorotool.products import options
