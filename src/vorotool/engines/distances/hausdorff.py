@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from itertools import combinations
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -186,8 +186,7 @@ def _candidates(graph: PlanarGraph, diagram: SegmentVoronoiDiagram, chosen: Indi
         return about
     owner, triples = _triples(diagram, chosen)
     radius = graph.scale * diagram.radius[chosen[owner]]
-    sites = _sites_as_given(graph, triples)
-    made = _equally_far(about[owner], radius, *sites)
+    made = _equally_far(about[owner], radius, *_sites_as_given(graph, triples))
     return np.concatenate([about, made[np.isfinite(made).all(axis=1)]])
 
 
@@ -206,16 +205,8 @@ def _triples(diagram: SegmentVoronoiDiagram, chosen: Indices) -> tuple[Indices, 
     return np.concatenate(owners).astype(np.int64), np.concatenate(triples).astype(np.int64)
 
 
-class _Sites(NamedTuple):
-    """Sites as they were given: one end, the unit normal of a segment, and which are points."""
-
-    at: Floats
-    normal: Floats
-    is_point: NDArray[np.bool_]
-
-
-def _sites_as_given(graph: PlanarGraph, sites: Indices) -> _Sites:
-    """Points at the vertices that they are, segments on the edges that they are part of."""
+def _sites_as_given(graph: PlanarGraph, sites: Indices) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """Give one end of sites where the input has it, unit normals of segments, and which sites are points."""
     given = graph.polygons
     assert given is not None
     count = len(graph.points)
@@ -227,12 +218,12 @@ def _sites_as_given(graph: PlanarGraph, sites: Indices) -> _Sites:
     segment = np.where(is_point, 0, sites - count)
     point = np.where(is_point, sites, 0)
     if not len(edge):
-        return _Sites(place[point], np.zeros((*sites.shape, 2)), is_point)
+        return place[point], np.zeros((*sites.shape, 2)), is_point
     start, end = given.xy[edge[segment]], given.xy[given.following[edge[segment]]]
     way = end - start
     length = np.sqrt((way * way).sum(axis=-1, keepdims=True))
     normal = np.divide(way[..., ::-1] * (-1, 1), length, out=np.zeros_like(way), where=length > 0)
-    return _Sites(np.where(is_point[..., None], place[point], start), normal, is_point)
+    return np.where(is_point[..., None], place[point], start), normal, is_point
 
 
 def _equally_far(about: Floats, radius: Floats, at: Floats, normal: Floats, is_point: NDArray[np.bool_]) -> Floats:
@@ -260,15 +251,8 @@ class MeasuredShape:
     """A shape, and the same in the core."""
 
     polygons: PolygonSet  # what it consists of; points are lines of one vertex
-    elements: NDArray[np.float64]  # (n, 2, 2) float64 array: both ends of each edge; of a point, twice the same
-    # (n,) int32 array: the ring of a polygon that each bounds what is inside of; -1 for none
-    ring_of: NDArray[np.int32]
     core: _core.distances.Shape
-
-    @property
-    def is_filled(self) -> bool:
-        """Whether there is anything inside."""
-        return bool((self.ring_of >= 0).any())
+    is_filled: bool  # whether there is anything inside
 
 
 def measured_shapes(
@@ -305,7 +289,7 @@ def _measured(polygons: PolygonSet, boundary: bool, progress: Progress) -> Measu
     is_hole = (polygons.ring_kind == HOLE).astype(np.int32)
     rings = np.stack([polygons.ring_polygon, is_hole], axis=1) if bounds.any() else np.empty((0, 2), np.int32)
     core = _core.distances.Shape(elements.reshape(-1, 4), ring_of, np.ascontiguousarray(rings), progress)
-    return MeasuredShape(polygons, elements, ring_of, core)
+    return MeasuredShape(polygons, core, bool(bounds.any()))
 
 
 def edges_of(polygons: PolygonSet) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

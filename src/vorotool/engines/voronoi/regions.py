@@ -293,22 +293,17 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
     graphs = [part.graph for part in parts]
     points = np.cumsum([0, *(len(graph.points) for graph in graphs)])
     faces = np.cumsum([0, *(graph.faces for graph in graphs)])
-    count = int(points[-1])
-    segments = np.concatenate(
-        [np.empty((0, 2), dtype=np.int32), *(g.segments + at for g, at in zip(graphs, points, strict=False))]
-    )
-    sides = np.concatenate(
-        [np.empty((0, 2), dtype=np.int32), *(g.segment_faces + at for g, at in zip(graphs, faces, strict=False))]
-    )
+    none, pairs = np.empty(0, dtype=np.int32), np.empty((0, 2), dtype=np.int32)
+    segments = [g.segments + at for g, at in zip(graphs, points, strict=False)]
+    sides = [g.segment_faces + at for g, at in zip(graphs, faces, strict=False)]
     elements = [np.split(part.element, [len(part.graph.points)]) for part in parts]
-    none = np.empty(0, dtype=np.int32)
     graph = PlanarGraph(
-        np.concatenate([np.empty((0, 2), dtype=np.int32), *(g.points for g in graphs)]),
-        segments,
-        np.full(count, -1, dtype=np.int32),
-        np.zeros(len(segments) + 1, dtype=np.int32),
+        np.concatenate([pairs, *(g.points for g in graphs)]),
+        np.concatenate([pairs, *segments]),
+        np.full(int(points[-1]), -1, dtype=np.int32),
+        np.zeros(sum(map(len, segments)) + 1, dtype=np.int32),
         none,
-        sides,
+        np.concatenate([pairs, *sides]),
         np.zeros(max(int(faces[-1]), 1) + 1, dtype=np.int32),  # the unbounded one at least
         none,
         origin=sites.origin,
