@@ -65,6 +65,7 @@ def prepared(command: str, given: Mapping[str, Any], sources: Mapping[str, str])
         a, b = values.pop("a"), values.pop("b")
         refuse_several({"A": a, "B": b})
         values |= {"inputs": (a,), "other": b}
+        sources = {name: source for name, source in sources.items() if name in values}
     ending = Path(values.get("output") or "").suffix
     if values.get("animate") and values.get("format") is None:
         values["format"] = {"": "gif", ".png": "apng"}.get(ending.lower())
