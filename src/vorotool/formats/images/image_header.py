@@ -8,9 +8,8 @@ from pathlib import Path
 from vorotool.errors import InputError, UsageError, VorotoolError
 from vorotool.formats.images.image_grids import grid_of, placed_grid, world_grid
 from vorotool.formats.images.pictures import picture_pages
-from vorotool.formats.images.png_reader import png_header
 from vorotool.formats.images.png_writer import SIGNATURE
-from vorotool.formats.images.reader import pnm_header
+from vorotool.formats.images.reader import png_header, pnm_header
 from vorotool.formats.images.tiff_reader import count_pages, opened_tiff, page_of
 from vorotool.formats.io.arrays import MAGIC, npy_header
 from vorotool.formats.io.descriptors import stream_kind

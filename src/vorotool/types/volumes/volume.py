@@ -25,6 +25,13 @@ if TYPE_CHECKING:
     from vorotool.types.features import Rows
 
 
+def _size_text(value: Volume | LabelVolume, array: NDArray[Any]) -> str:
+    """Give the size, the type and the sides of voxels in words."""
+    depth, height, width = array.shape
+    size = "" if value.grid is None else f", voxels of {value.grid.size_text()}"
+    return f"{width} x {height} x {depth}, {array.dtype}{size}"
+
+
 @plain(eq=False, repr=False)
 class Volume(Value):
     """A volume of one channel.
@@ -69,9 +76,7 @@ class Volume(Value):
         return (depth, height, width)
 
     def _summary(self) -> str:
-        depth, height, width = self.shape
-        size = "" if self.grid is None else f", voxels of {self.grid.size_text()}"
-        return f"{width} x {height} x {depth}, {self.values.dtype}{size}"
+        return _size_text(self, self.values)
 
 
 CUBE = PixelSides((1, 1, 1))
@@ -130,9 +135,7 @@ class LabelVolume(Value, Tabular, Graph, Elements):
         return rows
 
     def _summary(self) -> str:
-        depth, height, width = self.shape
-        size = "" if self.grid is None else f", voxels of {self.grid.size_text()}"
-        return f"{width} x {height} x {depth}, {self.labels.dtype}{size}"
+        return _size_text(self, self.labels)
 
 
 FINEST_SCALE = 256
