@@ -284,6 +284,9 @@ from vorotool.types.mesh.tables import (
 from vorotool.types.mesh.tables import (
     triangle_table as triangle_table,
 )
+from vorotool.types.mesh.tetrahedralization import (
+    Tetrahedralization as Tetrahedralization,
+)
 from vorotool.types.mesh.triangulation import (
     DigitalComparison as DigitalComparison,
 )

@@ -13,7 +13,7 @@ from vorotool.products.options.rules import EXCLUDING, NEEDING
 from vorotool.products.registry import PRODUCTS
 
 PROPERTIES = {
-    "?is_of_volumes": {"volume": True},
+    "?is_of_space": {"volume": True},
     "?is_digital": {"method": "digital"},
     "?has_pixel_size": {"pixel_size": SimpleNamespace(is_spacing=False)},
     "?scale_in_millimeters": {"scale": SimpleNamespace(is_ratio=False)},

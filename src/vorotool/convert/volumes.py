@@ -37,7 +37,7 @@ def is_of_space(source: Any, shape: Any = None, window: Any = None) -> bool:
     """Tell whether seeds are those of a volume: by their type, their shape, or what is asked for."""
     if isinstance(source, Volume | LabelVolume | VolumePoints | VolumeSeeds):
         return True
-    if _width(source) == 2:  # points of the plane, of which another shape is wrong
+    if row_width(source) == 2:  # points of the plane, of which another shape is wrong
         return False
     for given, numbers in ((shape, AXES), (window, 2 * AXES)):
         if given is not None and np.ndim(given) == 1:
@@ -47,14 +47,14 @@ def is_of_space(source: Any, shape: Any = None, window: Any = None) -> bool:
 
 def refuse_triples(source: Any, name: str, *, image: bool | None = None) -> None:
     """Refuse an array or a list of triples where no volume is asked for: they may be points."""
-    if not image and _width(source) == AXES:
+    if not image and row_width(source) == AXES:
         raise InputError(
             f"invalid {name}: expected shape (n, 2), but got {described(source)}: for points in space give shape=(D, "
             f"H, W) as well; {name}[:, :2] drops z"
         )
 
 
-def _width(source: Any) -> int | None:
+def row_width(source: Any) -> int | None:
     """How many numbers a row of a list of points has; None of what is none, as are tables and images by their type."""
     if column_names(source) is not None or isinstance(source, Raster | LabelImage):
         return None

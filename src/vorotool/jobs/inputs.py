@@ -23,9 +23,11 @@ if TYPE_CHECKING:
     from vorotool.formats.opening import Opened
     from vorotool.render.canvas.layers import Backdrop
     from vorotool.types.images import Raster
+    from vorotool.types.mesh.tetrahedralization import Tetrahedralization
     from vorotool.types.mesh.triangulation import Triangulation
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.seed_set import SeedSet
+    from vorotool.types.values import Value
     from vorotool.types.volumes.volume import VolumeSeeds
 
 
@@ -222,7 +224,7 @@ def frame_of(o: Options, seeds: SeedSet | VolumeSeeds) -> Any:
     instead = "delaunay --what cells"
     if o.command == "tessellate":
         instead = f"--cell-size C, or {instead}"
-    form = "WxHxD or --window X,Y,Z,W,H,D" if o.is_of_volumes else "WxH or --window X,Y,W,H"
+    form = "WxHxD or --window X,Y,Z,W,H,D" if o.is_of_space else "WxH or --window X,Y,W,H"
     return default_frame(seeds, how=f"give one with --size {form}", instead=instead)
 
 
@@ -301,7 +303,7 @@ def note_other_size(run: Run, o: Options, given: JobInput, shape: Sequence[int])
     )
 
 
-def note_repeated_labels(run: Run, points: PointSet | SeedSet, mesh: Triangulation) -> None:
+def note_repeated_labels(run: Run, points: Value, mesh: Triangulation | Tetrahedralization) -> None:
     """Say that labels name groups of points, where they repeat."""
     if getattr(points, "labels", None) is not None and mesh.labels is None and len(mesh.points):
         run.note("labels repeat: points are numbered from 1, and label is an ordinary column")

@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import spoken
 from vorotool.jobs.inputs import JobInput, naming, read_backdrop, refuse_several
-from vorotool.jobs.options import Options
+from vorotool.jobs.options import Options, changed
 from vorotool.jobs.refusals import check_options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets
@@ -16,11 +17,18 @@ from vorotool.jobs.units import shows_units, unit_stats
 from vorotool.plain import plain
 from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import FORMATS, format_named, resolved
-from vorotool.products.registry import PRODUCTS, VOLUME_PRODUCTS, Product
+from vorotool.products.registry import PRODUCTS, SPACE_PRODUCTS, VOLUME_PRODUCTS, Product
 from vorotool.signals import end_by_exceptions
 
 if TYPE_CHECKING:
     from vorotool.jobs.results import Results
+
+
+_IN_SPACE = {
+    "tessellate": (VOLUME_PRODUCTS, "jobs.volumes:products"),
+    "delaunay": (SPACE_PRODUCTS, "jobs.tetrahedralization:TetrahedraProducts"),
+}
+"""Results, and the job, of commands whose inputs may have three axes."""
 
 
 @plain
@@ -28,12 +36,12 @@ class Recipe:
     """A command, as far as it is about one input: its rows in the tables of commands and of results."""
 
     name: str  # of the command
-    is_of_volumes: bool = False
+    is_of_space: bool = False
 
     @property
     def products(self) -> Mapping[str, Product]:
         """Results by name."""
-        return VOLUME_PRODUCTS if self.is_of_volumes else PRODUCTS[self.name]
+        return _IN_SPACE[self.name][0] if self.is_of_space else PRODUCTS[self.name]
 
     @property
     def formats(self) -> dict[str, tuple[str, ...]]:
@@ -47,7 +55,7 @@ class Recipe:
 
     def make(self, run: Run, o: Options, given: JobInput) -> Results:
         """Read an input, and return what makes its results."""
-        place = "jobs.volumes:products" if self.is_of_volumes else COMMANDS[self.name].job
+        place = _IN_SPACE[self.name][1] if self.is_of_space else COMMANDS[self.name].job
         made: Results = resolved(place)(run, o, given)
         return made
 
@@ -69,11 +77,16 @@ def prepared(command: str, given: Mapping[str, Any], sources: Mapping[str, str])
     ending = Path(values.get("output") or "").suffix
     if values.get("animate") and values.get("format") is None:
         values["format"] = {"": "gif", ".png": "apng"}.get(ending.lower())
-    if values.get("what") is None:
-        fmt, own = format_named(values.get("format") or ending), PRODUCTS[command]
-        values["what"] = (next((what for what, each in own.items() if fmt in each.usual_for), next(iter(own))),)
     o = Options(command, sources=sources, **values)
-    return Recipe(command, command == "tessellate" and o.is_of_volumes), o
+    recipe = Recipe(command, command in _IN_SPACE and o.is_of_space)
+    other = next((what for what in o.what or () if what not in recipe.products), None)
+    if other is not None:
+        raise UsageError(f"--what {other} is of points in the plane: with --space use {', '.join(recipe.products)}")
+    if "what" not in sources:
+        fmt, own = format_named(o.format or ending), recipe.products
+        usual = (what for what, each in own.items() if fmt in each.usual_for)
+        o = changed(o, what=(next(usual, next(iter(own))),))
+    return recipe, o
 
 
 def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:

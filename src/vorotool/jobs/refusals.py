@@ -151,7 +151,7 @@ def _kinds_of(o: Options, target: Target, product: Product) -> set[str]:
 
 # ---- words ---------------------------------------------------------------------------------------
 _PROPERTIES = {
-    "?is_of_volumes": "a volume",
+    "?is_of_space": "an input with z",
     "?is_digital": "--method digital",
     "?has_pixel_size": "--pixel-size",
     "?is_automatic": "the automatic choice of r",
@@ -170,7 +170,9 @@ def _words(o: Options, condition: str) -> str:
     if colon:
         return f"--{'what' if kind == 'what' else 'layers'} {name}"
     if condition.startswith("?"):
-        return "--volume" if condition == "?is_of_volumes" and o.volume else _PROPERTIES[condition]
+        if condition == "?is_of_space" and (o.volume or o.space):
+            return "--volume" if o.volume else "--space"
+        return _PROPERTIES[condition]
     what, dot, fmt = condition.partition(".")
     if dot:
         word = {"animation": "an animation", "png-picture": "-f png"}.get(fmt, f"-f {fmt}")

@@ -298,7 +298,7 @@ class StreamedProducts(Products):
 
 def check(o: Options, _targets: Sequence[Target]) -> None:
     """Refuse sizes without a depth for a volume, those with one for an image, and cells of no size."""
-    depth = 3 if o.is_of_volumes else 2
+    depth = 3 if o.is_of_space else 2
     for name, sides in (("--size", o.size), ("--chunk", o.chunk)):
         if sides is not None and len(sides) != depth:
             shown = "x".join(map(str, sides))

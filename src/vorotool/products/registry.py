@@ -142,6 +142,20 @@ _DELAUNAY = (
     _product("compare", "", _TABLES),
 )
 
+# ---- delaunay, of points in space ----------------------------------------------------------------
+_SOLIDS = Writer("formats.results.solids:write_solid", ("fmt", "what", "threads"))
+_SOLID = dict.fromkeys(("obj", "ply", "stl", "vtu"), _SOLIDS)
+_TETRAHEDRA = _product("tetrahedra", "Tetrahedralization", f"{_TABLES} npy vtu", own=_SOLID, usual_for=("vtu",))
+_HULL = _product("hull", "Tetrahedralization", f"{_TABLES} npy obj ply stl vtu", own=_SOLID,
+    usual_for=("obj", "ply", "stl"))
+_SPACE = (
+    _product("edges", "Tetrahedralization", f"{_TABLES} npy obj vtu", own=_SOLID),
+    _product("triangles", "Tetrahedralization", f"{_TABLES} npy obj ply stl vtu", own=_SOLID),
+    _TETRAHEDRA,
+    _HULL,
+    _product("table", "Tetrahedralization", _TABLES),
+)
+
 # ---- alphashape ----------------------------------------------------------------------------------
 _POLYGON_FILES = dict.fromkeys(
     ("json", "poly"), Writer("formats.results.features:write_shapes", ("fmt", "what", "flatten"))
@@ -271,7 +285,7 @@ def _drawn() -> Product:
 
 _BY_COMMAND: dict[str, Sequence[Product]] = {
     "tessellate": _TESSELLATE,
-    "delaunay": _DELAUNAY,
+    "delaunay": (*_DELAUNAY, _TETRAHEDRA, _HULL),
     "alphashape": _ALPHASHAPE,
     "voronoi": _VORONOI,
     "skeleton-exact": (*_SKELETONS, *_OF_WHOLE_AXIS),
@@ -289,6 +303,8 @@ DERIVED = {each.what: each.made_by for each in PRODUCTS["skeleton-exact"].values
 """What makes the results of skeleton commands that follow from a skeleton or its diagram, by their names."""
 VOLUME_PRODUCTS = {each.what: each for each in _VOLUMES}
 """Those of `tessellate` where the input is a volume."""
+SPACE_PRODUCTS = {each.what: each for each in _SPACE}
+"""Those of `delaunay` where the points lie in space."""
 
 
 _OF_PARTS = "skeleton diagram elements branches points transects necks offset centerline"
@@ -322,7 +338,9 @@ def is_of(value: object, *types: str) -> bool:
 def parts_of(value: object) -> dict[str, Product]:
     """Give the products that a value is written as, the usual first."""
     found: dict[str, Product] = {}
-    for product in (each for own in PRODUCTS.values() for each in own.values() if is_of(value, *each.types)):
+    for product in (
+        each for own in (*PRODUCTS.values(), SPACE_PRODUCTS) for each in own.values() if is_of(value, *each.types)
+    ):
         found.setdefault(product.what, product)
     return found
 

@@ -149,7 +149,7 @@ def test_not_finite_is_refused_naming_the_row(bad):
         delaunay([[0, 0], [1, 0], [1, bad]])
 
 
-@pytest.mark.parametrize("bad", [5, [[1, 2, 3]], [["a", "b"]], [1, 2, 3]])
+@pytest.mark.parametrize("bad", [5, [[1, 2, 3, 4]], [["a", "b"]], [1, 2, 3]])
 def test_no_points(bad):
     with pytest.raises(InputError, match=r"^invalid points: expected "):
         delaunay(bad)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,29 +11,58 @@ from vorotool import _core
 from vorotool.errors import STRICT, InputError, LimitError, VerificationError, warn
 from vorotool.numeric.checks import checked_flag, checked_threads, joined_index, whole_numbers
 from vorotool.numeric.parallel import Progress
+from vorotool.products.formats import resolved
+from vorotool.products.registry import is_of
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.points.point_set import PointSet, known_of_points
+from vorotool.types.points.seed_set import SeedSet
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from vorotool.types.mesh.tetrahedralization import Tetrahedralization
+    from vorotool.types.volumes.volume import VolumeSeeds
+    from vorotool.types.volumes.volume_points import VolumePoints
     from vorotool.typing import PointsLike, SeedsLike
 
 MOST_POINTS = 2**28
 """Half-edges, six a point, are counted in 32 bits."""
+_IN_SPACE = "engines.delaunay.tetrahedralization"
+"""What triangulates points in space."""
 
 
-def delaunay(points: SeedsLike, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> Triangulation:
+@overload
+def delaunay(
+    points: VolumePoints | VolumeSeeds, *, strict: bool = ..., threads: int = ..., progress: Progress = ...
+) -> Tetrahedralization: ...
+
+
+@overload
+def delaunay(
+    points: SeedsLike, *, strict: bool = ..., threads: int = ..., progress: Progress = ...
+) -> Triangulation: ...
+
+
+def delaunay(
+    points: SeedsLike | VolumePoints | VolumeSeeds,
+    *,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Triangulation | Tetrahedralization:
     """Compute the Delaunay triangulation of points: the circumcircle of each triangle is empty.
+
+    Points in space have tetrahedra, whose circumspheres are empty.
 
     Every decision is exact for all finite coordinates. The result depends on the points alone: the number of threads
     does not change it, and a permutation of the points changes only their numbers.
 
     Parameters
     ----------
-    points : PointSet, SeedSet, (n, 2) array, data frame, GeoSeries, …
-        Points to triangulate; the sites of a `SeedSet`.
+    points : PointSet, SeedSet, (n, 2) array, data frame, GeoSeries, … or VolumePoints, VolumeSeeds, (n, 3) array
+        Points to triangulate; the sites of a `SeedSet` or of `VolumeSeeds`. A data frame has its x and y; for points
+        in space give an array of three columns.
     strict : bool
         Refuse duplicate points.
     threads : int
@@ -45,13 +74,15 @@ def delaunay(points: SeedsLike, *, strict: bool = False, threads: int = 0, progr
     -------
     Triangulation
         A chain of edges without triangles if the points are collinear or fewer than three.
+    Tetrahedralization
+        Of points in space; triangles without tetrahedra if they lie in one plane.
 
     Raises
     ------
     InputError
         If a coordinate is not finite, or if `strict` and there are duplicate points.
     LimitError
-        If there are more than 2^28 points.
+        If there are more than 2^28 points, or in space more tetrahedra than 2^29.
 
     Warns
     -----
@@ -67,7 +98,13 @@ def delaunay(points: SeedsLike, *, strict: bool = False, threads: int = 0, progr
     >>> mesh = delaunay([[0, 0], [4, 0], [0, 3], [1, 1]])
     >>> mesh.triangles.tolist(), mesh.hull.tolist()
     ([[0, 3, 2], [0, 1, 3], [3, 1, 2]], [0, 1, 2])
+    >>> len(delaunay([[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2], [1, 1, 1]]).tetrahedra)
+    4
     """
+    if _is_of_space(points):
+        make = resolved(f"{_IN_SPACE}:tetrahedralization")
+        made: Tetrahedralization = make(points, strict=strict, threads=threads, progress=progress)
+        return made
     given = _point_set(points)
     if len(given) > MOST_POINTS:
         raise LimitError(f"the input has {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
@@ -88,7 +125,17 @@ def _point_set(points: Any) -> PointSet:
     return as_points(points)
 
 
-def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
+def _is_of_space(points: Any) -> bool:
+    """Whether points have three coordinates: by their type, or as arrays and lists of triples."""
+    if isinstance(points, PointSet | SeedSet):
+        return False
+    if is_of(points, "VolumePoints", "VolumeSeeds"):
+        return True
+    width: int | None = resolved("convert.volumes:row_width")(points)
+    return width == 3
+
+
+def report_duplicates(mesh: Triangulation | Tetrahedralization, *, strict: bool) -> None:
     """Say how many points lie on an earlier one, or refuse them."""
     count = mesh.duplicates
     if not count:
@@ -99,7 +146,9 @@ def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
     warn(f"{what}: only the first point at each position is triangulated")
 
 
-def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Progress = None) -> None:
+def verify_triangulation(
+    mesh: Triangulation | Tetrahedralization, *, threads: int = 0, progress: Progress = None
+) -> None:
     """Check a triangulation exactly, from its arrays alone.
 
     The checks: indices, orientations, each directed edge once, neighbors, a convex hull traversed once, every point
@@ -107,7 +156,7 @@ def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Pro
 
     Parameters
     ----------
-    mesh : Triangulation
+    mesh : Triangulation or Tetrahedralization
         A triangulation from any source, with finite points.
     threads : int
         Number of threads; 0 uses all.
@@ -129,10 +178,11 @@ def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Pro
         ...
     vorotool.errors.VerificationError: triangle 0 is not counter-clockwise
     """
-    check_value(mesh, "mesh", "Triangulation")
+    check_value(mesh, "mesh", "Triangulation", "Tetrahedralization")
     if not np.isfinite(mesh.points).all():
         raise VerificationError("a coordinate is not finite")
-    fault = triangulation_fault(mesh, checked_threads(threads), progress)
+    find: Any = triangulation_fault if isinstance(mesh, Triangulation) else resolved(f"{_IN_SPACE}:fault")
+    fault = find(mesh, checked_threads(threads), progress)
     if fault is not None:
         raise VerificationError(fault)
 

@@ -40,11 +40,11 @@ EXCLUDING = (
     Rule("tessellate", "like", "size window cell_size spacing", "the raster sets the frame and its pixels"),
     Rule("tessellate", "cell_size", "spacing", "the cells are squares in the units of the map"),
     Rule("tessellate", "cell_size", "size", "--size is in pixels", "give --window X,Y,W,H in the units of the map"),
-    Rule("tessellate", "?is_of_volumes", "method=propagation passes tiled like overlay y_up animate frames fps "
+    Rule("tessellate", "?is_of_space", "method=propagation passes tiled like overlay y_up animate frames fps "
         "connectivity=8 connectivity=4", "the option applies to images"),
-    Rule("tessellate", "?is_of_volumes", "cell_size input_layer input_crs crs", "the option applies to maps"),
-    Rule("tessellate", "?is_of_volumes", "page", "all pages form the volume"),
-    Rule("tessellate", "?is_of_volumes", "?has_pixel_size", "voxels have three sides", "give --spacing SX,SY,SZ"),
+    Rule("tessellate", "?is_of_space", "cell_size input_layer input_crs crs", "the option applies to maps"),
+    Rule("tessellate", "?is_of_space", "page", "all pages form the volume"),
+    Rule("tessellate", "?is_of_space", "?has_pixel_size", "voxels have three sides", "give --spacing SX,SY,SZ"),
     Rule(SITES, "connectivity", "seeds=pixels seeds=labels", "--connectivity applies to components"),
     # ---- triangulations and alpha shapes
     Rule("delaunay", "what:compare", "method=digital-valid", "the comparison is about the digital rule",
@@ -56,6 +56,9 @@ EXCLUDING = (
         "what:measures edges.edge triangles.ele",
         "the digital rule finds edges and triangles that may not form a triangulation",
         "use --method exact or digital-valid"),
+    Rule("delaunay", "?is_of_space", "method=digital method=digital-valid graph frame clip size window page spacing "
+        "seeds connectivity threshold invert min_area fill_holes y_up input_layer input_crs crs overlay",
+        "the option applies to points in the plane, or to images"),
     Rule("alphashape", "regions", "r alpha", "--regions applies to the automatic choice of r"),
     Rule("alphashape", "what:hull", "hole_threshold region_threshold", "the hull has no thresholds"),
     Rule("alphashape", "rule=printed", "verify ?is_automatic what:curves what:persistence .html",
@@ -94,7 +97,8 @@ EXCLUDING = (
 # fmt: off
 NEEDING = (
     Rule("tessellate", "passes", "method=propagation"),
-    Rule("tessellate", "slice levels connectivity=26 connectivity=6", "volume ?is_of_volumes"),
+    Rule("tessellate", "slice levels connectivity=26 connectivity=6", "volume ?is_of_space"),
+    Rule("delaunay", "what:tetrahedra what:hull", "space ?is_of_space", "they are of points in space"),
     Rule("delaunay", "size window", "method=digital method=digital-valid ?is_digital",
         "the frame is of the digital tessellation"),
     Rule("alphashape", "size window", "method=digital method=digital-valid",

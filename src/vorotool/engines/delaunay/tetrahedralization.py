@@ -1,0 +1,116 @@
+"""Delaunay triangulation of points in space: exact, whatever the coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.convert.volumes import as_volume_points
+from vorotool.engines.delaunay.delaunay import report_duplicates
+from vorotool.numeric.arrays import Floats
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.parallel import Progress
+from vorotool.types.mesh.tetrahedralization import FACES, Tetrahedralization
+from vorotool.types.points.point_set import known_of_points
+
+PLANE = 2
+_LARGE = 2.0**1021
+"""Coordinates beyond it are divided by 4, so that there is a place beyond them."""
+
+
+def tetrahedralization(
+    points: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None
+) -> Tetrahedralization:
+    """Triangulate points in space, as `vorotool.delaunay` does."""
+    given, threads = as_volume_points(points), checked_threads(threads)
+    known = {name: value for name, value in known_of_points(given).items() if name in ("labels", "properties", "index")}
+    found = _core.tetrahedra.triangulate(given.xyz, threads, progress)
+    is_planar = found["dimension"] == PLANE
+    planar = _planar_triangles(given.xyz, threads, progress) if is_planar else np.zeros((0, 3), dtype=np.int32)
+    mesh = Tetrahedralization(given.xyz, found["tetrahedra"], found["neighbors"], planar, found["first"], **known)
+    report_duplicates(mesh, strict=strict)
+    return mesh
+
+
+# ---- points in one plane -------------------------------------------------------------------------
+def _planar_triangles(xyz: Floats, threads: int, progress: Progress) -> NDArray[np.int32]:
+    """Triangles of points in one plane, counter-clockwise as seen from where z, or else x or y, is greater.
+
+    Together with any place off the plane the points are divided into tetrahedra that all have it for a corner. A
+    sphere through it and three points meets the plane in their circle, so that the faces opposite to it are the
+    Delaunay triangles of the plane; since it is lexicographically greater than all points, ties are broken by these.
+    """
+    meshes = (_core.tetrahedra.triangulate(places, threads, progress) for places in _with_places_beyond(xyz))
+    cone = next(each["tetrahedra"] for each in meshes if len(each["tetrahedra"]))
+    row, corner = np.nonzero(cone == len(xyz))
+    triangles: NDArray[np.int32] = cone[row[:, None], FACES[corner]]
+    return triangles if _faces_up(xyz[triangles[0]]) else triangles[:, ::-1]
+
+
+def _with_places_beyond(xyz: Floats) -> Iterator[Floats]:
+    """Add to points places that are greater; one of them is off the plane of the points, whatever plane it is."""
+    if np.abs(xyz).max() > _LARGE:
+        xyz = xyz / 4
+    greatest = xyz.max(axis=0)
+    beyond = np.maximum(greatest + np.ptp(xyz, axis=0).max(), np.nextafter(greatest, np.inf))
+    for is_moved in ([True, False, False], [True, True, False], [True, False, True]):
+        yield np.vstack([xyz, np.where(is_moved, beyond, greatest)])
+
+
+def _faces_up(triangle: Floats) -> bool:
+    """Whether the normal of a triangle goes upwards, exactly; of upright ones where x, or else y, is greater."""
+    a, b, c = ([Fraction(x) for x in corner] for corner in triangle.tolist())
+    u, v = ([x - y for x, y in zip(p, a, strict=True)] for p in (b, c))
+    z, x, y = (u[i] * v[i - 2] - u[i - 2] * v[i] for i in (0, 1, 2))
+    return bool(next((sign > 0 for sign in (z, x, y) if sign), False))
+
+
+# ---- the checker ---------------------------------------------------------------------------------
+def fault(mesh: Tetrahedralization, threads: int, progress: Progress) -> str | None:
+    """The first fault of a triangulation of finite points, if it has any."""
+    arrays = mesh.points, mesh.tetrahedra, mesh.neighbors, mesh.first
+    found = _core.tetrahedra.find_fault(*arrays, threads, progress)
+    if found is None and not len(mesh):
+        return _planar_fault(mesh, threads, progress)
+    return "there are tetrahedra and planar triangles" if found is None and len(mesh.planar) else found
+
+
+def _planar_fault(mesh: Tetrahedralization, threads: int, progress: Progress) -> str | None:
+    """The first fault of triangles in a plane: with a place off the plane they are tetrahedra, which are checked."""
+    places = mesh.points
+    if not len(mesh.planar):
+        is_on_line = _core.tetrahedra.triangulate(places, threads, progress)["dimension"] < PLANE
+        return None if is_on_line else "there is no triangle, but the points are not collinear"
+    if mesh.planar.min() < 0 or mesh.planar.max() >= len(places):
+        return "a planar triangle names a point that does not exist"
+    apex = np.full((len(mesh.planar), 1), len(places), dtype=np.int32)
+    first = np.append(mesh.first, len(places)).astype(np.int32)
+    for beyond in _with_places_beyond(places):
+        cone = np.hstack([mesh.planar, apex])
+        signs = _core.tetrahedra.orient3d(beyond[cone[:1]])
+        if signs[0] == 0:
+            continue
+        cone = cone if signs[0] > 0 else cone[:, [1, 0, 2, 3]]
+        neighbors = _neighbors_of_cone(cone)
+        if neighbors is None:
+            return "two planar triangles lie on one side of an edge"
+        found = _core.tetrahedra.find_fault(beyond, np.ascontiguousarray(cone), neighbors, first, threads, progress)
+        return found and f"together with a point {len(places)} off the plane: {found}"
+    return "planar triangle 0 has no area"
+
+
+def _neighbors_of_cone(cone: NDArray[np.int32]) -> NDArray[np.int32] | None:
+    """The tetrahedron across the face opposite to each corner; none across that of the apex, which is the last."""
+    sides = np.concatenate([cone[:, [1, 2]], cone[:, [2, 0]], cone[:, [0, 1]]]).astype(np.int64)
+    keys, turned = sides[:, 0] << 32 | sides[:, 1], sides[:, 1] << 32 | sides[:, 0]
+    order = np.argsort(keys)
+    if (np.diff(keys[order]) == 0).any():
+        return None
+    at = order[np.minimum(np.searchsorted(keys, turned, sorter=order), len(order) - 1)]
+    across = np.where(keys[at] == turned, at % len(cone), -1).reshape(3, -1).T
+    return np.ascontiguousarray(np.hstack([across, np.full((len(cone), 1), -1)]), dtype=np.int32)

@@ -1,0 +1,264 @@
+"""A Delaunay triangulation of points in space: tetrahedra, triangles and edges."""
+
+from __future__ import annotations
+
+from dataclasses import field
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from vorotool.errors import UsageError
+from vorotool.numeric.arrays import Booleans, Floats
+from vorotool.numeric.checks import check_index
+from vorotool.numeric.numbers import nearest_double
+from vorotool.products.formats import resolved
+from vorotool.types import fields as f
+from vorotool.types.features import Rows
+from vorotool.types.fields import record
+from vorotool.types.mesh.triangulation import ALL, FLAT
+from vorotool.types.table import Computed, Lookup, Table
+from vorotool.types.values import Tabular, Value, counted
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
+"""Corners of the face opposite to each corner of a tetrahedron, counter-clockwise as seen from outside."""
+EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
+"""Corners at the ends of each edge of a tetrahedron."""
+TINY = 2.0**-300
+"""Sizes of tetrahedra below it, and above its inverse, have determinants that are no doubles."""
+
+
+@record
+class Tetrahedralization(Value, Tabular):
+    """Delaunay triangulation of points in space: tetrahedra, triangles and edges, as 0-based int32 indices.
+
+    The sphere through the corners of a tetrahedron holds no point inside. The cell of points on one sphere is divided
+    from its lexicographically smallest vertex, and so are its faces: the tetrahedra depend on the coordinates alone.
+    Points in one plane have triangles and no tetrahedra: those of `Triangulation`, in their plane. Points on one line
+    have a chain of edges.
+
+    Parameters
+    ----------
+    points : (n, 3) float64 array
+        Coordinates, in the order of the input; finite.
+    tetrahedra : (t, 4) int32 array
+        Corners of each tetrahedron: the first three are counter-clockwise as seen from the fourth.
+    neighbors : (t, 4) int32 array
+        The tetrahedron across the face opposite to each corner, -1 on the hull.
+    planar : (k, 3) int32 array
+        Triangles of points that lie in one plane, else none.
+    first : (n,) int32 array
+        Index of the first point at the place of each point. Duplicates are in no tetrahedron.
+    labels : (n,) int64 array, optional
+        The input's own labels. Without them point i has label i + 1.
+    properties : dict of str to sequence, optional
+        Other columns of the input, one value per point.
+    index : pandas Index, array or sequence, optional
+        Names of the points in the input, such as the row index of a data frame: one entry per point.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 4, which leaves three dimensions open.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> corner = delaunay([[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2]])
+    >>> corner.tetrahedra.tolist(), corner.volumes.tolist(), len(corner.triangles), len(corner.edges)
+    ([[0, 1, 2, 3]], [4.0], 4, 6)
+    """
+
+    maker = "delaunay"
+
+    points: NDArray[np.float64] = f.position("points", 3)
+    tetrahedra: NDArray[np.int32] = f.index("tetrahedra", 4)
+    neighbors: NDArray[np.int32] = f.index("tetrahedra", 4)
+    planar: NDArray[np.int32] = f.index("planar", 3)
+    first: NDArray[np.int32] = f.index("points")
+    labels: NDArray[np.int64] | None = f.numbers(np.int64, "points", default=None)
+    properties: dict[str, Any] = field(default_factory=dict)
+    index: Any = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_index(self.index, len(self.points), "point")
+
+    def __len__(self) -> int:
+        return len(self.tetrahedra)
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels: the input's own, else 1 to n."""
+        if self.labels is not None:
+            return self.labels
+        return np.arange(1, len(self.points) + 1, dtype=np.int64)
+
+    @property
+    def is_duplicate(self) -> Booleans:
+        """(n,) mask of points that lie on an earlier one."""
+        found: Booleans = self.first != np.arange(len(self.first))
+        return found
+
+    @property
+    def duplicates(self) -> int:
+        """Number of duplicate points."""
+        return int(np.count_nonzero(self.is_duplicate))
+
+    @property
+    def dimension(self) -> int:
+        """3 if there are tetrahedra, else 2 in a plane, 1 on a line, 0 of one place, -1 without points."""
+        if len(self.tetrahedra) or len(self.planar):
+            return 3 if len(self.tetrahedra) else 2
+        return min(len(self.points) - self.duplicates, 2) - 1
+
+    # ---- parts
+    @cached_property
+    def triangles(self) -> NDArray[np.int32]:
+        """Return the (m, 3) triangles, those of the hull counter-clockwise as seen from outside."""
+        if not len(self.tetrahedra):
+            return self.planar
+        t, face = np.nonzero(self.neighbors < np.arange(len(self))[:, None])
+        return self._faces(t, face)
+
+    @cached_property
+    def hull(self) -> NDArray[np.int32]:
+        """Return the (h, 3) triangles of the convex hull, counter-clockwise as seen from outside; none in a plane."""
+        return self._faces(*np.nonzero(self.neighbors < 0))
+
+    @cached_property
+    def edges(self) -> NDArray[np.int32]:
+        """Return the (e, 2) edges in the order of their ends, smaller index first; on a line the chain."""
+        cells = self.tetrahedra if len(self.tetrahedra) else self.planar
+        if not len(cells):
+            return self._chain()
+        pairs = EDGES if cells.shape[1] == 4 else EDGES[[0, 1, 3]]
+        keys = np.empty((len(pairs), len(cells)), dtype=np.int64)
+        for row, (i, j) in enumerate(pairs):
+            a, b = cells[:, i], cells[:, j]
+            np.minimum(a, b, out=keys[row])
+            keys[row] <<= 32
+            keys[row] |= np.maximum(a, b)
+        found = np.unique(keys)
+        return np.stack([found >> 32, found & 0xFFFFFFFF], axis=1).astype(np.int32)
+
+    def _chain(self) -> NDArray[np.int32]:
+        chosen = np.flatnonzero(~self.is_duplicate)
+        order = chosen[np.lexsort(self.points[chosen].T[::-1])].astype(np.int32)
+        pairs = np.sort(np.stack([order[:-1], order[1:]], axis=1), axis=1)
+        chain: NDArray[np.int32] = pairs[np.lexsort(pairs.T[::-1])]
+        return chain
+
+    def _faces(self, t: NDArray[np.intp], face: NDArray[np.intp]) -> NDArray[np.int32]:
+        faces: NDArray[np.int32] = self.tetrahedra[t[:, None], FACES[face]]
+        return faces
+
+    # ---- measures
+    def edge_lengths(self, rows: slice = ALL) -> Floats:
+        """Return the (e,) lengths of all or some edges."""
+        a, b = self.points[self.edges[rows].T]
+        return norms(b - a)
+
+    @cached_property
+    def volumes(self) -> Floats:
+        """Return the (t,) positive volumes of the tetrahedra."""
+        return self._spheres[1]
+
+    @cached_property
+    def circumcenters(self) -> Floats:
+        """Return the (t, 3) centers of the spheres through the corners; infinite beyond the largest double."""
+        with np.errstate(over="ignore"):
+            centers: Floats = self.points[self.tetrahedra[:, 0]] + self.ways_to_centers
+        return centers
+
+    @cached_property
+    def circumradii(self) -> Floats:
+        """Return the (t,) radii of the spheres through the corners."""
+        return norms(self.ways_to_centers)
+
+    @property
+    def ways_to_centers(self) -> Floats:
+        """(t, 3) vectors from the first corner of each tetrahedron to the center of its sphere."""
+        return self._spheres[0]
+
+    @cached_property
+    def _spheres(self) -> tuple[Floats, Floats]:
+        """Ways to centers, and volumes; those of flat tetrahedra are computed in rationals."""
+        corners = self.points[self.tetrahedra]
+        ways = corners[:, 1:] - corners[:, :1]
+        with np.errstate(all="ignore"):  # what overflows or divides by zero is done again
+            b, c, d = np.moveaxis(ways, 1, 0)
+            normals = np.stack([np.cross(c, d), np.cross(d, b), np.cross(b, c)], axis=1)
+            six, squares = (b * normals[:, 0]).sum(axis=1), (ways * ways).sum(axis=2)
+            found = (squares[:, :, None] * normals).sum(axis=1) / (2 * six[:, None]), six / 6
+            size = np.abs(ways).max(axis=(1, 2), initial=0.0)
+            is_flat = ~((six >= FLAT * _permanents(b, c, d)) & (size > TINY) & (size < 1 / TINY))
+        for t in np.flatnonzero(is_flat):
+            for values, exact in zip(found, _exact_sphere(corners[t]), strict=True):
+                values[t] = exact
+        return found
+
+    # ---- tables
+    def _rows(self, what: str | None = None) -> Rows:
+        parts = {"tetrahedra": "abcd", "triangles": "abc", "hull": "abc", "edges": "ab"}
+        name = what or "tetrahedra"
+        if name == "table":
+            return Rows(resolved("engines.delaunay.space_table:space_table")(self))
+        if name not in parts:
+            raise UsageError(f"invalid what {what!r}: expected {', '.join([*parts, 'table'])} of a Tetrahedralization")
+        corners: NDArray[np.int32] = getattr(self, name)
+        labels = self.label_array
+        columns: dict[str, Any] = {
+            f"label_{letter}": Lookup(labels, corner) for letter, corner in zip(parts[name], corners.T, strict=True)
+        }
+        if name == "edges":
+            columns["length"] = Computed(self.edge_lengths, len(corners))
+        return Rows(Table(columns))
+
+    def _matrix(self, what: str | None) -> NDArray[np.int32]:
+        matrix: NDArray[np.int32] = getattr(self, what or "tetrahedra")
+        return matrix
+
+    def _summary(self) -> str:
+        sizes = counted(len(self.points), "point"), counted(len(self), "tetrahedron", "tetrahedra")
+        return ", ".join(sizes)
+
+
+def norms(ways: Floats) -> Floats:
+    """Lengths of (n, 3) vectors, scaled by powers of two so that none overflows on the way."""
+    exponent = np.frexp(np.abs(ways).max(axis=1, initial=0.0))[1]
+    scaled = np.ldexp(ways, -exponent[:, None])
+    with np.errstate(over="ignore", under="ignore"):
+        lengths: Floats = np.ldexp(np.sqrt((scaled * scaled).sum(axis=1)), exponent)
+    return lengths
+
+
+def _permanents(b: Floats, c: Floats, d: Floats) -> Floats:
+    """What the terms of determinants are, all with the same sign."""
+    b, c, d = np.abs(b), np.abs(c), np.abs(d)
+    turned = np.roll(c, -1, axis=1) * np.roll(d, 1, axis=1) + np.roll(c, 1, axis=1) * np.roll(d, -1, axis=1)
+    found: Floats = (b * turned).sum(axis=1)
+    return found
+
+
+def _exact_sphere(corners: Floats) -> tuple[list[float], float]:
+    """The way from the first of four points to the center of their sphere, and their volume, from rationals."""
+    a, *others = ([Fraction(x) for x in corner] for corner in corners.tolist())
+    ways = [[x - y for x, y in zip(other, a, strict=True)] for other in others]
+    normals = [_cross(ways[(i + 1) % 3], ways[(i + 2) % 3]) for i in range(3)]
+    six = sum(x * y for x, y in zip(ways[0], normals[0], strict=True))
+    squares = [sum(x * x for x in way) for way in ways]
+    way = [sum(s * n[i] for s, n in zip(squares, normals, strict=True)) / (2 * six) for i in range(3)]
+    return [nearest_double(x) for x in way], nearest_double(six / 6)
+
+
+def _cross(p: list[Fraction], q: list[Fraction]) -> list[Fraction]:
+    return [p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3] for i in range(3)]

@@ -1,0 +1,223 @@
+"""Delaunay triangulations of points in space, against brute force in rationals and scipy."""
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations, product
+
+import numpy as np
+import pytest
+from scipy.spatial import ConvexHull, Delaunay, Voronoi, cKDTree
+
+import vorotool
+from vorotool.engines.delaunay.space_table import space_table
+
+
+def det(rows):
+    (a, b, c), (d, e, f), (g, h, i) = rows
+    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+
+
+def orientation(a, b, c, d):
+    return det([[y - x for x, y in zip(a, other, strict=True)] for other in (b, c, d)])
+
+
+def exact(points):
+    return [tuple(Fraction(x) for x in point) for point in np.asarray(points, dtype=float).tolist()]
+
+
+def in_sphere(a, b, c, d, e):
+    """Positive if `e` is inside the sphere through a positive tetrahedron."""
+    ways = [[x - y for x, y in zip(p, e, strict=True)] for p in (a, b, c, d)]
+    squares = [sum(x * x for x in way) for way in ways]
+    minors = [det([ways[j] for j in range(4) if j != i]) for i in range(4)]
+    return sum((-1) ** i * s * m for i, (s, m) in enumerate(zip(squares, minors, strict=True)))
+
+
+def certify(mesh):
+    """All tetrahedra are positive and have empty spheres, and together they fill the hull."""
+    points = exact(mesh.points)
+    used = {index for index, first in enumerate(mesh.first.tolist()) if index == first}
+    total = Fraction(0)
+    for corners in mesh.tetrahedra.tolist():
+        volume = orientation(*(points[i] for i in corners))
+        assert volume > 0
+        total += volume / 6
+        assert all(in_sphere(*(points[i] for i in corners), points[j]) <= 0 for j in used - set(corners))
+    return total
+
+
+def as_places(mesh):
+    """The tetrahedra as sets of places, whatever the points' numbers."""
+    return {frozenset(map(tuple, corners)) for corners in mesh.points[mesh.tetrahedra].tolist()}
+
+
+CUBE = np.array(list(product((0.0, 1.0), repeat=3)))
+GRID = np.array(list(product(range(4), range(3), range(3))), dtype=float)
+SPHERE = np.array([p for p in product(range(-3, 4), repeat=3) if sum(x * x for x in p) == 9], dtype=float)
+SETS = {
+    "cube": CUBE,
+    "grid": GRID,
+    "sphere": SPHERE,
+    "octahedron": np.vstack([np.eye(3), -np.eye(3)]),
+    "skew lines": np.array([(k, 0, 0) for k in range(6)] + [(0, k, 1) for k in range(6)], dtype=float),
+    "random": np.random.default_rng(2).random((40, 3)),
+    "clusters": np.random.default_rng(3).normal(size=(30, 3)) * 1e-6 + np.repeat(CUBE[:3], 10, axis=0),
+}
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_spheres_are_empty_and_the_hull_is_filled(name):
+    points = SETS[name]
+    mesh = vorotool.delaunay(points)
+    total = certify(mesh)
+    assert np.isclose(float(total), ConvexHull(points).volume, rtol=1e-9)
+    assert np.allclose(mesh.volumes.sum(), float(total))
+    vorotool.verify_triangulation(mesh)
+    assert len(mesh.points) - len(mesh.edges) + len(mesh.triangles) - len(mesh) == 1
+    hull = mesh.points[mesh.hull]
+    outside = np.einsum("ij,ij->i", np.cross(hull[:, 1] - hull[:, 0], hull[:, 2] - hull[:, 0]), hull[:, 0])
+    assert np.isclose(outside.sum() / 6, float(total))
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_a_permutation_changes_only_numbers(name):
+    points, rng = SETS[name], np.random.default_rng(5)
+    expected = as_places(vorotool.delaunay(points))
+    for _ in range(4):
+        assert as_places(vorotool.delaunay(rng.permutation(points))) == expected
+
+
+def test_cells_of_one_sphere_are_cones_from_the_least_vertex():
+    least = SPHERE[np.lexsort(SPHERE.T[::-1])[0]]
+    mesh = vorotool.delaunay(SPHERE)
+    assert (mesh.points[mesh.tetrahedra] == least).all(axis=2).any(axis=1).all()
+    cubes = vorotool.delaunay(GRID)
+    for corners in cubes.points[cubes.tetrahedra]:
+        assert corners.min(axis=0).tolist() in corners.tolist()
+
+
+def test_in_general_position_it_is_that_of_scipy():
+    points = np.random.default_rng(8).random((500, 3))
+    mesh = vorotool.delaunay(points)
+    assert {frozenset(row) for row in mesh.tetrahedra.tolist()} == {
+        frozenset(row) for row in Delaunay(points).simplices.tolist()
+    }
+
+
+def test_points_in_a_plane_have_the_triangles_of_the_plane():
+    rng = np.random.default_rng(4)
+    xy = np.unique(rng.integers(0, 6, (25, 2)).astype(float), axis=0)
+    flat = vorotool.delaunay(xy)
+    mesh = vorotool.delaunay(np.column_stack([xy, np.zeros(len(xy))]))
+    assert (mesh.dimension, len(mesh), len(mesh.hull)) == (2, 0, 0)
+    turned = [tuple(np.roll(row, -int(np.argmin(row)))) for row in (*flat.triangles.tolist(), *mesh.planar.tolist())]
+    assert sorted(turned[: len(flat)]) == sorted(turned[len(flat) :])
+    assert sorted(mesh.edges.tolist()) == sorted(flat.edges.tolist())
+    for rotated in ([2, 1, 0], [0, 2, 1], [1, 2, 0]):  # upright planes
+        again = vorotool.delaunay(np.column_stack([xy, np.full(len(xy), 7.0)])[:, rotated])
+        assert len(again.triangles) == len(flat)
+        vorotool.verify_triangulation(again)
+    tilted = vorotool.delaunay(np.column_stack([xy, xy @ [2.0, -3.0]]))
+    assert tilted.dimension == 2
+    assert len(tilted.triangles) == len(flat)
+
+
+@pytest.mark.filterwarnings("ignore:.*lie on an earlier point")
+@pytest.mark.parametrize(
+    ("points", "dimension", "edges"),
+    [
+        ([[2, 2, 2], [0, 0, 0], [1, 1, 1], [0, 0, 0]], 1, [[0, 2], [1, 2]]),
+        ([[1, 2, 3], [1, 2, 3]], 0, []),
+        (np.zeros((0, 3)), -1, []),
+    ],
+)
+def test_few_places_have_a_chain_of_edges(points, dimension, edges):
+    mesh = vorotool.delaunay(vorotool.VolumePoints(points))
+    assert (mesh.dimension, mesh.edges.tolist(), len(mesh.triangles)) == (dimension, edges, 0)
+    vorotool.verify_triangulation(mesh)
+
+
+def test_duplicates_are_counted_and_may_be_refused():
+    points = np.vstack([CUBE, CUBE[:2]])
+    with pytest.warns(vorotool.VorotoolWarning, match="2 of 10 points lie on an earlier point"):
+        mesh = vorotool.delaunay(points)
+    assert (mesh.duplicates, mesh.first.tolist()) == (2, [*range(8), 0, 1])
+    with pytest.raises(vorotool.InputError, match="remove the duplicates"):
+        vorotool.delaunay(points, strict=True)
+
+
+@pytest.mark.filterwarnings("ignore:.*lie on an earlier point")
+@pytest.mark.parametrize("scale", [1e-300, 1e-160, 1.0, 1e160, 1e300])
+def test_tetrahedra_do_not_depend_on_the_scale(scale):
+    points = np.random.default_rng(6).integers(0, 4, (30, 3)) * 2.0 ** np.round(np.log2(scale))
+    mesh, usual = vorotool.delaunay(points), vorotool.delaunay(points / points.max() * 3)
+    assert mesh.tetrahedra.tolist() == usual.tetrahedra.tolist()
+
+
+def test_measures_of_flat_tetrahedra_are_exact():
+    flat = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 2.0**-40]])
+    mesh = vorotool.delaunay(flat)
+    corners = exact(mesh.points[mesh.tetrahedra[0]])
+    assert mesh.volumes[0] == float(orientation(*corners) / 6)
+    ways = np.array([[float(x) for x in corner] for corner in corners]) - mesh.circumcenters[0]
+    assert np.allclose(np.linalg.norm(ways, axis=1), mesh.circumradii[0], rtol=1e-9)
+
+
+def test_a_fault_is_found():
+    mesh = vorotool.delaunay(SETS["random"])
+    arrays = {name: getattr(mesh, name).copy() for name in ("tetrahedra", "neighbors", "first")}
+    turned = arrays["tetrahedra"][:, [1, 0, 2, 3]]
+    for wrong in ({"tetrahedra": turned}, {"tetrahedra": arrays["tetrahedra"][:-1], "neighbors": mesh.neighbors[:-1]}):
+        made = vorotool.Tetrahedralization(mesh.points, **{"planar": mesh.planar, **arrays, **wrong})
+        with pytest.raises(vorotool.VerificationError):
+            vorotool.verify_triangulation(made)
+
+
+def test_faults_of_triangles_in_a_plane_are_found():
+    square = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0], [5, 5, 0]], dtype=float)
+    mesh = vorotool.delaunay(square)
+    vorotool.verify_triangulation(mesh)
+    for planar in (mesh.planar[:-1], mesh.planar[:, ::-1][:1], mesh.planar[:0], np.vstack([mesh.planar, [[0, 1, 2]]])):
+        with pytest.raises(vorotool.VerificationError):
+            vorotool.verify_triangulation(replace(mesh, planar=planar))
+    other = {0: 3, 1: 0, 2: 1, 3: 2, 4: 4}  # the square is divided along its other diagonal
+    turned = replace(mesh, planar=np.vectorize(other.get)(mesh.planar))
+    with pytest.raises(vorotool.VerificationError):
+        vorotool.verify_triangulation(turned)
+
+
+# ---- the table -----------------------------------------------------------------------------------
+def test_cells_and_nearest_points_are_those_of_scipy():
+    points = np.random.default_rng(9).random((200, 3))
+    table = space_table(vorotool.delaunay(points))
+    diagram = Voronoi(points)
+    for place, region in enumerate(diagram.point_region):
+        corners = diagram.regions[region]
+        is_open = -1 in corners
+        assert bool(table["on_hull"][place]) == is_open
+        assert np.ma.getmaskarray(table["cell_volume"])[place] == is_open
+        if not is_open:
+            assert np.isclose(table["cell_volume"][place], ConvexHull(diagram.vertices[corners]).volume, rtol=1e-9)
+    distance, nearest = cKDTree(points).query(points, 2)
+    assert table["nearest_label"].tolist() == (nearest[:, 1] + 1).tolist()
+    assert np.allclose(table["nearest_distance"], distance[:, 1], rtol=1e-15)
+
+
+def test_equally_near_points_are_told_apart_by_their_labels():
+    table = space_table(vorotool.delaunay(vorotool.VolumePoints(GRID, np.arange(len(GRID), 0, -1))))
+    columns = (table[name].tolist() for name in ("label", "x", "y", "z", "nearest_label"))
+    for label, x, y, z, nearest in zip(*columns, strict=True):
+        near = [p for p in range(len(GRID)) if np.abs(GRID[p] - (x, y, z)).sum() == 1]
+        assert nearest == min(len(GRID) - p for p in near), label
+    inside = (GRID > 0).all(axis=1) & (GRID.max(axis=0) > GRID).all(axis=1)
+    assert np.ma.getmaskarray(table["cell_volume"]).tolist() == (~inside).tolist()
+    assert np.allclose(table["cell_volume"].compressed(), 1)
+
+
+def test_faces_are_those_of_two_tetrahedra_or_of_the_hull():
+    mesh = vorotool.delaunay(SETS["random"])
+    faces = [frozenset(face) for corners in mesh.tetrahedra.tolist() for face in combinations(corners, 3)]
+    assert {frozenset(row) for row in mesh.triangles.tolist()} == set(faces)
+    assert {frozenset(row) for row in mesh.hull.tolist()} == {face for face in set(faces) if faces.count(face) == 1}
+    edges = {pair for corners in mesh.tetrahedra.tolist() for pair in combinations(sorted(corners), 2)}
+    assert list(map(tuple, mesh.edges.tolist())) == sorted(edges)
