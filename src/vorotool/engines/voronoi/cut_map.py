@@ -202,7 +202,7 @@ def order_around(tail: Indices, angle: Floats, left: Indices, right: Indices) ->
     sorting[thin], sorting[after[thin]] = sorting[after[thin]], sorting[thin]
     order[sorting] = np.arange(len(tail))
     agree = _agree(left[sorting], right[sorting][after])
-    for k in np.unique(np.repeat(np.arange(len(starts)), sizes)[~agree]).tolist():
+    for k in np.flatnonzero(np.logical_or.reduceat(~agree, starts)).tolist():
         own = sorting[starts[k] : starts[k] + sizes[k]]
         order[own] = starts[k] + _tried(own, angle, left, right)
     return order
