@@ -1,14 +1,17 @@
 #include "core/tetrahedra/delaunay_tetrahedra.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstddef>
-#include <numeric>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
-#include "core/base/memory_release.hpp"
+#include "core/base/parallel.hpp"
 #include "core/kernel/predicates.hpp"
+#include "core/tetrahedra/canonical_rows.hpp"
+#include "core/tetrahedra/point_inserter.hpp"
 #include "core/tetrahedra/predicates.hpp"
 #include "core/tetrahedra/spatial_order.hpp"
 #include "core/tetrahedra/tetrahedral_mesh.hpp"
@@ -16,8 +19,6 @@
 namespace vorotool::core::tetrahedra {
 
 using base::Monitor;
-using Index = TetrahedralMesh::Index;
-using Row = TetrahedralMesh::Row;
 
 namespace {
 
@@ -62,118 +63,92 @@ class Rounds {
   int last_ = 0;
 };
 
-void insert_all(TetrahedralMesh& mesh, std::size_t points, const std::vector<Index>& start,
-                const Monitor& monitor) {
-  const Rounds rounds(points);
-  std::size_t done = 0;
-  mesh.start({start[0], start[1], start[2], start[3]});
-  for (int round = rounds.count() - 1; round >= 0; --round) {
-    for (std::size_t i = 0; i < points; ++i) {
-      if (rounds.round_of(i) != round) continue;
-      const auto v = static_cast<Index>(i);
-      if (std::find(start.begin(), start.end(), v) != start.end()) continue;
-      mesh.insert(v);
-      if (++done % 1024 != 0) continue;
-      const double part = static_cast<double>(done) / static_cast<double>(points);
-      base::report(monitor, order_share + (mesh_share - order_share) * part);
-    }
-  }
-}
-
-// Turns the rows into their final form, at their final places.
-class Finish {
+// Rounds that have enough points are inserted by several threads, each of which owns an interval of the curve; those
+// that wait for what others own are inserted afterwards.
+class Insertion {
  public:
-  explicit Finish(TetrahedralMesh& mesh) : mesh_(mesh), position_(mesh.slots()) {}
+  Insertion(TetrahedralMesh& mesh, const std::vector<Index>& start, unsigned threads, const Monitor& monitor)
+      : mesh_(mesh),
+        count_(mesh.points().size()),
+        rounds_(count_),
+        is_done_(count_),
+        numbers_(count_),
+        threads_(base::resolve_threads(threads)),
+        monitor_(monitor),
+        alone_(mesh, numbers_, 0, count_) {
+    mesh.start({start[0], start[1], start[2], start[3]});
+    for (const Index v : start) is_done_[static_cast<std::size_t>(v)] = 1;
+  }
 
-  // The number of tetrahedra; those behind are none.
-  std::size_t run(std::size_t points, const Monitor& monitor) {
-    turn_rows();
-    base::report(monitor, mesh_share + 0.02);
-    sort_rows(points);
-    base::report(monitor, mesh_share + 0.1);
-    number_neighbors();
-    move_rows();
-    return count_;
+  void run() {
+    for (int round = rounds_.count() - 1; round >= 0; --round) {
+      const std::size_t points = count_ >> (3 * round);
+      const std::size_t parts = std::min<std::size_t>(threads_, points / points_a_thread);
+      if (parts > 1) insert_in_parts(round, parts);
+      place_alone();
+      insert_here(alone_, round, 0, count_);
+    }
   }
 
  private:
-  // The smallest vertex first, then the smallest of the others: even permutations, which keep the orientation.
-  void turn_rows() {
-    for (std::size_t slot = 0; slot < mesh_.slots(); ++slot) {
-      if (!mesh_.is_used(slot)) continue;
-      ++count_;
-      Row& row = mesh_.row(slot);
-      const auto i = static_cast<std::size_t>(std::min_element(row.begin(), row.end()) - row.begin());
-      std::array<std::size_t, 4> from{i, 0, 0, 0};
-      static constexpr std::size_t others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-      std::copy_n(others[i], 3, from.begin() + 1);
-      const auto second = std::min_element(from.begin() + 1, from.end(),
-                                           [&](std::size_t a, std::size_t b) { return row[a] < row[b]; });
-      std::rotate(from.begin() + 1, second, from.end());
-      const auto turned = [&](const Row& old) {
-        return Row{old[from[0]], old[from[1]], old[from[2]], old[from[3]]};
-      };
-      row = turned(row);
-      mesh_.across(slot) = turned(mesh_.across(slot));
+  static constexpr std::size_t points_a_thread = std::size_t{1} << 14;
+  static constexpr std::size_t points_at_once = std::size_t{1} << 15;  // of a thread: some 50 ms
+
+  void place_alone() {
+    for (std::size_t slot = 0; !alone_.begin_at(slot); ++slot) {
     }
   }
 
-  // The place of each slot: those of tetrahedra by their rows, the others behind. Three vertices in order tell the
-  // side of their triangle, and so the fourth.
-  void sort_rows(std::size_t points) {
-    std::vector<std::uint32_t> start(points + 1);
-    for (std::size_t slot = 0; slot < mesh_.slots(); ++slot) {
-      if (mesh_.is_used(slot)) ++start[static_cast<std::size_t>(mesh_.row(slot)[0]) + 1];
+  // Inserts the points of a round in an interval that are not yet, as far as they can be.
+  std::size_t insert_here(PointInserter& inserter, int round, std::size_t begin, std::size_t end) {
+    std::size_t done = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (rounds_.round_of(i) != round || is_done_[i] != 0) continue;
+      if (!inserter.insert(static_cast<Index>(i))) continue;
+      is_done_[i] = 1;
+      ++done;
+      if (&inserter == &alone_ && done % 1024 == 0) report(1024);
     }
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    base::LargeArray<std::uint32_t> slots(count_);
-    std::uint32_t next = static_cast<std::uint32_t>(count_);
-    for (std::size_t slot = 0; slot < mesh_.slots(); ++slot) {
-      if (mesh_.is_used(slot)) {
-        slots[start[static_cast<std::size_t>(mesh_.row(slot)[0])]++] = static_cast<std::uint32_t>(slot);
-      } else {
-        position_[slot] = next++;
-      }
+    return done;
+  }
+
+  void insert_in_parts(int round, std::size_t parts) {
+    const std::size_t length = base::piece_count(count_, parts);
+    std::vector<std::unique_ptr<PointInserter>> inserters;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t begin = std::min(part * length, count_), end = std::min(begin + length, count_);
+      inserters.push_back(std::make_unique<PointInserter>(mesh_, numbers_, begin, end));
+      std::size_t slot = 0;
+      while (slot < mesh_.slots() && !inserters[part]->begin_at(slot)) ++slot;
     }
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
-    std::size_t begin = 0;
-    for (std::size_t v = 0; v < points; ++v) {  // start[v] is the end of those of v now
-      keyed.clear();
-      for (std::size_t k = begin; k < start[v]; ++k) {
-        const Row& row = mesh_.row(slots[k]);
-        keyed.emplace_back(static_cast<std::uint64_t>(row[1]) << 32 | static_cast<std::uint32_t>(row[2]),
-                           slots[k]);
-      }
-      std::sort(keyed.begin(), keyed.end());
-      for (const auto& [key, slot] : keyed) position_[slot] = static_cast<std::uint32_t>(begin++);
+    for (std::size_t from = 0; from < length; from += points_at_once) {
+      std::atomic<std::size_t> done{0};
+      base::parallel_for(parts, threads_, [&](std::size_t part) {
+        const std::size_t begin = std::min(part * length + from, count_);
+        const std::size_t end = std::min({begin + points_at_once, (part + 1) * length, count_});
+        done += insert_here(*inserters[part], round, begin, end);
+      });
+      report(done);
+    }
+    for (const auto& inserter : inserters) {
+      alone_.free().insert(alone_.free().end(), inserter->free().begin(), inserter->free().end());
     }
   }
 
-  void number_neighbors() {
-    for (std::size_t slot = 0; slot < mesh_.slots(); ++slot) {
-      if (!mesh_.is_used(slot)) continue;
-      for (Index& facet : mesh_.across(slot)) {
-        const std::uint32_t place = position_[static_cast<std::size_t>(facet) / 4];
-        facet = place < count_ ? static_cast<Index>(place) : -1;
-      }
-    }
-  }
-
-  // Along the cycles of the permutation: no second copy of the rows.
-  void move_rows() {
-    for (std::size_t slot = 0; slot < mesh_.slots(); ++slot) {
-      while (position_[slot] != slot) {
-        const std::uint32_t to = position_[slot];
-        std::swap(mesh_.row(slot), mesh_.row(to));
-        std::swap(mesh_.across(slot), mesh_.across(to));
-        std::swap(position_[slot], position_[to]);
-      }
-    }
+  void report(std::size_t more) {
+    done_ += more;
+    const double part = static_cast<double>(done_) / static_cast<double>(count_);
+    base::report(monitor_, order_share + (mesh_share - order_share) * std::min(part, 1.0));
   }
 
   TetrahedralMesh& mesh_;
-  std::size_t count_ = 0;
-  base::LargeArray<std::uint32_t> position_;
+  const std::size_t count_;
+  const Rounds rounds_;
+  std::vector<std::uint8_t> is_done_, numbers_;
+  const unsigned threads_;
+  const Monitor& monitor_;
+  PointInserter alone_;
+  std::size_t done_ = 0;
 };
 
 }  // namespace
@@ -184,23 +159,22 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
   result.first.resize(points.size());
   SpatialOrder order = spatial_order(points, result.first, threads, monitor);
   result.duplicates = points.size() - order.points.size();
-  const std::size_t count = order.points.size();
   move_to_integers(order.points);
   const std::vector<Index> start = spanning_points(order.points);
   result.dimension = static_cast<int>(start.size()) - 1;
   if (result.dimension < 3) return result;
   const SetPredicates predicates(order.points);
   TetrahedralMesh mesh(order.points, predicates);
-  insert_all(mesh, count, start, monitor);
+  Insertion(mesh, start, threads, monitor).run();
   order.points = {};
-  result.count = Finish(mesh).run(count, monitor);
-  result.vertices = mesh.take_rows();
-  result.neighbors = mesh.take_across();
-  for (std::size_t i = 0; i < result.count; ++i) {
+  const Monitor rest = [&](double part) { return !monitor || monitor(mesh_share + (1 - mesh_share) * part); };
+  CanonicalRows rows = canonical_rows(mesh, threads, rest);
+  result.count = rows.count;
+  result.vertices = std::move(rows.vertices);
+  result.neighbors = std::move(rows.neighbors);
+  base::for_items(result.count, std::size_t{1} << 16, threads, {}, [&](std::size_t i) {
     for (Index& v : result.vertices[i]) v = order.index[static_cast<std::size_t>(v)];
-  }
-  base::discard(result.vertices, result.count, result.vertices.size());
-  base::discard(result.neighbors, result.count, result.neighbors.size());
+  });
   return result;
 }
 

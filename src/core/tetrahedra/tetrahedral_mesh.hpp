@@ -1,10 +1,12 @@
-// A Delaunay triangulation of space that grows point by point.
+// A triangulation of space that grows point by point.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/large_array.hpp"
@@ -12,81 +14,65 @@
 
 namespace vorotool::core::tetrahedra {
 
-// Tetrahedra lie in slots of four vertices, which are positive in their order, and four neighbors, each opposite to a
-// vertex. A facet of the hull has a ghost beyond it, whose last vertex is infinite; its three others are
-// counter-clockwise seen from outside. A point is inserted by removing all tetrahedra whose spheres hold it, ties
-// broken, and joining it to the facets around (A. Bowyer 1981, D. Watson 1981). A ghost is removed where the point is
-// beyond its facet, or in the plane of that and in the sphere of the tetrahedron within: so no new one is flat, for
-// whether a sphere holds a point in the plane of a facet depends on the facet alone, ties included.
+using Index = std::int32_t;
+using Row = std::array<Index, 4>;
+
+// The vertices of each facet: with what lies on its inner side they are a positive tetrahedron.
+inline constexpr std::array<std::array<std::size_t, 3>, 4> facet_vertices{
+    {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
+
+// Tetrahedra lie in slots of four vertices, which are positive in their order, and four facets across, each opposite to
+// a vertex and numbered 4 slot + place. A facet of the hull has a ghost beyond it, whose last vertex is infinite; its
+// three others are counter-clockwise seen from outside. Several threads may change slots that they do not share.
 class TetrahedralMesh {
  public:
-  using Index = std::int32_t;
-  using Row = std::array<Index, 4>;
-
-  // Distinct points. Throws std::length_error where there would be more than 2^29 slots, since a facet, numbered
-  // 4 slot + place, has 31 bits.
+  // Distinct points.
   TetrahedralMesh(std::span<const Point3> points, const SetPredicates& predicates);
 
   // The first tetrahedron, of vertices that are not coplanar.
   void start(Row vertices);
-  void insert(Index v);
+
+  // Adds free slots to a list; false where the arrays are full, unless they may grow, which no other thread must see.
+  // Throws std::length_error where there would be more than 2^29 slots: facets have 31 bits.
+  bool take_slots(std::vector<std::size_t>& free, bool may_grow);
 
   std::size_t slots() const { return slots_; }
-  bool is_used(std::size_t slot) const { return removed_[slot] == 0 && rows_[slot][3] != infinity_; }
-  // [slots] vertices, and 4 slot + place of the facet across each facet.
-  base::LargeArray<Row> take_rows() { return std::move(rows_); }
-  base::LargeArray<Row> take_across() { return std::move(across_); }
-  Row& row(std::size_t slot) { return rows_[slot]; }
-  Row& across(std::size_t slot) { return across_[slot]; }
-
- private:
-  // A facet of the cavity: the tetrahedron to be, in which the new vertex is at `place`, and the facet outside.
-  struct Wall {
-    Row vertices;
-    Index outside;
-    int place;
-  };
-
-  static std::size_t slot_of(Index facet) { return static_cast<std::size_t>(facet) / 4; }
-  static std::size_t place_of(Index facet) { return static_cast<std::size_t>(facet) % 4; }
-  static Index facet(std::size_t slot, std::size_t place) { return static_cast<Index>(4 * slot + place); }
-
+  std::span<const Point3> points() const { return points_; }
   const Point3& point(Index v) const { return points_[static_cast<std::size_t>(v)]; }
+  const SetPredicates& predicates() const { return predicates_; }
+  Index infinity() const { return infinity_; }
   bool is_ghost(std::size_t slot) const { return rows_[slot][3] == infinity_; }
+  bool is_tetrahedron(std::size_t slot) const { return removed_[slot] == 0 && !is_ghost(slot); }
 
-  std::size_t new_slot();
-  void grow();
-  std::size_t locate(const Point3& p) const;
-  bool holds(std::size_t slot, const Point3& p) const;
-  void dig(std::size_t slot, Index v);
-  void fill();
-  void link_few();
-  void link_many();
-  std::uint8_t number_of(Index v);
+  static std::size_t slot_of(Index facet) { return static_cast<std::uint32_t>(facet) / 4; }
+  static std::size_t place_of(Index facet) { return static_cast<std::uint32_t>(facet) % 4; }
+  static Index facet(std::size_t slot, std::size_t place) { return static_cast<Index>(4 * slot + place); }
   void link(Index a, Index b) {
     across_[slot_of(a)][place_of(a)] = b;
     across_[slot_of(b)][place_of(b)] = a;
   }
 
+  Row& row(std::size_t slot) { return rows_[slot]; }
+  const Row& row(std::size_t slot) const { return rows_[slot]; }
+  Row& across(std::size_t slot) { return across_[slot]; }
+  const Row& across(std::size_t slot) const { return across_[slot]; }
+  // Whether a slot is empty, or its tetrahedron about to be removed.
+  std::uint8_t& removed(std::size_t slot) { return removed_[slot]; }
+  std::uint8_t removed(std::size_t slot) const { return removed_[slot]; }
+
+  base::LargeArray<Row> take_rows() { return std::move(rows_); }
+  base::LargeArray<Row> take_across() { return std::move(across_); }
+
+ private:
+  void grow();
+
   std::span<const Point3> points_;
   const SetPredicates& predicates_;
   const Index infinity_;
   std::size_t slots_ = 0;
-  std::size_t last_ = 0;  // where the next search begins: no ghost
+  std::mutex growing_;  // guards the number of slots
   base::LargeArray<Row> rows_, across_;
   base::LargeArray<std::uint8_t> removed_;
-  std::vector<std::size_t> free_;
-
-  // Of the insertion at work.
-  std::vector<std::size_t> cavity_;  // its slots
-  std::vector<std::size_t> filled_;  // slots of the new tetrahedra, a wall each
-  std::vector<Wall> walls_;
-  static constexpr std::size_t few = 64;  // vertices of a cavity with a table of pairs
-  std::vector<std::uint8_t> number_;      // [vertices] in `numbered_`, if that agrees
-  std::array<Index, few> numbered_;
-  std::size_t numbered_count_ = 0;
-  std::vector<std::array<std::uint8_t, 4>> numbers_;  // [walls] those of the vertices
-  std::array<Index, few * few> facets_;               // by the numbers of a directed edge
 };
 
 }  // namespace vorotool::core::tetrahedra

@@ -237,6 +237,26 @@ def test_volume_and_hull_are_those_of_the_points():
     assert (made["neighbors"] < 0).sum() == len(hull.simplices)
 
 
+@pytest.mark.parametrize("family", ["uniform", "sphere", "lattice", "clusters"])
+def test_threads_change_nothing(family):
+    """Rounds of many points are inserted by all of them."""
+    rng = np.random.default_rng(14)
+    points = rng.random((60000, 3))
+    if family == "sphere":
+        points = points - 0.5
+        points /= np.linalg.norm(points, axis=1, keepdims=True)
+    elif family == "lattice":
+        points = np.array(list(itertools.product(range(36), range(36), range(40))), dtype=float)
+    elif family == "clusters":
+        points = np.round(points[:6]).repeat(10000, axis=0) + rng.normal(size=(60000, 3)) * 1e-4
+    made = triangulate(points)
+    for threads in (2, 3):
+        again = triangulate(points, threads)
+        np.testing.assert_array_equal(again["tetrahedra"], made["tetrahedra"])
+        np.testing.assert_array_equal(again["neighbors"], made["neighbors"])
+    assert fault(points, made) is None
+
+
 def test_progress_and_interrupts():
     points = np.random.default_rng(9).random((40000, 3))
     seen = []

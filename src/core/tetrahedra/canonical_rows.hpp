@@ -1,0 +1,22 @@
+// Tetrahedra in their final order.
+#pragma once
+
+#include <cstddef>
+
+#include "core/base/large_array.hpp"
+#include "core/base/monitor.hpp"
+#include "core/tetrahedra/tetrahedral_mesh.hpp"
+
+namespace vorotool::core::tetrahedra {
+
+// The tetrahedra of a mesh, without ghosts and empty slots: the smallest vertex of each first, then the smallest of the
+// others, sorted by the first three, which tell the fourth as they tell its side; and their neighbors, -1 outside.
+struct CanonicalRows {
+  std::size_t count = 0;
+  base::LargeArray<Row> vertices, neighbors;
+};
+
+// The arrays of the mesh are used up: there is never a second copy of all of them.
+CanonicalRows canonical_rows(TetrahedralMesh& mesh, unsigned threads, const base::Monitor& monitor);
+
+}  // namespace vorotool::core::tetrahedra
