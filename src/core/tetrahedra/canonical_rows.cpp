@@ -16,7 +16,7 @@ namespace vorotool::core::tetrahedra {
 namespace {
 
 constexpr std::size_t rows_a_piece = std::size_t{1} << 15;
-constexpr std::size_t rows_a_block = std::size_t{1} << 17;  // 2 MiB
+constexpr std::size_t rows_a_block = std::size_t{1} << 12;  // 64 KiB
 
 std::size_t offset(Index v) { return static_cast<std::size_t>(v); }
 
