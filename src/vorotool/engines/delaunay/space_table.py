@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from itertools import permutations
 from typing import Any
 
 import numpy as np
 
 from vorotool.numeric.arrays import Booleans, Floats, Indices
 from vorotool.numeric.numbers import difference, product
-from vorotool.types.mesh.tetrahedralization import Tetrahedralization, norms
+from vorotool.types.mesh.tetrahedralization import FACES, Tetrahedralization, cross, dot, norms
 from vorotool.types.table import Table
 
 _CLOSE = 1 + 2.0**-48
@@ -50,24 +49,19 @@ def cell_volumes(mesh: Tetrahedralization) -> Floats:
     The part of a corner is bounded by its edges, the planes half-way along these, and its faces. Beside a face it is
     twice a sixth of a determinant, which is negative where the center of the sphere lies beyond the face.
     """
-    volumes = np.zeros(len(mesh.points))
-    corners = mesh.points[mesh.tetrahedra]
+    parts = np.zeros((len(mesh), 4))
     with np.errstate(all="ignore"):
-        for i, j, k, last in permutations(range(4)):
-            if j > k:  # the two orders of a face are one part
-                continue
-            sign = 1 if _is_even((i, j, k, last)) else -1
-            u, v = corners[:, j] - corners[:, i], corners[:, k] - corners[:, i]
-            center = mesh.ways_to_centers - (corners[:, i] - corners[:, 0])
-            normal = np.cross(u, v)
-            height = (center * normal).sum(axis=1) / (normal * normal).sum(axis=1)
-            part = -sign / 12 * height * ((u - v) * np.cross(normal, center)).sum(axis=1)
-            volumes += np.bincount(mesh.tetrahedra[:, i], part, len(volumes))
-    return volumes
-
-
-def _is_even(order: tuple[int, ...]) -> bool:
-    return sum(a > b for at, a in enumerate(order) for b in order[at:]) % 2 == 0
+        for rows in mesh.blocks():
+            corners = np.moveaxis(mesh.points[mesh.tetrahedra[rows]], 0, 2)
+            for i in range(4):
+                a, (b, c, d) = corners[i], FACES[i]  # counter-clockwise as seen from outside
+                center = mesh.ways_to_centers[rows].T - (a - corners[0])
+                for j, k in ((b, c), (c, d), (d, b)):
+                    u, v = corners[j] - a, corners[k] - a
+                    normal = cross(u, v)
+                    height = dot(center, normal) / dot(normal, normal)
+                    parts[rows, i] += height * dot(v - u, cross(normal, center)) / 12
+    return np.bincount(mesh.tetrahedra.reshape(-1), parts.reshape(-1), len(mesh.points))
 
 
 # ---- nearest points ------------------------------------------------------------------------------
