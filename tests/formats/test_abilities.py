@@ -40,7 +40,9 @@ def values():
     mesh = vorotool.delaunay(vorotool.PointSet(VERTICES[:2], None, ATTRIBUTES, "up", SYSTEM))
     triangle = vorotool.delaunay(VERTICES[:3])
     skeleton = vorotool.skeleton_exact(VERTICES[:3])
-    return ((shapes(), None), (mesh, "table"), (mesh, "edges"), (triangle, "triangles"), (skeleton, "skeleton"))
+    solid = vorotool.delaunay([[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2]])
+    planar = ((mesh, "table"), (mesh, "edges"), (triangle, "triangles"), (skeleton, "skeleton"))
+    return ((shapes(), None), *planar, (solid, None))
 
 
 def made_elsewhere(fmt, path):

@@ -23,6 +23,7 @@ def values():
         mesh,
         vorotool.digital_triangulation([[1, 1], [5, 3], [2, 6]], shape=(8, 8)),
         vorotool.proximity_graph(mesh, "mst"),
+        vorotool.delaunay([[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2]]),
         vorotool.voronoi_cells(POINTS),
         vorotool.cell_statistics(POINTS),
         vorotool.persistence(POINTS),

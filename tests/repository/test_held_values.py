@@ -81,7 +81,7 @@ NO_POINTS = {
     "None": None,
     "number": 5,
     "path": "points.csv",
-    "three columns": XY.repeat(2, axis=1)[:, :3].astype(float),
+    "four columns": XY.repeat(2, axis=1).astype(float),
     "transposed": XY.T.astype(float),
     "ragged": [[1, 2], [3]],
     "texts": np.array([["a", "b"]]),

@@ -146,13 +146,12 @@ _DELAUNAY = (
 _SOLIDS = Writer("formats.results.solids:write_solid", ("fmt", "what", "threads"))
 _SOLID = dict.fromkeys(("obj", "ply", "stl", "vtu"), _SOLIDS)
 _TETRAHEDRA = _product("tetrahedra", "Tetrahedralization", f"{_TABLES} npy vtu", own=_SOLID, usual_for=("vtu",))
-_HULL = _product("hull", "Tetrahedralization", f"{_TABLES} npy obj ply stl vtu", own=_SOLID,
-    usual_for=("obj", "ply", "stl"))
+_HULL = _product("hull", "Tetrahedralization", f"{_TABLES} npy obj ply stl vtu", own=_SOLID, usual_for=("ply", "stl"))
 _SPACE = (
     _product("edges", "Tetrahedralization", f"{_TABLES} npy obj vtu", own=_SOLID),
     _product("triangles", "Tetrahedralization", f"{_TABLES} npy obj ply stl vtu", own=_SOLID),
     _TETRAHEDRA,
-    _HULL,
+    _HULL._replace(usual_for=("obj", "ply", "stl")),
     _product("table", "Tetrahedralization", _TABLES),
 )
 

@@ -96,7 +96,7 @@ def test_stats(run, folder):
     assert (stats["seeds"], stats["duplicates"], stats["snapped"], stats["frame"]) == (3, 1, 1, [0, 0, 5, 3])
     assert stats["arithmetic"] == "filtered float64 with int128"
     assert {"read", "tessellate", "write labels"} <= set(stats["seconds"])
-    assert len(stats["warnings"]) == 2
+    assert len(stats["warnings"]) == 1  # of the seed at the same place; a move this small is none
     assert all(line.startswith("warning: ") for line in done.err.splitlines() if not line.startswith("note"))
     assert run("tessellate", "twice.csv", "-o", "a.png", "-q").err == ""
 

@@ -33,7 +33,7 @@ def coordinates_of(command, what):
 
 NOT_OF_PLACES = {
     *("neighbors", "triangles", "compare", "family", "spectrum", "curves", "branches", "statistics", "persistence"),
-    *("alphashape table", "skeleton-exact table", "skeleton-approx table"),
+    *("alphashape table", "skeleton-exact table", "skeleton-approx table", "delaunay tetrahedra", "delaunay hull"),
 }
 """Tables of what has no place."""
 

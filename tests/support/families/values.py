@@ -116,6 +116,7 @@ def volume_values():
         "VolumePoints": points,
         "VolumeSeeds": labels.seeds,
         "LabelVolume": labels,
+        "Tetrahedralization": vorotool.delaunay(points),
     }
 
 

@@ -135,10 +135,10 @@ def _scale_bar(bar: ScaleBar, page: Page) -> list[Layer]:
 PX = 96 / 25.4
 """Of a millimeter."""
 
-LARGEST = 1e6
+LARGEST_PAGE = 1e6
 """Millimeters: a kilometer of paper."""
 
-LEAST = 1e-3
+LEAST_PAGE = 1e-3
 """Millimeters: what is smaller has no digits left."""
 
 
@@ -156,10 +156,10 @@ class ScaledPage(Page):
         with np.errstate(over="ignore", under="ignore"):
             scale = float(np.ldexp(millimeters, self._exponent))
             sides = [float(side) for side in (span + 2 * margin * (span.max() or 1.0)) * scale]
-        if not (isfinite(scale) and min(sides) > 0 and LEAST <= max(sides) <= LARGEST):
+        if not (isfinite(scale) and min(sides) > 0 and LEAST_PAGE <= max(sides) <= LARGEST_PAGE):
             raise UsageError(
                 f"the page would be {sides[0]:.3g} mm by {sides[1]:.3g} mm: choose another {option('--scale')}, from "
-                f"{LEAST:g} to {LARGEST:g} mm"
+                f"{LEAST_PAGE:g} to {LARGEST_PAGE:g} mm"
             )
         self._sides = sides
         self.scale = scale * PX
