@@ -18,7 +18,7 @@ from vorotool.engines.alpha.few_points import (
     report_too_few,
     unjoined,
 )
-from vorotool.engines.delaunay.delaunay import delaunay
+from vorotool.engines.delaunay.delaunay import triangulated
 from vorotool.errors import InputError, UsageError, option
 from vorotool.numeric.arrays import ranges, starts_of
 from vorotool.numeric.checks import checked_threads, is_choice
@@ -111,7 +111,7 @@ def alpha_complex(
         if isinstance(points, Triangulation):
             mesh = points
         else:
-            mesh = delaunay(points, strict=strict, threads=threads, progress=progress)
+            mesh = triangulated(points, strict=strict, threads=threads, progress=progress)
         edges, sides = _edges_and_sides(mesh, threads, progress)
     if len(mesh.points) - mesh.duplicates < 2:
         report_too_few(len(mesh.points), allow_empty=allows_empty(points, allow_empty), strict=strict)

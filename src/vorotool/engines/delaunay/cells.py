@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.polygons import as_geometry
-from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
+from vorotool.engines.delaunay.delaunay import core_mesh, triangulated
 from vorotool.errors import InputError, VerificationError, warn
 from vorotool.numeric.arrays import Floats, owners, starts_of
 from vorotool.numeric.checks import checked_threads
@@ -82,7 +82,7 @@ def voronoi_cells(
     >>> [cell.wkt for cell in cells.to_shapely()]
     ['POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))', 'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))']
     """
-    mesh = points if isinstance(points, Triangulation) else delaunay(points, threads=threads, progress=progress)
+    mesh = points if isinstance(points, Triangulation) else triangulated(points, threads=threads, progress=progress)
     if not np.isfinite(mesh.points).all():
         raise InputError("a coordinate of the triangulation is not finite")
     area = None if clip is None else _clip_area(clip, mesh.crs)
@@ -412,7 +412,7 @@ def voronoi_polygons(
     """
     import shapely
 
-    mesh = points if isinstance(points, Triangulation) else delaunay(points, threads=threads)
+    mesh = points if isinstance(points, Triangulation) else triangulated(points, threads=threads)
     corners = [*_widened(mesh), *_bounds_of(extend_to)]
     if not corners:
         return shapely.GeometryCollection()

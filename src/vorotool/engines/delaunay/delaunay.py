@@ -105,6 +105,11 @@ def delaunay(
         make = resolved(f"{_IN_SPACE}:tetrahedralization")
         made: Tetrahedralization = make(points, strict=strict, threads=threads, progress=progress)
         return made
+    return triangulated(points, strict=strict, threads=threads, progress=progress)
+
+
+def triangulated(points: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> Triangulation:
+    """Triangulate points of the plane."""
     given = _point_set(points)
     if len(given) > MOST_POINTS:
         raise LimitError(f"the input has {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")

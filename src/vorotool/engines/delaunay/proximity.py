@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from vorotool import _core
-from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
+from vorotool.engines.delaunay.delaunay import core_mesh, triangulated
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.parallel import Progress
@@ -77,7 +77,7 @@ def proximity_graph(
     if isinstance(points, Triangulation):
         mesh = points
     else:
-        mesh = delaunay(points, strict=strict, threads=threads, progress=progress)
+        mesh = triangulated(points, strict=strict, threads=threads, progress=progress)
     rule = _core.proximity.ProximityKind[_CORE_KINDS[kind]]
     try:
         index = _core.proximity.proximity_edges(core_mesh(mesh), rule, threads, progress)

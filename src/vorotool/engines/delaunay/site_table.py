@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.delaunay.cells import voronoi_cells
-from vorotool.engines.delaunay.delaunay import delaunay
+from vorotool.engines.delaunay.delaunay import triangulated
 from vorotool.engines.delaunay.proximity import proximity_graph
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.checks import checked_flag, checked_threads
@@ -87,7 +87,7 @@ def cell_statistics(
         if frame is not None or clip is not None:
             raise UsageError("frame and clip are for points: leave them out with a label image")
         return _of_image(points, threads, progress)
-    mesh = points if isinstance(points, Triangulation) else delaunay(points, threads=threads, progress=progress)
+    mesh = points if isinstance(points, Triangulation) else triangulated(points, threads=threads, progress=progress)
     cells = voronoi_cells(mesh, frame=frame, clip=clip, threads=threads, progress=progress)
     has_region = frame is not None or clip is not None
     return statistics_of(mesh, cells, has_region=has_region, threads=threads, progress=progress)

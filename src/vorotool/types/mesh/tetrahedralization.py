@@ -255,7 +255,7 @@ def _spheres(corners: Floats) -> tuple[Floats, Floats]:
     with np.errstate(all="ignore"):  # what overflows or divides by zero is done again
         normals = cross(c, d), cross(d, b), cross(b, c)
         six = dot(b, normals[0])
-        sums: Floats = sum(dot(way, way) * normal for way, normal in zip((b, c, d), normals, strict=True))
+        sums = dot(b, b) * normals[0] + dot(c, c) * normals[1] + dot(d, d) * normals[2]
         ways, volumes = (sums / (2 * six)).T, six / 6
         size = np.abs([b, c, d]).max(axis=(0, 1), initial=0.0)
         is_flat = ~((six >= FLAT * _permanents(b, c, d)) & (size > TINY) & (size < 1 / TINY))
