@@ -122,6 +122,7 @@ def cell_colors(mesh: Triangulation, *, progress: Progress = None) -> NDArray[np
 
     Examples
     --------
+    >>> from vorotool import delaunay
     >>> cell_colors(delaunay([[0, 0], [4, 0], [0, 3]])).tolist()
     [3, 2, 1]
     """

@@ -98,7 +98,7 @@ def delaunay(
     >>> mesh = delaunay([[0, 0], [4, 0], [0, 3], [1, 1]])
     >>> mesh.triangles.tolist(), mesh.hull.tolist()
     ([[0, 3, 2], [0, 1, 3], [3, 1, 2]], [0, 1, 2])
-    >>> len(delaunay([[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2], [1, 1, 1]]).tetrahedra)
+    >>> len(delaunay([[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2], [1, 1, 0.5]]).tetrahedra)
     4
     """
     if _is_of_space(points):

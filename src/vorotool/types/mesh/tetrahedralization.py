@@ -77,7 +77,7 @@ class Tetrahedralization(Value, Tabular):
     >>> from vorotool import delaunay
     >>> corner = delaunay([[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2]])
     >>> corner.tetrahedra.tolist(), corner.volumes.tolist(), len(corner.triangles), len(corner.edges)
-    ([[0, 1, 2, 3]], [4.0], 4, 6)
+    ([[0, 3, 1, 2]], [4.0], 4, 6)
     """
 
     maker = "delaunay"
