@@ -97,6 +97,7 @@ def results_by_arguments() -> None:
     assert_type(vorotool.tessellate([[1, 1, 1]], shape=(3, 3, 3)), vorotool.LabelVolume)
     assert_type(vorotool.tessellate([[1, 1, 1]], window=(0, 0, 0, 3, 3, 3)), vorotool.LabelVolume)
     assert_type(vorotool.tessellate(vorotool.VolumePoints(np.ones((1, 3)))), vorotool.LabelVolume)
+    assert_type(vorotool.delaunay(vorotool.VolumePoints(np.ones((1, 3)))), vorotool.Tetrahedralization)
     assert_type(peers.medial_axis(MASK), npt.NDArray[np.bool_])
     assert_type(peers.medial_axis(MASK, return_distance=True), tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]])
 
@@ -108,8 +109,8 @@ def misuses() -> None:
     vorotool.tessellate([[1, 1]], shape=3)  # type: ignore[call-overload]
     vorotool.tessellate([[1, 1]], method="fast")  # type: ignore[call-overload]
     vorotool.tessellate()  # type: ignore[call-overload]
-    vorotool.delaunay(None)  # type: ignore[arg-type]
-    vorotool.delaunay(POINTS, True)  # type: ignore[call-arg]
+    vorotool.delaunay(None)  # type: ignore[call-overload]
+    vorotool.delaunay(POINTS, True)  # type: ignore[call-overload]
     vorotool.delauney(POINTS)  # type: ignore[attr-defined]
     mesh.triangle  # type: ignore[attr-defined]
     mesh.points = ARRAY  # type: ignore[misc]
