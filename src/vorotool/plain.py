@@ -53,7 +53,7 @@ def plain(kind: type[Any] | None = None, /, *, eq: bool = True, repr: bool = Tru
             made.__eq__, made.__hash__ = _eq, own["__hash__"] or _hash
         if own["__init__"] is None:
             made.__signature__ = _Signature()
-        return made  # type: ignore[no-any-return]
+        return made
 
     return decorate if kind is None else decorate(kind)
 

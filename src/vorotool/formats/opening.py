@@ -112,7 +112,7 @@ class Opened:
             holds, source = recognized(content, self.geometry, self.said, given.columns)
             told(source.format)
             value = read_recognized(holds, source, given)
-        return value if given.y_axis is None else with_stated_axis(value, self.name, given.y_axis)  # type: ignore[no-any-return]
+        return value if given.y_axis is None else with_stated_axis(value, self.name, given.y_axis)
 
 
 def _member(crs: str) -> dict[str, Any]:

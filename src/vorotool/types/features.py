@@ -136,8 +136,7 @@ def features_of(value: Any, what: str | None = None, *, flatten: Flatten = None)
     """Return the rows of a value with their geometry."""
     if not hasattr(value, "_features"):
         raise UsageError(f"a {type(value).__name__} has no geometry")
-    made: Rows | Mixture = value._features(what, checked_flatten(flatten))
-    return made
+    return value._features(what, checked_flatten(flatten))
 
 
 def rows_of(value: Any, what: str | None = None, *, flatten: Flatten = None) -> Rows:
@@ -147,14 +146,12 @@ def rows_of(value: Any, what: str | None = None, *, flatten: Flatten = None) -> 
         return own
     if not hasattr(value, "_features"):
         raise UsageError(f"a {type(value).__name__} has no table")
-    made: Rows = value._features(what, checked_flatten(flatten))
-    return made
+    return value._features(what, checked_flatten(flatten))
 
 
 def matrix_of(value: Any, what: str | None) -> NDArray[Any]:
     """Return the numbers of a part as one array."""
-    made: NDArray[Any] = value._matrix(what)
-    return made
+    return value._matrix(what)
 
 
 def parts_of(features: Rows | Mixture) -> Iterator[Rows]:

@@ -93,12 +93,10 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
         return self.labels
 
     def _rows(self, _what: str | None = None) -> Rows:
-        rows: Rows = resolved("engines.label_images.features:region_rows")(self)
-        return rows
+        return resolved("engines.label_images.features:region_rows")(self)
 
     def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
-        features: Rows = resolved("engines.label_images.features:region_features")(self)
-        return features
+        return resolved("engines.label_images.features:region_features")(self)
 
     def _summary(self) -> str:
         height, width = self.shape

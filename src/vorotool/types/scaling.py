@@ -78,8 +78,7 @@ def stretched(value: T, x: int, y: int) -> T:
             parts[name] = UP
     if y < 0 and isinstance(value, PolygonSet):
         parts["xy"] = parts["xy"][_reversed_rings(value)]
-    made: T = replace(value, **parts)  # type: ignore[type-var]
-    return made
+    return replace(value, **parts)  # type: ignore[type-var]
 
 
 def _reversed_rings(polygons: PolygonSet) -> NDArray[np.integer]:

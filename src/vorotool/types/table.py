@@ -28,8 +28,7 @@ class Lookup:
 
     def __getitem__(self, rows: slice) -> NDArray[Any]:
         values = self.values if isinstance(self.values, np.ndarray) else object_column(self.values)
-        found: NDArray[Any] = values.take(self.index[rows])
-        return found
+        return values.take(self.index[rows])
 
 
 def object_column(values: Sequence[Any]) -> NDArray[Any]:
@@ -145,16 +144,14 @@ class Table(dict[str, Any], Tabular):
         return Table, (self.stored(),)
 
     def _rows(self, _what: str | None = None) -> Any:
-        rows: Any = resolved("types.features:Rows")(self)
-        return rows
+        return resolved("types.features:Rows")(self)
 
     def __repr__(self) -> str:
         return f"Table: {counted(self.rows, 'row')} of {', '.join(self) or 'no columns'}"
 
     def _repr_html_(self) -> str:
         """The first rows, as notebooks show them."""
-        made: str = resolved("render.showing:table_html")(self)
-        return made
+        return resolved("render.showing:table_html")(self)
 
     def stored(self) -> dict[str, Any]:
         """Columns as they were stored, before any are looked up or computed."""

@@ -58,8 +58,7 @@ class Value(Record):
     @property
     def y_axis(self) -> YAxis:
         """Direction of y where the coordinates come from."""
-        axis: YAxis = getattr(self._made_of, "y_axis", UNSTATED)
-        return axis
+        return getattr(self._made_of, "y_axis", UNSTATED)
 
     @property
     def crs(self) -> Any:
@@ -69,8 +68,7 @@ class Value(Record):
     @property
     def unit(self) -> str | None:
         """The unit of length of the coordinates; None where the input has none."""
-        unit: str | None = getattr(self._made_of, "unit", None)
-        return unit
+        return getattr(self._made_of, "unit", None)
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}: {self._summary()}"
@@ -104,8 +102,7 @@ class Tabular:
         >>> vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]).table()["kind"].tolist()
         ['line', 'line', 'line']
         """
-        made: Table = resolved("types.features:rows_of")(self).table()
-        return made
+        return resolved("types.features:rows_of")(self).table()
 
     def to_pandas(self) -> pandas.DataFrame:
         """Return the table as a data frame, which needs pandas.
@@ -127,8 +124,7 @@ class Tabular:
         >>> vorotool.delaunay([[0, 0], [4, 0], [0, 3]]).to_pandas()["length"].tolist()
         [3.0, 4.0, 5.0]
         """
-        made: pandas.DataFrame = resolved(f"{_FRAMES}:to_pandas")(self)
-        return made
+        return resolved(f"{_FRAMES}:to_pandas")(self)
 
 
 class _Places:
@@ -137,8 +133,7 @@ class _Places:
     @property
     def __geo_interface__(self) -> dict[str, Any]:
         """A feature collection of GeoJSON, as many libraries take it."""
-        made: dict[str, Any] = resolved("jobs.writing:feature_collection")(self)
-        return made
+        return resolved("jobs.writing:feature_collection")(self)
 
 
 class Geometric(_Places):
@@ -158,8 +153,7 @@ class Geometric(_Places):
         >>> vorotool.PointSet([[2, 1], [7, 5]]).to_shapely()[1].wkt
         'POINT (7 5)'
         """
-        made: NDArray[Any] = resolved(_GEOMETRY)(self)
-        return made
+        return resolved(_GEOMETRY)(self)
 
     def to_geopandas(self) -> geopandas.GeoDataFrame:
         """Return the geometry and the columns that go with it, which needs geopandas.
@@ -214,8 +208,7 @@ class WithParts(_Places):
         >>> mesh.to_shapely()[0].area, len(mesh.to_shapely(what="edges"))
         (6.0, 3)
         """
-        made: NDArray[Any] = resolved(_GEOMETRY)(self, what)
-        return made
+        return resolved(_GEOMETRY)(self, what)
 
     def to_geopandas(self, *, what: str | None = None) -> geopandas.GeoDataFrame:
         """Return the geometry of a part and the columns that go with it, which needs geopandas.
@@ -274,8 +267,7 @@ class Curved(_Places):
         >>> vorotool.offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5]).to_shapely()[0].area
         3.0
         """
-        made: NDArray[Any] = resolved(_GEOMETRY)(self, flatten=flatten)
-        return made
+        return resolved(_GEOMETRY)(self, flatten=flatten)
 
     def to_geopandas(self, *, flatten: Flatten = None) -> geopandas.GeoDataFrame:
         """Return the geometry and the columns that go with it, which needs geopandas.
@@ -338,8 +330,7 @@ class Branched(_Places):
         >>> vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]).to_shapely()[0].wkt
         'LINESTRING (0 0, 2 2)'
         """
-        made: NDArray[Any] = resolved(_GEOMETRY)(self, by, flatten=flatten)
-        return made
+        return resolved(_GEOMETRY)(self, by, flatten=flatten)
 
     def to_geopandas(self, *, by: Literal["arc", "branch"] = "arc", flatten: Flatten = None) -> geopandas.GeoDataFrame:
         """Return each arc or branch as a line with its columns, which needs geopandas.
@@ -468,18 +459,15 @@ class Pictured:
         >>> [collection.get_label() for collection in axes.collections]
         ['edges', 'points']
         """
-        made: Axes = resolved(f"{_SHOWING}:plotted")(self, ax, **style)
-        return made
+        return resolved(f"{_SHOWING}:plotted")(self, ax, **style)
 
     def _repr_svg_(self) -> str | None:
         """The picture that notebooks show; None of what has too many elements."""
-        made: str | None = resolved(f"{_SHOWING}:svg_of")(self)
-        return made
+        return resolved(f"{_SHOWING}:svg_of")(self)
 
     def _repr_html_(self) -> str | None:
         """A picture as pixels with one line below, where there is none as SVG."""
-        made: str | None = resolved(f"{_SHOWING}:html_of")(self)
-        return made
+        return resolved(f"{_SHOWING}:html_of")(self)
 
 
 class Pixels(Pictured, Elements):

@@ -171,8 +171,7 @@ class _Arcs:
         x, y = (self.start[arc] - self.center[arc]).T
         cosine, sine = cosine_and_sine(turned)
         turned_offsets = np.stack([x * cosine + y * sine, y * cosine - x * sine], axis=1)
-        places: NDArray[np.float64] = self.center[arc] + turned_offsets
-        return places
+        return self.center[arc] + turned_offsets
 
     def turn_of(self, arc: NDArray[np.int64], points: NDArray[np.float64]) -> NDArray[np.float64]:
         """How far points on the circles of arcs are from their starts, in (-π, π]."""
@@ -237,8 +236,8 @@ class _Arcs:
 
     def _place(self, arc: int, node: int, crossings: NDArray[np.float64]) -> list[float]:
         if node < 0:
-            return crossings[-1 - node].tolist()  # type: ignore[no-any-return]
-        return (self.start if node == self.a[arc] else self.end)[arc].tolist()  # type: ignore[no-any-return]
+            return crossings[-1 - node].tolist()
+        return (self.start if node == self.a[arc] else self.end)[arc].tolist()
 
     def _covered(self, arc: NDArray[np.int64], spans: NDArray[np.float64]) -> NDArray[np.bool_]:
         import shapely

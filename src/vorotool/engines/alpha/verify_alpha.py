@@ -177,8 +177,7 @@ def _expected_classes(shape: AlphaShape, reached: NDArray[np.bool_]) -> NDArray[
     count = np.append(shape.inside, False)[family.sides].sum(axis=1)
     at_first = np.append(reached, False)[family.sides].sum(axis=1)  # a dropped region leaves no edges
     alone = _gabriel(family) & _edges_reached(family, shape.r) & (at_first == 0)
-    found: NDArray[np.intp] = np.where(count == 0, alone.astype(np.intp), count + 1)
-    return found
+    return np.where(count == 0, alone.astype(np.intp), count + 1)
 
 
 def _check_edges(shape: AlphaShape, expected: NDArray[np.intp]) -> None:
@@ -234,5 +233,4 @@ def _check_rings(shape: AlphaShape) -> None:
 
 
 def _sorted_rows(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    ordered: NDArray[np.float64] = rows[np.lexsort(rows.T)]
-    return ordered
+    return rows[np.lexsort(rows.T)]

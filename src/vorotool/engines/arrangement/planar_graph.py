@@ -366,8 +366,7 @@ def _are_small(given: PolygonSet, steps: NDArray[np.float64]) -> NDArray[np.bool
     thin = np.maximum.reduceat(level, begin) - np.minimum.reduceat(level, begin)
     width = np.where(given.is_line, width, np.minimum(width, thin))
     width = np.where(width > 0, width, sides.max(axis=1))
-    small: NDArray[np.bool_] = (width > 0) & (width < SMALL)
-    return small
+    return (width > 0) & (width < SMALL)
 
 
 def _are_moved(given: PolygonSet, placement: Placement, step: float) -> NDArray[np.bool_]:

@@ -160,8 +160,7 @@ class PolygonRegions:
 
     def of(self, face: NDArray[np.integer], polygon: NDArray[np.integer]) -> Indices:
         """Regions of faces in polygons that these lie in."""
-        found: Indices = self._root[np.searchsorted(self._keys, face.astype(np.int64) * self._width + polygon)]
-        return found
+        return self._root[np.searchsorted(self._keys, face.astype(np.int64) * self._width + polygon)]
 
 
 @plain
@@ -315,8 +314,7 @@ def inner_faces(graph: PlanarGraph, used: RepairedPolygons) -> tuple[NDArray[Any
 
 def parts_of_edges(used: RepairedPolygons) -> NDArray[Any]:
     """The used polygon of each of these edges."""
-    parts: NDArray[np.int32] = _polygons_of_edges(used)[_border_edges(used)]
-    return parts
+    return _polygons_of_edges(used)[_border_edges(used)]
 
 
 def _border_edges(used: RepairedPolygons) -> NDArray[Any]:
@@ -330,8 +328,7 @@ def _polygons_of_edges(used: RepairedPolygons) -> NDArray[np.int32]:
 def _inner_faces(graph: PlanarGraph, point: NDArray[Any], segment: NDArray[Any]) -> NDArray[Any]:
     """The face on the left of each segment, as seen from a point at its end."""
     is_forward = graph.segments[segment, 0] == point
-    faces: NDArray[np.int32] = graph.segment_faces[segment, np.where(is_forward, 0, 1)]
-    return faces
+    return graph.segment_faces[segment, np.where(is_forward, 0, 1)]
 
 
 @plain(eq=False)

@@ -340,8 +340,7 @@ def _edges_between_corners(lines: Centerlines, arcs: Numbers) -> NDArray[np.int6
 
 
 def _cross(u: Floats, v: Floats) -> Floats:
-    crossed: Floats = u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
-    return crossed
+    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
 
 
 def _along(lines: Centerlines, arcs: Numbers, site: int) -> int:

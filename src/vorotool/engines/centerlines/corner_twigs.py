@@ -98,8 +98,7 @@ def around_edges(polygons: PolygonSet, vertex: Numbers) -> Floats:
     before = np.empty(len(polygons.xy), dtype=np.intp)
     before[polygons.following] = np.arange(len(before))
     end = polygons.following[vertex]
-    around: Floats = polygons.xy[np.stack([before[vertex], vertex, end, polygons.following[end]], axis=-1)]
-    return around
+    return polygons.xy[np.stack([before[vertex], vertex, end, polygons.following[end]], axis=-1)]
 
 
 def _cosine(ends: Floats, meets: Booleans) -> Floats:
@@ -108,8 +107,7 @@ def _cosine(ends: Floats, meets: Booleans) -> Floats:
     at = meets.any(axis=2).argmax(axis=1), meets.any(axis=1).argmax(axis=1)
     (ux, uy), (vx, vy) = ((ends[every, k, at[k]] - ends[every, k, 1 - at[k]]).T for k in range(2))
     size = np.sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy))
-    cosine: Floats = 0.0 - np.divide(ux * vx + uy * vy, size, out=np.zeros(len(ends)), where=size > 0)
-    return cosine
+    return 0.0 - np.divide(ux * vx + uy * vy, size, out=np.zeros(len(ends)), where=size > 0)
 
 
 @plain(eq=False)
@@ -145,8 +143,7 @@ def _along(skeleton: Skeleton, edge: Numbers, beside: Numbers) -> Floats:
 def _far_end(edges: Floats, a: Floats, b: Floats) -> Floats:
     """The end of each edge that is neither a nor b."""
     is_near = (edges == a[:, None]).all(axis=-1) | (edges == b[:, None]).all(axis=-1)
-    far: Floats = np.where(is_near[:, :1], edges[:, 1], edges[:, 0])
-    return far
+    return np.where(is_near[:, :1], edges[:, 1], edges[:, 0])
 
 
 TIE = 2.0**-20

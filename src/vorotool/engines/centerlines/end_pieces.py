@@ -83,8 +83,7 @@ def _roots(skeleton: Skeleton, component: Numbers) -> Numbers:
         is_tree[component[skeleton.touches_frame]] = False
     own = np.flatnonzero(is_tree[component])
     own = own[np.lexsort((own, -skeleton.radius[own], component[own]))]
-    roots: Numbers = own[np.diff(component[own], prepend=-1) > 0]
-    return roots
+    return own[np.diff(component[own], prepend=-1) > 0]
 
 
 def _removed(skeleton: Skeleton, is_fixed: Booleans, keeps_sides: bool) -> Booleans:

@@ -113,8 +113,7 @@ def _farthest_around(skeleton: Skeleton, twigs: Twigs, around: Numbers) -> Numbe
     most = np.maximum.reduceat(distance, starts) if len(starts) else distance
     far = np.flatnonzero(distance >= most[group] * (1 - TIE))
     far = far[np.lexsort((*twigs.edges[chosen[far]].T[::-1], group[far]))]
-    first: Numbers = chosen[far[np.diff(group[far], prepend=-1) > 0]]
-    return first
+    return chosen[far[np.diff(group[far], prepend=-1) > 0]]
 
 
 def _forks_of_stars(
@@ -167,15 +166,13 @@ def _with_leads(skeleton: Skeleton, twigs: Twigs, forks: Pairs, removed: Numbers
 def _hanging_on(skeleton: Skeleton, arcs: Numbers, nodes: int) -> Numbers:
     """Those of some arcs that are connected, by these, with one of the first nodes."""
     root = connected_roots(skeleton.arcs[arcs], len(skeleton.vertices))
-    hanging: Numbers = arcs[root[skeleton.arcs[arcs, 0]] < nodes]
-    return hanging
+    return arcs[root[skeleton.arcs[arcs, 0]] < nodes]
 
 
 def _longest_of_runs(twigs: Twigs, runs: Numbers, chosen: Numbers) -> Numbers:
     """Of some twigs the longest one of each run, the first of equal ones."""
     order = chosen[np.lexsort((chosen, -twigs.length[chosen], runs[chosen]))]
-    longest: Numbers = order[np.diff(runs[order], prepend=-1) > 0]
-    return longest
+    return order[np.diff(runs[order], prepend=-1) > 0]
 
 
 def are_passed(skeleton: Skeleton, branches: Branches, twigs: Twigs) -> Booleans:
@@ -214,8 +211,7 @@ def _left_without_trees(branches: Branches, own: Numbers) -> Booleans:
         numbers[near] ^= branch
         if degrees[near] == 1:
             leaves.append(near)
-    left: Booleans = np.array(degrees) > 0
-    return left
+    return np.array(degrees) > 0
 
 
 NEAR = 0.5

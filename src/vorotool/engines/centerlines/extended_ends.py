@@ -157,8 +157,7 @@ def _touched(skeleton: Skeleton, sites: Numbers, origin: Floats) -> Floats:
     square = (way * way).sum(axis=-1)
     along = ((origin[:, None] - a) * way).sum(axis=-1)
     at = np.clip(np.divide(along, square, out=np.zeros_like(along), where=square > 0), 0, 1)
-    places: Floats = a + at[..., None] * way
-    return places
+    return a + at[..., None] * way
 
 
 def _outlines(skeleton: Skeleton, sites: Numbers, origin: Floats) -> _Outlines:
@@ -190,8 +189,7 @@ def _areas(skeleton: Skeleton) -> Floats:
     xy = polygons.xy - np.repeat(polygons.xy[start[:-1]], np.diff(start), axis=0)
     x, y = xy.T
     behind = polygons.following
-    areas: Floats = np.add.reduceat(x * y[behind] - x[behind] * y, start[:-1])
-    return areas
+    return np.add.reduceat(x * y[behind] - x[behind] * y, start[:-1])
 
 
 # ---- shoulders ------------------------------------------------------------------------------------
@@ -233,19 +231,16 @@ def _farthest(outlines: _Outlines, way: Floats) -> Numbers:
     start, outline = outlines.start, owners(np.diff(outlines.start))
     reach = (outlines.points * way[outline]).sum(axis=1)
     at = np.flatnonzero(reach == np.maximum.reduceat(reach, start[:-1])[outline])
-    first: Numbers = at[np.diff(outline[at], prepend=-1) > 0]
-    return first
+    return at[np.diff(outline[at], prepend=-1) > 0]
 
 
 def _square(ways: Floats) -> Floats:
-    squares: Floats = (ways * ways).sum(axis=1)
-    return squares
+    return (ways * ways).sum(axis=1)
 
 
 def _unit(ways: Floats) -> Floats:
     size = np.sqrt((ways * ways).sum(axis=1))[:, None]
-    units: Floats = np.divide(ways, size, out=np.zeros_like(ways), where=size > 0)
-    return units
+    return np.divide(ways, size, out=np.zeros_like(ways), where=size > 0)
 
 
 # ---- rays -----------------------------------------------------------------------------------------
@@ -316,10 +311,8 @@ class Walks:
         bends = _cross(before, last) / 0.0625, _cross(far, last) / 0.5
         bend = np.where(bends[0] * bends[1] > 0, np.minimum(*np.abs(bends)) * np.sign(bends[0]), 0.0)
         turned = last + 0.09375 * bend[:, None] * np.stack([-last[:, 1], last[:, 0]], axis=1)
-        directions: Floats = np.where(is_long[:, None], turned, straight)
-        return directions
+        return np.where(is_long[:, None], turned, straight)
 
 
 def _cross(u: Floats, v: Floats) -> Floats:
-    crossed: Floats = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-    return crossed
+    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]

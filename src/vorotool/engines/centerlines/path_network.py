@@ -180,8 +180,7 @@ def _squares_to_pieces(points: Floats, p: Floats) -> Floats:
     square = (way * way).sum(axis=1)
     t = np.divide(((p - points) * way).sum(axis=1), square, out=np.zeros(len(points)), where=square > 0)
     off = points + np.clip(t, 0, 1)[:, None] * way - p
-    squares: Floats = (off * off).sum(axis=1)
-    return squares
+    return (off * off).sum(axis=1)
 
 
 def _nearest_on_arc(skeleton: Skeleton, arc: int, p: Floats) -> tuple[float, float]:

@@ -55,20 +55,17 @@ def verify_extended(extended: ExtendedSkeleton, skeleton: Skeleton | None = None
         _check_branches(path, with_arcs(skeleton, skeleton.side == INTERIOR))
     branch, end = np.nonzero(~np.isnan(extended.ends[:, :, 0]))
     places, nodes = extended.ends[branch, end], extended.end_nodes[branch, end]
-    at = first_wrong((path.degree[nodes] != 1) | ~(path.radius[nodes] > 0))
-    if at is not None:
+    if (at := first_wrong((path.degree[nodes] != 1) | ~(path.radius[nodes] > 0))) is not None:
         fail(f"end {end[at]} of branch {branch[at]} is extended, but is not a leaf inside a polygon")
     if not len(branch):
         return
     shapes = np.array(to_shapely(path.polygons), dtype=object)[extended.polygon[branch]]
     off = PRECISION * float(np.abs(path.polygons.xy).max())
-    at = first_wrong(shapely.distance(shapely.boundary(shapes), shapely.points(places)) > off)
-    if at is not None:
+    if (at := first_wrong(shapely.distance(shapely.boundary(shapes), shapely.points(places)) > off)) is not None:
         x, y = places[at].tolist()
         fail(f"end {end[at]} of branch {branch[at]} is extended to ({x:g}, {y:g}), which is not on the boundary")
     lines = shapely.linestrings(np.stack([path.vertices[nodes], places], axis=1))
-    at = first_wrong(shapely.length(shapely.difference(lines, shapely.buffer(shapes, off))) > 0)
-    if at is not None:
+    if (at := first_wrong(shapely.length(shapely.difference(lines, shapely.buffer(shapes, off))) > 0)) is not None:
         fail(f"the extension of end {end[at]} of branch {branch[at]} leaves polygon {extended.polygon[branch[at]]}")
 
 

@@ -103,8 +103,7 @@ def delaunay(
     """
     if _is_of_space(points):
         make = resolved(f"{_IN_SPACE}:tetrahedralization")
-        made: Tetrahedralization = make(points, strict=strict, threads=threads, progress=progress)
-        return made
+        return make(points, strict=strict, threads=threads, progress=progress)
     return triangulated(points, strict=strict, threads=threads, progress=progress)
 
 

@@ -70,8 +70,7 @@ def _twins(tails: Indices, heads: Indices, count: int) -> NDArray[np.int64]:
         raise InputError(f"two triangles lie on the same side of the edge {tails[side]}, {heads[side]}: they overlap")
     wanted = heads.astype(np.int64) * count + tails
     place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
-    found: NDArray[np.int64] = np.where(keys[order[place]] == wanted, order[place], -1)
-    return found
+    return np.where(keys[order[place]] == wanted, order[place], -1)
 
 
 def _hull(xy: NDArray[np.float64], tails: Indices, heads: Indices) -> Indices:

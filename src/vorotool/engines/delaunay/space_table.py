@@ -61,8 +61,7 @@ def cell_volumes(mesh: Tetrahedralization) -> Floats:
                     normal = cross(u, v)
                     height = dot(center, normal) / dot(normal, normal)
                     parts[rows, i] += height * dot(v - u, cross(normal, center)) / 12
-    volumes: Floats = np.bincount(mesh.tetrahedra.reshape(-1), parts.reshape(-1), len(mesh.points)).astype(np.float64)
-    return volumes
+    return np.bincount(mesh.tetrahedra.reshape(-1), parts.reshape(-1), len(mesh.points)).astype(np.float64)
 
 
 # ---- nearest points ------------------------------------------------------------------------------

@@ -178,5 +178,4 @@ def _by_length(graph: ProximityGraph) -> list[int]:
         if end - start > 1:
             run = np.sort(order[start:end]).tolist()
             order[start:end] = sorted(run, key=lambda e: _square(*([*map(Fraction, points[v])] for v in edges[e])))
-    found: list[int] = order.tolist()
-    return found
+    return order.tolist()

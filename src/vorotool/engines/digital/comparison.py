@@ -391,8 +391,7 @@ def _order_of(mesh: Triangulation, a: NDArray[np.int32], b: NDArray[np.int32]) -
     ends = np.minimum(a, b).astype(np.int64) * count + np.maximum(a, b)
     sorter = np.argsort(ends, kind="stable")
     wanted = mesh.edges[:, 0].astype(np.int64) * count + mesh.edges[:, 1]
-    order: NDArray[np.intp] = sorter[np.searchsorted(ends[sorter], wanted)]
-    return order
+    return sorter[np.searchsorted(ends[sorter], wanted)]
 
 
 def _share_inside(
@@ -405,5 +404,4 @@ def _share_inside(
     parallel = step == 0
     enters = np.where(parallel, np.where(within, -np.inf, np.inf), np.minimum(one, other)).max(axis=1)
     leaves = np.where(parallel, np.where(within, np.inf, -np.inf), np.maximum(one, other)).min(axis=1)
-    share: NDArray[np.float64] = np.maximum(0.0, np.minimum(leaves, 1.0) - np.maximum(enters, 0.0))
-    return share
+    return np.maximum(0.0, np.minimum(leaves, 1.0) - np.maximum(enters, 0.0))

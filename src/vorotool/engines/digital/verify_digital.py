@@ -101,8 +101,7 @@ def _columns(arrays: tuple[NDArray[Any], ...]) -> NDArray[np.int64]:
 def _distinct(rows: NDArray[np.int64]) -> NDArray[np.int64]:
     """Sorted rows of labels that all differ and are not 0, each once."""
     rows = np.sort(rows, axis=1)
-    unique: NDArray[np.int64] = np.unique(rows[(np.diff(rows, axis=1) != 0).all(axis=1) & (rows[:, 0] != 0)], axis=0)
-    return unique
+    return np.unique(rows[(np.diff(rows, axis=1) != 0).all(axis=1) & (rows[:, 0] != 0)], axis=0)
 
 
 def _compare(name: str, given: NDArray[np.int64], right: NDArray[np.int64]) -> None:

@@ -45,8 +45,7 @@ class Places:
         """New numbers of items."""
         if self.place is None:
             return items.astype(np.int32, copy=False)
-        numbers: NDArray[np.int32] = self.place.astype(np.int32)[items]
-        return numbers
+        return self.place.astype(np.int32)[items]
 
 
 @plain(eq=False)

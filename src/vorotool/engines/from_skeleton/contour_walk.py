@@ -153,8 +153,7 @@ class _HalfEdges:
 
 
 def _unit(way: NDArray[np.float64]) -> NDArray[np.float64]:
-    units: NDArray[np.float64] = way / np.sqrt((way * way).sum(axis=1, keepdims=True))
-    return units
+    return way / np.sqrt((way * way).sum(axis=1, keepdims=True))
 
 
 def _unmatched(following: Indices) -> tuple[Indices, Indices]:
@@ -246,5 +245,4 @@ def twice_areas(xy: Floats, start: Indices) -> Floats:
     """(r,) of rings, positive counter-clockwise."""
     first = np.repeat(xy[start[:-1]], np.diff(start), axis=0)
     (x, y), (u, v) = (xy - first).T, (xy[following(start)] - first).T
-    areas: Floats = np.add.reduceat(x * v - y * u, start[:-1]) if len(xy) else np.zeros(0)
-    return areas
+    return np.add.reduceat(x * v - y * u, start[:-1]) if len(xy) else np.zeros(0)

@@ -188,8 +188,7 @@ def _directions(lines: LedOn, pieces: _Pieces, piece: Indices, u: Floats) -> Flo
     bent = (1 - v) * (control - a) + v * (b - control)
     way = np.where(np.isnan(control) | ~bent.any(axis=1)[:, None], b - a, bent)
     length = hypotenuse(*way.T)[:, None]
-    unit: Floats = np.divide(way, length, out=np.zeros_like(way), where=length > 0)
-    return unit
+    return np.divide(way, length, out=np.zeros_like(way), where=length > 0)
 
 
 def _radii(lines: LedOn, pieces: _Pieces, piece: Indices, reached: Floats, xy: Floats, line: Indices) -> Floats:

@@ -91,8 +91,7 @@ def _turned(way: Floats) -> Floats:
 
 
 def _norm(way: Floats) -> Floats:
-    length: Floats = np.sqrt((way * way).sum(axis=-1))
-    return length
+    return np.sqrt((way * way).sum(axis=-1))
 
 
 @plain
@@ -260,8 +259,7 @@ def _vertices(skeleton: Skeleton, point: Indices) -> tuple[Floats, Floats]:
 def _is_disc(skeleton: Skeleton) -> NDArray[np.bool_]:
     """(a,) whether each arc is a single place: all that pruning left of a connected part."""
     source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
-    found: NDArray[np.bool_] = (source == target).all(axis=1) & (skeleton.degree[skeleton.arcs] == 1).all(axis=1)
-    return found
+    return (source == target).all(axis=1) & (skeleton.degree[skeleton.arcs] == 1).all(axis=1)
 
 
 def _simple_rings(contours: Contours, xy: Floats, point: Indices, start: Indices) -> list[Ring]:
@@ -361,8 +359,7 @@ def covered_rings(skeleton: Skeleton, arcs: Indices, tolerance: float | None) ->
 def _to_corner(skeleton: Skeleton, arcs: Indices) -> NDArray[np.bool_]:
     """(k,) whether the sites of each arc have an end in common."""
     left, right = skeleton.site_ends[skeleton.sites[arcs].T]
-    found: NDArray[np.bool_] = (left[:, :, None] == right[:, None]).all(axis=-1).any(axis=(1, 2))
-    return found
+    return (left[:, :, None] == right[:, None]).all(axis=-1).any(axis=(1, 2))
 
 
 def _circles(skeleton: Skeleton, node: NDArray[np.integer], tolerance: float | None) -> tuple[Floats, Indices]:

@@ -61,8 +61,7 @@ def verify_discs(discs: Discs, *, progress: Progress = None) -> None:
         return
     feature = discs.polygons.feature
     assert feature is not None
-    at = first_wrong(discs.polygon < 0)
-    if at is not None:
+    if (at := first_wrong(discs.polygon < 0)) is not None:
         fail(f"disc {at} is in no polygon")
     of_disc = feature[discs.polygon]
     owners = np.unique(of_disc)
@@ -84,13 +83,11 @@ def _tolerance(discs: Discs) -> float:
 def _check_feet(discs: Discs, tolerance: float) -> None:
     counts = np.diff(discs.foot_starts)
     disc = np.repeat(np.arange(len(discs)), counts)
-    at = first_wrong(counts < (2 if discs.within is None else 1))
-    if at is not None:
+    if (at := first_wrong(counts < (2 if discs.within is None else 1))) is not None:
         fail(f"disc {at} has {counts[at]} feet")
     way = discs.feet - discs.xy[disc]
     away = np.abs(np.sqrt((way * way).sum(axis=1)) - discs.radius[disc])
-    at = first_wrong(~(away <= tolerance))
-    if at is not None:
+    if (at := first_wrong(~(away <= tolerance))) is not None:
         fail(f"a foot of disc {disc[at]} is {away[at]} off its circle")
     from vorotool.types.skeleton.skeleton import ends_of_sites
 
@@ -99,8 +96,7 @@ def _check_feet(discs: Discs, tolerance: float) -> None:
     square = (way * way).sum(axis=1)
     share = np.divide((from_end * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
     rest = from_end - np.clip(share, 0, 1)[:, None] * way
-    at = first_wrong(~(np.sqrt((rest * rest).sum(axis=1)) <= tolerance))
-    if at is not None:
+    if (at := first_wrong(~(np.sqrt((rest * rest).sum(axis=1)) <= tolerance))) is not None:
         fail(f"a foot of disc {disc[at]} is not on its site {discs.foot_site[at]}")
 
 
@@ -108,15 +104,13 @@ def _check_order(discs: Discs, chosen: NDArray[np.intp], tolerance: float) -> No
     if (discs.rank[chosen] != np.arange(len(chosen)) + 1).any():
         fail(f"ranks {discs.rank[chosen].tolist()} are not consecutive")
     radius = discs.radius[chosen]
-    at = first_wrong(np.diff(radius) > tolerance)
-    if at is not None:
+    if (at := first_wrong(np.diff(radius) > tolerance)) is not None:
         fail(f"disc {chosen[at + 1]} is larger than the one before it")
     if discs.local:
         return
     for k in range(1, len(chosen)):
         way = discs.xy[chosen[:k]] - discs.xy[chosen[k]]
-        at = first_wrong(np.sqrt((way * way).sum(axis=1)) < radius[:k] + radius[k] - tolerance)
-        if at is not None:
+        if (at := first_wrong(np.sqrt((way * way).sum(axis=1)) < radius[:k] + radius[k] - tolerance)) is not None:
             fail(f"discs {chosen[at]} and {chosen[k]} overlap")
 
 
@@ -146,8 +140,7 @@ def _check_clear(discs: Discs, chosen: NDArray[np.intp], edges: Any, tolerance: 
 
     tree = shapely.STRtree(edges)
     found = _distances(tree, discs.xy[chosen])
-    at = first_wrong(~(np.abs(found - discs.radius[chosen]) <= tolerance))
-    if at is not None:
+    if (at := first_wrong(~(np.abs(found - discs.radius[chosen]) <= tolerance))) is not None:
         k = chosen[at]
         fail(f"disc {k}: an edge is {found[at]} from its center, but its radius is {discs.radius[k]}")
     return tree
@@ -160,8 +153,7 @@ def _check_feature(discs: Discs, chosen: NDArray[np.intp], polygons: NDArray[np.
     shapes = [shape for shape in used_shapes(discs.polygons)[polygons] if shape.geom_type.endswith("Polygon")]
     inside = shapely.union_all(shapes)
     shapely.prepare(inside)
-    at = first_wrong(~shapely.contains_xy(inside, *discs.xy[chosen].T))
-    if at is not None:
+    if (at := first_wrong(~shapely.contains_xy(inside, *discs.xy[chosen].T))) is not None:
         fail(f"the center of disc {chosen[at]} is not inside")
     for k in (chosen if discs.local else chosen[:1]).tolist():
         if not _is_held(discs, k, tolerance):
@@ -182,8 +174,7 @@ def _check_empty(discs: Discs, within: PolygonSet, tolerance: float) -> None:
     region = shapely.union_all(used_shapes(within))
     space = shapely.difference(region, shapely.union_all(filled))
     shapely.prepare(space)
-    at = first_wrong(~(shapely.distance(space, shapely.points(discs.xy)) <= tolerance))
-    if at is not None:
+    if (at := first_wrong(~(shapely.distance(space, shapely.points(discs.xy)) <= tolerance))) is not None:
         fail(f"the center of disc {at} is not in the region, or in a shape")
     _check_none_larger(discs, 0, tree, space, tolerance)
 
@@ -206,8 +197,7 @@ def _check_none_larger(discs: Discs, disc: int, tree: STRtree, inside: Any, tole
     places = np.array([[x0 + side / 2, y0 + side / 2]])  # one square over all: a thin shape has no wide first grid
     while len(places) and len(places) <= _MOST_CELLS:
         away = _distances(tree, places)
-        larger = first_wrong((away > enough) & shapely.contains_xy(inside, *places.T))
-        if larger is not None:
+        if (larger := first_wrong((away > enough) & shapely.contains_xy(inside, *places.T))) is not None:
             place = tuple(places[larger].tolist())
             fail(f"a disc of radius {away[larger]} fits at {place}, larger than disc {disc}")
         reach = side * np.sqrt(0.5)

@@ -52,8 +52,7 @@ def _interpolated(xy: Floats, start: NDArray[np.int64], line: NDArray[np.int64],
     wanted = np.minimum(along + reached[start[:-1]][line], reached[start[1:] - 1][line])
     at = np.clip(np.searchsorted(reached, wanted, side="right") - 1, start[line], start[line + 1] - 1)
     part = np.divide(wanted - reached[at], steps[at], out=np.zeros(len(at)), where=steps[at] > 0)
-    places: Floats = xy[at] + part[:, None] * (xy[np.minimum(at + 1, len(xy) - 1)] - xy[at])
-    return places
+    return xy[at] + part[:, None] * (xy[np.minimum(at + 1, len(xy) - 1)] - xy[at])
 
 
 def _check_across(points: SkeletonPoints, lines: LedOn, line: NDArray[np.int64], tolerance: float) -> None:
@@ -79,8 +78,7 @@ def _across(path: Skeleton, points: SkeletonPoints, chosen: NDArray[np.int64]) -
     source, target = path.vertices[path.arcs[arc]].swapaxes(0, 1)
     turned = np.stack([source[:, 1] - target[:, 1], target[:, 0] - source[:, 0]], axis=1)
     is_exact = path.error_bound[arc] == 0
-    across: Floats = np.where(is_exact[:, None], left - right, turned)
-    return across
+    return np.where(is_exact[:, None], left - right, turned)
 
 
 def _check_ends(points: SkeletonPoints, line: NDArray[np.int64], shapes: NDArray[Any], tolerance: float) -> None:
@@ -106,6 +104,5 @@ def _check_ends(points: SkeletonPoints, line: NDArray[np.int64], shapes: NDArray
 
 
 def _refuse(wrong: Booleans, what: str) -> None:
-    at = first_wrong(wrong)
-    if at is not None:
+    if (at := first_wrong(wrong)) is not None:
         fail(f"point {at} {what}")

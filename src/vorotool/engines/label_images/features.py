@@ -94,8 +94,7 @@ def _regions(image: LabelImage, labels: NDArray[Any]) -> NDArray[Any]:
         column, row = xy[:, 0] - left, xy[:, 1] - top
         return np.stack([a * column + b * row + c, d * column + e * row + f], axis=1)
 
-    made: NDArray[Any] = shapely.transform(geometry, on_map)
-    return made
+    return shapely.transform(geometry, on_map)
 
 
 def _in_unit(geometry: NDArray[Any], sides: PixelSides) -> NDArray[Any]:
@@ -103,5 +102,4 @@ def _in_unit(geometry: NDArray[Any], sides: PixelSides) -> NDArray[Any]:
     if sides == SQUARE:
         return geometry
     height, width = (float(side) for side in sides.lengths)
-    made: NDArray[Any] = shapely.transform(geometry, lambda xy: xy * (width, height))
-    return made
+    return shapely.transform(geometry, lambda xy: xy * (width, height))

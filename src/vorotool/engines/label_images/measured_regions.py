@@ -106,8 +106,7 @@ class Regions:
             return self.seeds.sites * self.steps
         measures = self.measures
         centroids = measures.sums / measures.cells[:, None] + np.array(self.frame.origin, np.int64)
-        placed: NDArray[np.float64] = centroids * self.steps
-        return placed
+        return centroids * self.steps
 
     @property
     def steps(self) -> NDArray[np.int64]:

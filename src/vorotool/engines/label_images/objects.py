@@ -62,8 +62,7 @@ def seed_objects(image: LabelImage) -> LabelImage | None:
 def outermost_pixels(image: LabelImage) -> NDArray[np.bool_]:
     """Find the pixels of regions that lie beside another label, or on a side of the image."""
     labels = label_array(image.labels)
-    outermost: NDArray[np.bool_] = (labels != 0) & ~surrounded(labels)
-    return outermost
+    return (labels != 0) & ~surrounded(labels)
 
 
 def _painted(image: LabelImage, seeds: SeedSet) -> LabelImage:

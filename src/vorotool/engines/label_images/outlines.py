@@ -305,8 +305,7 @@ def _is_straight(places: NDArray[np.int64], start: NDArray[np.int64]) -> NDArray
     (ax, ay), (bx, by) = (places - places[before]).T, (places[after] - places).T
     turns = ax * by != ay * bx
     _, place = np.unique(places[:, 1] << 32 | places[:, 0] & 0xFFFFFFFF, return_inverse=True)
-    straight: NDArray[np.bool_] = np.bincount(place, turns)[place] == 0
-    return straight
+    return np.bincount(place, turns)[place] == 0
 
 
 # ---- fewer vertices: polygons and lines meet where they met

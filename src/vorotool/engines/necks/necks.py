@@ -235,8 +235,7 @@ def ways_from_necks(skeleton: Skeleton, flow: Flow) -> Ways:
 
 
 def _has(course: ClearanceCourse, signs: tuple[int, int]) -> NDArray[np.bool_]:
-    found: NDArray[np.bool_] = (course.slope == signs).all(axis=1)
-    return found
+    return (course.slope == signs).all(axis=1)
 
 
 def _rising_pairs(skeleton: Skeleton, flow: Flow) -> tuple[Indices, Indices]:
@@ -311,8 +310,7 @@ def feet_of(skeleton: Skeleton, ways: Ways) -> Feet:
 
 
 def _is_edge(skeleton: Skeleton) -> NDArray[np.bool_]:
-    found: NDArray[np.bool_] = skeleton.site_table.kind == EDGE
-    return found
+    return skeleton.site_table.kind == EDGE
 
 
 def _sites(skeleton: Skeleton, ways: Ways) -> Indices:

@@ -304,5 +304,4 @@ def _numbers(feet: Feet, ends: Floats, points: Indices) -> Indices:
 def _is_last(xy: Floats, contour: Indices) -> NDArray[np.bool_]:
     """Whether what follows around a contour is another place, or nothing."""
     after = following(np.searchsorted(contour, np.arange(int(contour.max(initial=-1)) + 2)))
-    found: NDArray[np.bool_] = (xy != xy[after]).any(axis=1) | (after == np.arange(len(xy)))
-    return found
+    return (xy != xy[after]).any(axis=1) | (after == np.arange(len(xy)))

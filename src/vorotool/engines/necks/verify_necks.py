@@ -63,20 +63,16 @@ def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -
     places = SitePlaces(necks.skeleton)
     for foot in (0, 1):
         off = places.distances(necks.sites[:, foot], necks.feet[:, foot])
-        at = first_wrong(~(off <= places.tolerance))
-        if at is not None:
+        if (at := first_wrong(~(off <= places.tolerance))) is not None:
             fail(f"neck {at}: its foot {necks.feet[at, foot].tolist()} is {off[at]} from site {necks.sites[at, foot]}")
     a, b = necks.feet.swapaxes(0, 1)
     apart = _norm(b - a)
-    at = first_wrong(~(np.abs(apart - necks.width) <= places.tolerance))
-    if at is not None:
+    if (at := first_wrong(~(np.abs(apart - necks.width) <= places.tolerance))) is not None:
         fail(f"neck {at}: its feet are {apart[at]} from each other, but its width is {necks.width[at]}")
-    at = first_wrong(~(_norm((a + b) / 2 - necks.xy) <= places.tolerance))
-    if at is not None:
+    if (at := first_wrong(~(_norm((a + b) / 2 - necks.xy) <= places.tolerance))) is not None:
         fail(f"neck {at} at {necks.xy[at].tolist()} is not in the middle of its cut")
     least, most = necks.beside.T
-    at = first_wrong(~(necks.width / 2 <= least + places.tolerance) | ~(least <= most))
-    if at is not None:
+    if (at := first_wrong(~(necks.width / 2 <= least + places.tolerance) | ~(least <= most))) is not None:
         fail(f"neck {at}: beside its width of {necks.width[at]} the clearances are {necks.beside[at].tolist()}")
     _check_clearances(necks.skeleton, necks.polygon, necks.xy, necks.width / 2, "neck", threads, progress)
 
@@ -115,8 +111,7 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
     threads = checked_threads(threads)
     verify_necks(parts.necks, threads=threads, progress=progress)
     parts = _placed_parts(parts)
-    at = first_wrong(~(parts.area > 0))
-    if at is not None:
+    if (at := first_wrong(~(parts.area > 0))) is not None:
         fail(f"piece {at} has an area of {parts.area[at]}")
     _check_discs(parts, threads, progress)
     _check_cuts(parts)
@@ -143,8 +138,7 @@ def _placed_parts(parts: Parts) -> Parts:
 
 # ---- distances -----------------------------------------------------------------------------------
 def _norm(way: Floats) -> Floats:
-    length: Floats = np.sqrt((way * way).sum(axis=-1))
-    return length
+    return np.sqrt((way * way).sum(axis=-1))
 
 
 def _clearances(skeleton: Skeleton, polygon: NDArray[np.int32], places: Floats, reach: Floats, threads: int) -> Floats:
@@ -193,11 +187,9 @@ def _check_clearances(
     """Raise if the boundary is nearer to a place than it is said."""
     tolerance = SitePlaces(skeleton).tolerance
     nearest = _clearances(skeleton, polygon, places, radius + 2 * tolerance, threads)
-    at = first_wrong(nearest < radius - tolerance)
-    if at is not None:
+    if (at := first_wrong(nearest < radius - tolerance)) is not None:
         fail(f"{what} {at}: the boundary is {nearest[at]} from {places[at].tolist()}, nearer than {radius[at]}")
-    at = first_wrong(~(nearest <= radius + tolerance))
-    if at is not None:
+    if (at := first_wrong(~(nearest <= radius + tolerance))) is not None:
         fail(f"{what} {at}: nothing touches its largest disc, of radius {radius[at]}")
     if progress is not None:
         progress(1.0)
@@ -217,8 +209,7 @@ def _check_discs(parts: Parts, threads: int, progress: Progress) -> None:
     off = np.full(len(parts), np.inf)
     np.minimum.at(off, corner, _off_edges(parts.center[corner], polygons.xy, polygons.xy[after]))
     is_out = np.bincount(corner, right, minlength=len(parts)) % 2 == 0
-    at = first_wrong(is_out & (off > SitePlaces(skeleton).tolerance))
-    if at is not None:
+    if (at := first_wrong(is_out & (off > SitePlaces(skeleton).tolerance))) is not None:
         fail(f"piece {at}: the center of its largest disc, {parts.center[at].tolist()}, is not in it")
 
 
@@ -260,8 +251,7 @@ def _check_borders(parts: Parts, threads: int, progress: Progress) -> None:
     a, b = edges[rest, :2], edges[rest, 2:]
     for place in (a, (a + b) / 2):
         off = _clearances(skeleton, source, place, np.full(len(rest), 2 * tolerance), threads)
-        at = first_wrong(~(off <= tolerance))
-        if at is not None:
+        if (at := first_wrong(~(off <= tolerance))) is not None:
             fail(
                 f"piece {piece[rest[at]]}: {place[at].tolist()} is on its border, but neither on a cut nor on the "
                 "boundary"

@@ -239,7 +239,7 @@ def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progre
     polygon = np.insert(placed.sites.polygon, count, more)
     assert placed.polygons.feature is not None
     feature = np.append(placed.polygons.feature, -1).astype(np.int32)
-    found: list[Curves] = _core.offsets.offset_curves(
+    return _core.offsets.offset_curves(
         core_diagram(diagram, graph.segment_faces),
         face,
         placed.face_polygon,
@@ -250,7 +250,6 @@ def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progre
         graph.scale,
         progress,
     )
-    return found
 
 
 def _as_offsets(

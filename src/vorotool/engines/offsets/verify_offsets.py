@@ -141,8 +141,7 @@ def _tolerance(offsets: Offsets) -> float:
 
 
 def _check_chains(offsets: Offsets) -> None:
-    at = first_wrong((offsets.end != offsets.start[following(offsets.ring_starts)]).any(axis=1))
-    if at is not None:
+    if (at := first_wrong((offsets.end != offsets.start[following(offsets.ring_starts)]).any(axis=1))) is not None:
         fail(f"piece {at} ends at {_place(offsets.end[at])}, but the next one of its ring does not begin there")
 
 
@@ -154,17 +153,14 @@ def _place(xy: Floats) -> tuple[float, float]:
 def _check_sites(offsets: Offsets, tolerance: float) -> None:
     """Lines are along edges, arcs about vertices, each at its distance."""
     ends = ends_of_sites(offsets.polygons, offsets.site_table)[offsets.site]
-    at = first_wrong((offsets.site_table.kind[offsets.site] == EDGE) == offsets.is_arc)
-    if at is not None:
+    if (at := first_wrong((offsets.site_table.kind[offsets.site] == EDGE) == offsets.is_arc)) is not None:
         fail(f"piece {at} is neither a line along an edge nor an arc about a vertex")
-    at = first_wrong(offsets.is_arc & (offsets.center != ends[:, 0]).any(axis=1))
-    if at is not None:
+    if (at := first_wrong(offsets.is_arc & (offsets.center != ends[:, 0]).any(axis=1))) is not None:
         fail(f"arc {at} is about {_place(offsets.center[at])}, which is not its vertex")
     distance = np.abs(offsets.piece_distance)
     for place in (offsets.start, offsets.end):
         apart = np.abs(_distances(ends, place) - distance)
-        at = first_wrong(~(apart <= tolerance))
-        if at is not None:
+        if (at := first_wrong(~(apart <= tolerance))) is not None:
             fail(f"piece {at} has an end that is {apart[at]:g} too near to its site, or too far from it")
 
 
@@ -199,8 +195,7 @@ def _check_nothing_nearer(
     places = np.concatenate([offsets.start, *_inner_places(offsets)])
     distance = np.tile(np.abs(offsets.piece_distance), 4)
     nearest = _clearances(places, distance, graph, threads, progress)
-    at = first_wrong(nearest < distance - tolerance)
-    if at is not None:
+    if (at := first_wrong(nearest < distance - tolerance)) is not None:
         piece = at % len(offsets.site)
         fail(f"piece {piece} at distance {distance[at]}: a site is {nearest[at]} from {_place(places[at])}")
 
@@ -225,8 +220,7 @@ def _check_orientation(offsets: Offsets, tolerance: float) -> None:
     )
     length = np.add.reduceat(offsets.length, offsets.ring_starts[:-1]) if len(single) else np.zeros(0)
     area = np.where(offsets.ring_kind == SHELL, single.area, -single.area)
-    at = first_wrong(area < -tolerance * length)
-    if at is not None:
+    if (at := first_wrong(area < -tolerance * length)) is not None:
         fail(f"ring {at} has the wrong orientation: it has the area {single.area[at]}")
 
 
@@ -256,8 +250,7 @@ def _check_regions(
         wanted = is_inside | is_near if distance > 0 else is_inside & ~is_near
         clear = np.abs(clearance - abs(distance)) > 2 * tested
         held = _holding(shapes, points)
-        at = first_wrong(clear & (held != wanted))
-        if at is not None:
+        if (at := first_wrong(clear & (held != wanted))) is not None:
             how = f"is in {held[at]} shapes, not in {'one' if wanted[at] else 'none'},"
             fail(f"{_place(witnesses[at])}, {clearance[at]} from the polygons, {how} at distance {distance}")
 

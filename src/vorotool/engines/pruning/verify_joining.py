@@ -75,8 +75,7 @@ def _check_arcs(joined: Skeleton, skeleton: Skeleton) -> None:
     )
     covered = length <= joined.radius[a] + joined.radius[b] + tolerance
     right = leads & covered & ~joined.is_parabola & (np.abs(joined.length - length) <= tolerance)
-    at = first_wrong(~(is_part | right))
-    if at is not None:
+    if (at := first_wrong(~(is_part | right))) is not None:
         fail(f"arc {at} of the joined skeleton is not a part of an arc, and does not lead to a former junction")
 
 
@@ -99,8 +98,7 @@ def _check_junctions(joined: Skeleton, skeleton: Skeleton, left: set[tuple[float
         held = np.zeros(len(gone), dtype=bool)
         larger = joined.radius[own[near[0]]] >= skeleton.radius[gone[near[1]]]
         held[near[1][larger]] = True
-        at = first_wrong(~held)
-        if at is not None:
+        if (at := first_wrong(~held)) is not None:
             place = tuple(skeleton.vertices[gone[at]].tolist())
             fail(f"the junction at {place} is missing, but lies in no disc of a larger remaining junction")
     table = branch_table(skeleton, threads=1)
@@ -108,6 +106,5 @@ def _check_junctions(joined: Skeleton, skeleton: Skeleton, left: set[tuple[float
     may_move = ~skeleton.touches_frame & (skeleton.radius > 0)
     larger = np.maximum(skeleton.radius[a], skeleton.radius[b])
     stays = is_left[a] & is_left[b] & may_move[a] & may_move[b] & (a != b) & (table["length"] < larger)
-    at = first_wrong(stays)
-    if at is not None:
+    if (at := first_wrong(stays)) is not None:
         fail(f"branch {at} is {table['length'][at]} long, but the junctions that it joins are not merged")

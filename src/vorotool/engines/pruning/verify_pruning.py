@@ -54,8 +54,7 @@ def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
     check_value(pruned, "pruned", "Skeleton")
     check_value(skeleton, "skeleton", "Skeleton")
     check_counts(pruned, skeleton, "pruned")
-    at = first_wrong(~are_parts(pruned, skeleton))
-    if at is not None:
+    if (at := first_wrong(~are_parts(pruned, skeleton))) is not None:
         left, right = sorted(pruned.sites[at].tolist())
         fail(f"arc {at} of the pruned skeleton is not a part of an arc between sites {left} and {right}")
 
@@ -125,8 +124,7 @@ def check_counts(made: Skeleton, skeleton: Skeleton, name: str) -> None:
     """Raise unless a skeleton that was made of another one has as many connected parts and cycles as that."""
     counts = [_counts(value) for value in (skeleton, made)]
     for what, before, after in zip(("connected parts", "cycles"), *counts, strict=True):
-        at = first_wrong(before != after)
-        if at is not None:
+        if (at := first_wrong(before != after)) is not None:
             where = f"in polygon {at}" if at < len(skeleton.polygons) else "outside"
             fail(f"the {name} skeleton has {after[at]} {what} {where}, not {before[at]}")
 

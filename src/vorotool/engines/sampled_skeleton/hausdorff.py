@@ -66,8 +66,7 @@ def _focal_heights(
     edge = ends[np.where(is_edge[:, 0], sites[:, 0], sites[:, 1])]
     vertex = ends[np.where(is_edge[:, 0], sites[:, 1], sites[:, 0]), 0]
     along, way = edge[:, 1] - edge[:, 0], vertex - edge[:, 0]
-    heights: NDArray[np.float64] = np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / hypotenuse(*along.T)
-    return heights
+    return np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / hypotenuse(*along.T)
 
 
 def _largest(values: NDArray[np.float64]) -> float | None:

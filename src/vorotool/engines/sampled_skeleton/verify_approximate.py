@@ -50,12 +50,12 @@ def check_samples(samples: BoundarySamples, step: float | None = None) -> None:
     length = np.sqrt((way * way).sum(axis=1))
     across = (way[:, 0] * from_a[:, 1] - way[:, 1] * from_a[:, 0]) / length
     along = (way * from_a).sum(axis=1) / length
-    at = first_wrong((np.abs(across) > SEED_ERROR + 2.0**-50 * length) | (along <= 0) | (along >= length))
-    if at is not None:
+    if (
+        at := first_wrong((np.abs(across) > SEED_ERROR + 2.0**-50 * length) | (along <= 0) | (along >= length))
+    ) is not None:
         fail(f"seed {points + at} is not on its edge")
     same = np.flatnonzero(np.diff(samples.segment[points:]) == 0)
-    at = first_wrong(along[same + 1] <= along[same])
-    if at is not None:
+    if (at := first_wrong(along[same + 1] <= along[same])) is not None:
         fail(f"seed {points + same[at]} is beyond the next one of its edge")
     if step is not None:
         _check_gaps(samples, step)
@@ -67,8 +67,7 @@ def _check_gaps(samples: BoundarySamples, step: float) -> None:
     gaps, segment = samples.gaps()
     alone = (np.diff(samples.start) == 0)[segment]
     error = (SEED_ERROR + 2.0**-50 * np.ptp(samples.graph.points)) * samples.graph.scale
-    at = first_wrong((gaps >= 1.5 * step + error) | (~alone & (gaps < 0.5 * step - error)))
-    if at is not None:
+    if (at := first_wrong((gaps >= 1.5 * step + error) | (~alone & (gaps < 0.5 * step - error)))) is not None:
         fail(f"a gap on edge {segment[at]} is {gaps[at]}, but the step is {step}")
 
 
@@ -83,13 +82,11 @@ def _check_seeds(found: ApproximateSkeleton) -> None:
     for end in (0, 1):
         place = skeleton.vertices[skeleton.arcs[sampled, end]]
         left, right = (hypotenuse(*(place - xy[found.seeds[sampled, hand]]).T) for hand in (0, 1))
-        at = first_wrong(~(np.abs(left - right) <= error))
-        if at is not None:
+        if (at := first_wrong(~(np.abs(left - right) <= error))) is not None:
             one, other = found.seeds[sampled[at]].tolist()
             fail(f"arc {sampled[at]} is {left[at]} from seed {one} and {right[at]} from seed {other}")
         nearest = _nearest_of_group(found, tree, place, found.seeds[sampled, 0], left - error)
-        at = first_wrong(nearest < left - error)
-        if at is not None:
+        if (at := first_wrong(nearest < left - error)) is not None:
             fail(f"a seed is {nearest[at]} from arc {sampled[at]}, nearer than its own, {left[at]}")
 
 
@@ -101,8 +98,7 @@ def _nearest_of_group(
 
     points, group = shapely.points(places), found.shapes.groups.of_samples(found.shapes.samples)
     if group is None:
-        distance: Floats = tree.query_nearest(points, return_distance=True, all_matches=False)[1]
-        return distance
+        return tree.query_nearest(points, return_distance=True, all_matches=False)[1]
     place, seed = tree.query(points, predicate="dwithin", distance=np.maximum(reach, 0))
     own = group[seed] == group[seeds[place]]
     place, seed = place[own], seed[own]
@@ -127,8 +123,7 @@ def _check_labels(found: ApproximateSkeleton) -> None:
         for low, high in (np.sort(pairs, axis=1).T for pairs in (graph.segments, np.stack([p[both], q[both]], axis=1)))
     ]
     share[both] = np.isin(keys[1], keys[0])
-    at = first_wrong(share)
-    if at is not None:
+    if (at := first_wrong(share)) is not None:
         fail(f"arc {sampled[at]} is between seeds {found.seeds[sampled[at]].tolist()} of one edge")
 
 
@@ -138,6 +133,5 @@ def _check_radii(found: ApproximateSkeleton) -> None:
     error = place_error(skeleton)
     sampled = found.seeds[:, 0] >= 0
     far = hypotenuse(*(skeleton.vertices[node] - found.shapes.samples.xy[found.seeds[:, 0]]).T)
-    at = first_wrong(sampled & ~(skeleton.radius[node] <= far + error))
-    if at is not None:
+    if (at := first_wrong(sampled & ~(skeleton.radius[node] <= far + error))) is not None:
         fail(f"node {node[at]} is {far[at]} from its seeds, but its radius is {skeleton.radius[node[at]]}")

@@ -79,10 +79,7 @@ def _joined(
     def shifted(name: str, sizes: list[int]) -> NDArray[np.int32]:
         values = [getattr(part, name) for part in parts]
         first = np.repeat(np.cumsum(sizes) - sizes, [len(rows) for rows in values])
-        joined: NDArray[np.int32] = np.concatenate(values) + first.astype(np.int32).reshape(
-            -1, *[1] * (values[0].ndim - 1)
-        )
-        return joined
+        return np.concatenate(values) + first.astype(np.int32).reshape(-1, *[1] * (values[0].ndim - 1))
 
     sites = [len(part.points) + len(part.segments) for part in parts]
     rings = np.concatenate([np.diff(part.vertex_starts) for part in parts])

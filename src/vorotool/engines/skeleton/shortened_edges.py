@@ -183,8 +183,7 @@ def _middles(diagram: SegmentVoronoiDiagram, edges: NDArray[np.int32]) -> NDArra
     ends = np.where(source >= 0, source, target), np.where(target >= 0, target, source)
     if not len(diagram.vertices):
         return np.zeros((len(edges), 2))
-    middle: NDArray[np.float64] = diagram.vertices[np.stack(ends)].mean(axis=0)
-    return middle
+    return diagram.vertices[np.stack(ends)].mean(axis=0)
 
 
 def _faces_of(elements: ElementDiagram, kept: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -209,8 +208,7 @@ def _faces_of(elements: ElementDiagram, kept: NDArray[np.int32]) -> NDArray[np.i
 
 def _in_shapes(elements: ElementDiagram, places: NDArray[np.float64]) -> NDArray[np.float64]:
     """From the lattice of the elements to that of the shapes."""
-    back: NDArray[np.float64] = (elements.graph.coordinates(places) - elements.shapes.origin) / elements.shapes.scale
-    return back
+    return (elements.graph.coordinates(places) - elements.shapes.origin) / elements.shapes.scale
 
 
 def _sector_faces(shapes: PlanarGraph, vertex: NDArray[np.int64], place: NDArray[np.float64]) -> NDArray[np.int32]:
@@ -232,8 +230,7 @@ def _sector_faces(shapes: PlanarGraph, vertex: NDArray[np.int64], place: NDArray
     known, sought = np.split(ranks.reshape(-1), [len(at)])
     rank = np.searchsorted(at * len(ranks) + known, vertex * len(ranks) + sought, side="right") - 1
     rank = np.where(rank < first, stop - 1, rank)
-    found: NDArray[np.int32] = np.where(stop > first, left[np.clip(rank, 0, len(left) - 1)], 0).astype(np.int32)
-    return found
+    return np.where(stop > first, left[np.clip(rank, 0, len(left) - 1)], 0).astype(np.int32)
 
 
 def _missing_portions(
@@ -291,8 +288,7 @@ def _portions_to_arcs(
 
 def _way_from(shapes: PlanarGraph, point: int, segment: int) -> NDArray[np.float64]:
     a, b = shapes.segments[segment]
-    way: NDArray[np.float64] = shapes.points[b if a == point else a].astype(np.float64) - shapes.points[point]
-    return way
+    return shapes.points[b if a == point else a].astype(np.float64) - shapes.points[point]
 
 
 def _with_portions(

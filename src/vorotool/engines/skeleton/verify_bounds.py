@@ -29,8 +29,7 @@ PER_ARC = 5
 
 def check_approximation(skeleton: Skeleton, threads: int, progress: Progress) -> None:
     """Raise unless an approximate skeleton is where its bounds, radii and sides tell, feature by feature."""
-    at = first_wrong(skeleton.is_parabola)
-    if at is not None:
+    if (at := first_wrong(skeleton.is_parabola)) is not None:
         fail(f"arc {at} is a parabola, but arcs of approximate skeletons are straight")
     _check_sides(skeleton)
     error, is_inside = place_error(skeleton), skeleton.side == INTERIOR
@@ -102,13 +101,11 @@ def _check_sides(skeleton: Skeleton) -> None:
     arc, shape = shapely.STRtree(shapes).query(middle, predicate="intersects")
     inside = np.zeros(len(skeleton), dtype=bool)
     inside[arc] = True
-    at = first_wrong(inside != (skeleton.side == INTERIOR))
-    if at is not None:
+    if (at := first_wrong(inside != (skeleton.side == INTERIOR))) is not None:
         fail(f"arc {at} is {('inside' if inside[at] else 'outside')}, but is listed on the other side")
     own = np.zeros(len(skeleton), dtype=bool)
     own[arc[area[shape] == skeleton.polygon[arc]]] = True
-    at = first_wrong(~own & (skeleton.side != EXTERIOR))
-    if at is not None:
+    if (at := first_wrong(~own & (skeleton.side != EXTERIOR))) is not None:
         fail(f"arc {at} is not in polygon {skeleton.polygon[at]}")
 
 
@@ -117,8 +114,7 @@ def _check_clearances(skeleton: Skeleton, graph: PlanarGraph, error: float, thre
     lattice = np.ascontiguousarray((skeleton.vertices - graph.origin) / graph.scale)
     reach = np.ascontiguousarray((skeleton.radius + 2 * error) / graph.scale)
     least = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
-    at = first_wrong(~(np.abs(skeleton.radius - least) <= error))
-    if at is not None:
+    if (at := first_wrong(~(np.abs(skeleton.radius - least) <= error))) is not None:
         place = tuple(skeleton.vertices[at].tolist())
         fail(f"node {at} at {place} is {least[at]} from the shapes, but its radius is {skeleton.radius[at]}")
 
@@ -133,8 +129,7 @@ def _check_bounds(skeleton: Skeleton, exact: Skeleton) -> None:
     places = places_on_arcs(skeleton, np.linspace(0, 1, PER_ARC))
     distance = distances_to(exact, places.reshape(-1, 2)).reshape(len(skeleton), -1).max(axis=1)
     error = 4 * float(np.spacing(np.abs(exact.vertices).max(initial=0.0)))
-    at = first_wrong(distance > skeleton.error_bound + error)
-    if at is not None:
+    if (at := first_wrong(distance > skeleton.error_bound + error)) is not None:
         fail(f"arc {at} is {distance[at]} from the exact skeleton, beyond its bound of {skeleton.error_bound[at]}")
 
 
@@ -149,8 +144,7 @@ def _check_cycles(skeleton: Skeleton, graph: PlanarGraph) -> None:
     of_part = of_node[root == np.arange(len(root))]
     arcs, nodes, parts = (np.bincount(owner, minlength=outside + 1) for owner in (group, of_node, of_part))
     cycles, most = arcs - nodes + parts, _most_cycles(graph, outside)
-    at = first_wrong(cycles > most)
-    if at is not None:
+    if (at := first_wrong(cycles > most)) is not None:
         where = "outside" if at == outside else f"in polygon {at}"
         fail(f"the skeleton {where} has {cycles[at]} independent cycles, but at most {most[at]} are possible")
 
@@ -179,8 +173,7 @@ def places_on_arcs(skeleton: Skeleton, parameters: NDArray[np.float64]) -> Place
     """(a, k, 2) places on each arc, by the parameter of the Bezier curve that it is."""
     source, control, target = (corner[:, None] for corner in _bezier(skeleton))
     t = parameters[None, :, None]
-    places: Places = np.square(1 - t) * source + 2 * t * (1 - t) * control + t * t * target
-    return places
+    return np.square(1 - t) * source + 2 * t * (1 - t) * control + t * t * target
 
 
 def distances_to(skeleton: Skeleton, places: Places) -> NDArray[np.float64]:
@@ -224,8 +217,7 @@ def _from_parabola(x: Places, source: Places, control: Places, target: Places) -
     offset = source - x
 
     def away(t: NDArray[np.float64]) -> Places:
-        moved: Places = offset + t[:, None] * (first + t[:, None] * bend)
-        return moved
+        return offset + t[:, None] * (first + t[:, None] * bend)
 
     best = np.full(len(x), np.inf)
     for start in np.linspace(0, 1, STARTS + 1):

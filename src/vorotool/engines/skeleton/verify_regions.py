@@ -56,8 +56,9 @@ class SkeletonRegions:
         mixed = np.flatnonzero(deleted[:, 0] != deleted[:, 1])
         edge = np.where(deleted[mixed, 0], skeleton.sites[mixed, 0], skeleton.sites[mixed, 1])
         vertex = np.where(deleted[mixed, 0], skeleton.sites[mixed, 1], skeleton.sites[mixed, 0])
-        own = first_wrong((graph.segments[number[edge] - count] == number[vertex][:, None]).any(axis=1))
-        if own is not None:
+        if (
+            own := first_wrong((graph.segments[number[edge] - count] == number[vertex][:, None]).any(axis=1))
+        ) is not None:
             fail(f"arc {mixed[own]} is between an edge and its own end")
         return number
 
@@ -68,8 +69,7 @@ class SkeletonRegions:
         is_corner = skeleton.radius == 0
         arc, end = np.nonzero(is_corner[skeleton.arcs])
         node = skeleton.arcs[arc, end]
-        at = first_wrong(skeleton.degree[node] != 1)
-        if at is not None:
+        if (at := first_wrong(skeleton.degree[node] != 1)) is not None:
             fail(f"node {node[at]} is a corner, but several arcs end there")
         hands = self.lattice_site[skeleton.sites[arc]] - count
         # an arc that leaves a corner has the sector's first segment on its right
@@ -77,15 +77,13 @@ class SkeletonRegions:
         table = _Rows(np.stack([sectors.right, sectors.left, sectors.point], axis=1).astype(float))
         points = _Rows(self.graph.coordinates()).find(skeleton.vertices[node])
         found = table.find(np.stack([right, left, points], axis=1).astype(float))
-        at = first_wrong(found < 0)
-        if at is not None:
+        if (at := first_wrong(found < 0)) is not None:
             place = tuple(skeleton.vertices[node[at]].tolist())
             fail(f"arc {arc[at]} ends at {place}, which is not a corner between its sites")
         self.corner_sector = found
         face = np.full(len(skeleton.vertices), -1, dtype=np.int64)
         face[self.root[node]] = sectors.face[found]
-        at = first_wrong(face[self.root[node]] != sectors.face[found])
-        if at is not None:
+        if (at := first_wrong(face[self.root[node]] != sectors.face[found])) is not None:
             fail(f"arc {arc[at]} is connected with a skeleton in another region")
         return face
 
@@ -124,12 +122,10 @@ def with_corners_apart(skeleton: Skeleton) -> Skeleton:
     corner = corner.reshape(-1)
     first = np.full(corner.max(initial=-1) + 1, len(skeleton.vertices))
     np.minimum.at(first, corner, node)
-    at = first_wrong(node != first[corner])
-    if at is not None:
+    if (at := first_wrong(node != first[corner])) is not None:
         fail(f"nodes {first[corner[at]]} and {node[at]} are at one corner, where pixels are connected, but not joined")
     _, owner = np.unique(np.stack([node, corner]), axis=1, return_index=True)
-    at = first_wrong(np.bincount(node[owner], minlength=1) > 1)
-    if at is not None:
+    if (at := first_wrong(np.bincount(node[owner], minlength=1) > 1)) is not None:
         fail(f"node {at} is a corner that arcs in different polygons share")
     arcs = skeleton.arcs.copy()
     arcs[arc, end] = len(skeleton.vertices) + np.arange(len(arc))
@@ -157,8 +153,7 @@ def check_regions(regions: SkeletonRegions) -> None:
     _check_sides(regions, inside)
     bounded = np.flatnonzero(face > 0)
     parts = np.bincount(face[bounded], minlength=graph.faces)
-    at = first_wrong(wanted[1:] & (parts[1:] != 1))
-    if at is not None:
+    if (at := first_wrong(wanted[1:] & (parts[1:] != 1))) is not None:
         fail(f"the skeleton of region {at + 1} has {parts[at + 1]} connected parts")
     if np.count_nonzero(face <= 0) > 1:
         fail("the skeleton outside has parts that are not connected, even by the frame")
@@ -182,8 +177,9 @@ def _check_ends(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
     """One arc ends in each corner under 180 degrees, and nowhere else but on the frame."""
     skeleton, sectors = regions.skeleton, regions.sectors
     corner = _corners_of_nodes(regions)
-    at = first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame & (corner < 0))
-    if at is not None:
+    if (
+        at := first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame & (corner < 0))
+    ) is not None:
         fail(f"the skeleton ends at node {at}, {tuple(skeleton.vertices[at].tolist())}, which is not a corner")
     times = np.bincount(regions.corner_sector, minlength=len(sectors.face))
     expected = wanted[sectors.face]
@@ -193,8 +189,7 @@ def _check_ends(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
         in_frame = ((places > [x, y]) & (places < [x + w, y + h])).all(axis=1)
         expected &= in_frame | regions.graph.is_inside[sectors.face]
     expected &= ~is_among(sectors.point, corner[corner >= 0])
-    at = first_wrong(expected & (times != 1) | (times > 1))
-    if at is not None:
+    if (at := first_wrong(expected & (times != 1) | (times > 1))) is not None:
         place = tuple(regions.graph.coordinates()[sectors.point[at]].tolist())
         fail(f"{times[at]} arcs end in the corner at {place}, which should be one")
 
@@ -208,16 +203,14 @@ def _corners_of_nodes(regions: SkeletonRegions) -> Indices:
 def _check_sides(regions: SkeletonRegions, inside: NDArray[np.bool_]) -> None:
     skeleton, graph = regions.skeleton, regions.graph
     face = np.maximum(regions.face[regions.root[skeleton.arcs[:, 0]]], 0)
-    at = first_wrong(inside[face] != (skeleton.side == INTERIOR))
-    if at is not None:
+    if (at := first_wrong(inside[face] != (skeleton.side == INTERIOR))) is not None:
         fail(f"arc {at} is in region {face[at]}, which is on the other side")
     first = (
         np.where(inside[face], graph.face_polygon[np.minimum(graph.face_starts[face], len(graph.face_polygon) - 1)], -1)
         if len(graph.face_polygon)
         else np.full(len(face), -1)
     )
-    at = first_wrong(first != skeleton.polygon)
-    if at is not None:
+    if (at := first_wrong(first != skeleton.polygon)) is not None:
         fail(f"arc {at} is listed in polygon {skeleton.polygon[at]}, but is in {first[at]}")
 
 
@@ -237,8 +230,7 @@ def _check_cycles(regions: SkeletonRegions, roots: Indices, face: Indices) -> No
     expected = np.where(face > 0, borders[np.maximum(face, 0)], borders[0]) + points - 1
     cut = (face <= 0) & skeleton.touches_frame.any()  # what is beyond the frame is unknown: see verify_exterior
     uncut = _uncut_faces(skeleton, graph)[np.maximum(face, 0)] | graph.is_inside[np.maximum(face, 0)]
-    at = first_wrong(~cut & uncut & (cycles != expected))
-    if at is not None:
+    if (at := first_wrong(~cut & uncut & (cycles != expected))) is not None:
         fail(f"the skeleton of region {max(face[at], 0)} has {cycles[at]} independent cycles, not {expected[at]}")
 
 
@@ -259,8 +251,7 @@ def _check_areas(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
     allowed = AREA * np.abs(area) + AREA_ULPS * np.spacing(sites.largest) * perimeter
     wrong = wanted & ~(np.abs(summed - area) <= allowed)
     wrong[0] = False
-    at = first_wrong(wrong)
-    if at is not None:
+    if (at := first_wrong(wrong)) is not None:
         fail(f"the regions around the arcs in region {at} sum to {summed[at]}, but its area is {area[at]}")
 
 

@@ -66,8 +66,7 @@ def without_border(skeleton: Skeleton, graph: PlanarGraph) -> PlanarGraph:
 
 def check_cut_regions(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph, sites: SitePlaces) -> None:
     """Raise unless arcs end in corners or on the border, and all area is between the axis and its feet."""
-    at = first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame)
-    if at is not None:
+    if (at := first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame)) is not None:
         fail(
             f"the skeleton ends at node {at}, {tuple(skeleton.vertices[at].tolist())}, which is neither a corner nor "
             "on the border"
@@ -84,8 +83,7 @@ def check_cut_regions(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph,
     reaches = np.zeros(count, dtype=bool)  # what has no outline but the border has no feet
     beside = first[np.unique(left.segment_faces)]
     reaches[beside[beside >= 0]] = True
-    at = first_wrong(reaches & ~(np.abs(summed - area) <= allowed))
-    if at is not None:
+    if (at := first_wrong(reaches & ~(np.abs(summed - area) <= allowed))) is not None:
         fail(f"the regions around the arcs and the border in polygon {at} sum to {summed[at]}, not to {area[at]}")
 
 
@@ -112,8 +110,7 @@ def _feet(ends: Floats, place: Floats) -> Floats:
     way = ends[:, 1] - ends[:, 0]
     square = (way * way).sum(axis=1)
     t = np.divide(((place - ends[:, 0]) * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
-    feet: Floats = ends[:, 0] + np.clip(t, 0, 1)[:, None] * way
-    return feet
+    return ends[:, 0] + np.clip(t, 0, 1)[:, None] * way
 
 
 def _stretches(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph) -> Floats:
@@ -159,8 +156,7 @@ _INSIDE = (0.25, 0.5, 0.75)
 def _inner_places(skeleton: Skeleton, t: float) -> Floats:
     source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
     control = np.where(skeleton.is_parabola[:, None], skeleton.control, (source + target) / 2)
-    places: Floats = np.square(1 - t) * source + 2 * t * (1 - t) * control + t * t * target
-    return places
+    return np.square(1 - t) * source + 2 * t * (1 - t) * control + t * t * target
 
 
 def check_equal_distances(skeleton: Skeleton, sites: SitePlaces) -> None:
@@ -170,8 +166,7 @@ def check_equal_distances(skeleton: Skeleton, sites: SitePlaces) -> None:
         for hand in (0, 1):
             site = skeleton.sites[:, hand]
             distance = sites.distances(site, skeleton.vertices[node])
-            at = first_wrong(~(np.abs(distance - skeleton.radius[node]) <= sites.tolerance))
-            if at is not None:
+            if (at := first_wrong(~(np.abs(distance - skeleton.radius[node]) <= sites.tolerance))) is not None:
                 k = int(node[at])
                 fail(
                     f"node {k} at {tuple(skeleton.vertices[k].tolist())} is {distance[at]} from site {site[at]}, "
@@ -181,8 +176,7 @@ def check_equal_distances(skeleton: Skeleton, sites: SitePlaces) -> None:
         place = _inner_places(skeleton, t)
         left, right = (sites.distances(skeleton.sites[:, hand], place) for hand in (0, 1))
         # moved along the curve by the rounding of a far control point, a place is still on it
-        at = first_wrong(~(np.abs(left - right) <= sites.tolerance * _looseness(skeleton, sites)))
-        if at is not None:
+        if (at := first_wrong(~(np.abs(left - right) <= sites.tolerance * _looseness(skeleton, sites)))) is not None:
             fail(
                 f"arc {at} is {left[at]} from site {skeleton.sites[at, 0]} and {right[at]} from {skeleton.sites[at, 1]}"
             )
@@ -192,8 +186,7 @@ def _looseness(skeleton: Skeleton, sites: SitePlaces) -> Floats:
     """How much more than at nodes distances may differ inside an arc: a far control point is rounded in its own ulp."""
     source = skeleton.vertices[skeleton.arcs[:, 0]]
     way = np.where(skeleton.is_parabola[:, None], skeleton.control - source, 0)
-    looseness: Floats = 1 + np.sqrt((way * way).sum(axis=1)) / sites.largest
-    return looseness
+    return 1 + np.sqrt((way * way).sum(axis=1)) / sites.largest
 
 
 def check_nothing_nearer(
@@ -209,8 +202,7 @@ def check_nothing_nearer(
     lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
     reach = np.ascontiguousarray(distance / graph.scale)
     nearest = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
-    at = first_wrong(nearest < distance - sites.tolerance)
-    if at is not None:
+    if (at := first_wrong(nearest < distance - sites.tolerance)) is not None:
         what = f"node {nodes[at]}" if at < len(nodes) else f"arc {(at - len(nodes)) % len(skeleton)}"
         fail(f"{what}: a site is {nearest[at]} from {tuple(places[at].tolist())}, nearer than {distance[at]}")
 
@@ -312,16 +304,14 @@ def _check_own(skeleton: Skeleton) -> None:
     inside = np.flatnonzero(skeleton.side == INTERIOR)
     polygon = skeleton.polygon[inside]
     of_sites = polygons.feature[skeleton.site_table.polygon][skeleton.sites[inside]]
-    at = first_wrong((of_sites != polygons.feature[polygon][:, None]).any(axis=1))
-    if at is not None:
+    if (at := first_wrong((of_sites != polygons.feature[polygon][:, None]).any(axis=1))) is not None:
         fail(f"arc {inside[at]} is listed in polygon {polygon[at]}, but is between sites of another feature")
     owner = np.full(len(skeleton.vertices), -1)
     for end in (0, 1):
         owner[skeleton.arcs[inside, end]] = polygon
     for end in (0, 1):
         node = skeleton.arcs[inside, end]
-        at = first_wrong((skeleton.radius[node] == 0) & (owner[node] != polygon))
-        if at is not None:
+        if (at := first_wrong((skeleton.radius[node] == 0) & (owner[node] != polygon))) is not None:
             fail(f"node {node[at]} is a corner that arcs in different polygons share")
 
 
@@ -381,17 +371,18 @@ def _elements(skeleton: Skeleton, graph: PlanarGraph, threads: int) -> PlanarGra
 def check_arrays(skeleton: Skeleton) -> None:
     """Raise unless indices exist, nodes are finite and used, and sides go with polygons."""
     for name, limit in (("arcs", len(skeleton.vertices)), ("sites", len(skeleton.site_table))):
-        at = first_wrong(((getattr(skeleton, name) < 0) | (getattr(skeleton, name) >= limit)).any(axis=1))
-        if at is not None:
+        if (
+            at := first_wrong(((getattr(skeleton, name) < 0) | (getattr(skeleton, name) >= limit)).any(axis=1))
+        ) is not None:
             fail(f"{name} of arc {at} are {getattr(skeleton, name)[at].tolist()}, beyond {limit - 1}")
     if not (np.isfinite(skeleton.vertices).all() and np.isfinite(skeleton.radius).all()):
         fail("a node is not finite")
-    at = first_wrong((skeleton.degree == 0) | (skeleton.radius < 0))
-    if at is not None:
+    if (at := first_wrong((skeleton.degree == 0) | (skeleton.radius < 0))) is not None:
         fail(f"node {at} has no arcs, or a negative radius")
     inside = skeleton.polygon >= 0
-    at = first_wrong((inside != (skeleton.side == INTERIOR)) | (skeleton.polygon >= len(skeleton.polygons)))
-    if at is not None:
+    if (
+        at := first_wrong((inside != (skeleton.side == INTERIOR)) | (skeleton.polygon >= len(skeleton.polygons)))
+    ) is not None:
         fail(
             f"arc {at} is {'inside' if skeleton.side[at] == INTERIOR else 'outside'}, in polygon {skeleton.polygon[at]}"
         )
@@ -400,17 +391,14 @@ def check_arrays(skeleton: Skeleton) -> None:
 def check_branches(skeleton: Skeleton) -> None:
     """Raise unless branches are chains that end where they should."""
     step = np.diff(skeleton.branch, prepend=-1)
-    at = first_wrong((step < 0) | (step > 1))
-    if at is not None:
+    if (at := first_wrong((step < 0) | (step > 1))) is not None:
         fail(f"the branch of arc {at} is {skeleton.branch[at]}, after {skeleton.branch[at - 1]}")
     joined = np.flatnonzero(step == 0)
     before, after = skeleton.arcs[joined - 1, 1], skeleton.arcs[joined, 0]
-    at = first_wrong((before != after) | (skeleton.degree[after] != 2))
-    if at is not None:
+    if (at := first_wrong((before != after) | (skeleton.degree[after] != 2))) is not None:
         fail(f"arc {joined[at]} does not start where the previous arc of its branch ends")
     first = np.flatnonzero(step)
     last = np.append(first[1:], len(skeleton)) - 1
     ends = np.stack([skeleton.arcs[first, 0], skeleton.arcs[last, 1]])
-    at = first_wrong((skeleton.degree[ends] == 2).any(axis=0) & (ends[0] != ends[1]))
-    if at is not None:
+    if (at := first_wrong((skeleton.degree[ends] == 2).any(axis=0) & (ends[0] != ends[1]))) is not None:
         fail(f"branch {at} ends at a node where it could continue")

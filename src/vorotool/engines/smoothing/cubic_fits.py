@@ -220,13 +220,11 @@ class _Curve:
 
     def places(self, t: Floats) -> Floats:
         """(2, n) places."""
-        made: Floats = t * (self.linear + t * (self.square + t * self.cube))
-        return made
+        return t * (self.linear + t * (self.square + t * self.cube))
 
     def ways(self, t: Floats) -> Floats:
         """(2, n) derivatives."""
-        made: Floats = self.linear + t * (2 * self.square + t * (3 * self.cube))
-        return made
+        return self.linear + t * (2 * self.square + t * (3 * self.cube))
 
     def move_to_nearest(self, places: _Places) -> None:
         """One step of Newton's method; parameters stay in their order, and at the ends."""
@@ -314,8 +312,7 @@ def _bounds(places: _Places, handles: Floats) -> Floats:
     off = curve.distances(places)
     most = np.maximum.reduce([off[begin], off[begin + 1], _from_piece(one, piece), _from_piece(two, piece)])
     starts = places.start - np.arange(len(places.start))
-    bounds: Floats = np.maximum.reduceat(most + places.off[begin], starts)
-    return bounds
+    return np.maximum.reduceat(most + places.off[begin], starts)
 
 
 def _from_piece(to: Floats, piece: Floats) -> Floats:
@@ -326,5 +323,4 @@ def _from_piece(to: Floats, piece: Floats) -> Floats:
 
 
 def _dot(a: Floats, b: Floats) -> Floats:
-    product: Floats = a[0] * b[0] + a[1] * b[1]
-    return product
+    return a[0] * b[0] + a[1] * b[1]

@@ -131,8 +131,7 @@ def _one_sided() -> Floats:
     """Weights of least squares for the slope at 0 of a parabola through 0 there."""
     x = STEPS
     a, b, c = (x * x).sum(), (x * x * x).sum(), (x * x * x * x).sum()
-    weights: Floats = (c * x - b * x * x) / (a * c - b * b)
-    return weights
+    return (c * x - b * x * x) / (a * c - b * b)
 
 
 ONE_SIDED = _one_sided()
@@ -173,13 +172,11 @@ def _place(samples: LineSamples, along: Floats, first: Indices, last: Indices) -
     begin, size = samples.along[piece], samples.along[piece + 1] - samples.along[piece]
     share = np.clip((along - begin) / size, 0.0, 1.0)
     a, b = samples.xy[:, piece], samples.xy[:, piece + 1]
-    places: Floats = a + share * (b - a)
-    return places
+    return a + share * (b - a)
 
 
 def _unit(way: Floats, *instead: Floats) -> Floats:
     """Ways with length 1; others where they have none."""
     for other in instead:
         way = np.where((way == 0).all(axis=0), other, way)
-    unit: Floats = way / np.sqrt(way[0] * way[0] + way[1] * way[1])
-    return unit
+    return way / np.sqrt(way[0] * way[0] + way[1] * way[1])

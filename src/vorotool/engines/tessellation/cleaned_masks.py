@@ -163,14 +163,12 @@ class CleanedSlices:
     @property
     def shape(self) -> tuple[int, int, int]:
         """Slices, rows and columns."""
-        shape: tuple[int, int, int] = self._objects.source.shape
-        return shape
+        return self._objects.source.shape
 
     @property
     def grid(self) -> VoxelGrid | None:
         """Sides of the voxels."""
-        grid: VoxelGrid | None = self._objects.source.grid
-        return grid
+        return self._objects.source.grid
 
     def slices(self, first: int, count: int) -> Plane:
         """Read some slices of the mask, as zeros and ones."""

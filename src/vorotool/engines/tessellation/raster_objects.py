@@ -92,8 +92,7 @@ def gray_values(raster: Raster) -> NDArray[Any]:
     if values.shape[2] <= 2:
         return values[:, :, 0]
     red, green, blue = (weight * values[:, :, k] for k, weight in enumerate(_LUMINANCE))
-    luminance: NDArray[np.float64] = red + green + blue
-    return luminance
+    return red + green + blue
 
 
 def settled_threshold(raster: Raster, threshold: float | Literal["otsu"], *, invert: bool) -> tuple[float, bool]:
@@ -293,8 +292,7 @@ class PartwiseObjects:
         if isinstance(self.source, Volume):
             return self.source.values[first : first + count]
         is_flat = len(self.source.shape) == 2
-        values: NDArray[Any] = (self.source.rows if is_flat else self.source.slices)(first, count)
-        return values
+        return (self.source.rows if is_flat else self.source.slices)(first, count)
 
     def values(self, first: int, count: int) -> NDArray[Any]:
         """Read some rows or slices, of which the nonzero values are foreground."""

@@ -65,8 +65,7 @@ def _scale_within(low: tuple[int, int], high: tuple[int, int], sides: PixelSides
     """Give the largest power of two of steps a pixel for a box of pixels."""
     extent = max((b - a) * side for a, b, side in zip(low, high, (sides.x, sides.y), strict=True))
     most: int = min(_MOST_STEPS // extent, _MOST_COUNTED // max(map(abs, low + high)))
-    scale: int = SCALES[max(most.bit_length() - 1, 0)]
-    return scale
+    return SCALES[max(most.bit_length() - 1, 0)]
 
 
 def least_frame(places: NDArray[np.float64]) -> Frame:

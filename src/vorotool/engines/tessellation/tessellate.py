@@ -216,8 +216,7 @@ def tessellate(
         progress=progress,
     )
     kind: Any = LabelImage if axes == 2 else LabelVolume
-    made: LabelImage | LabelVolume = kind(rows.labels(dtype=dtype, out=out), rows.frame, rows.seeds, sides=sides)
-    return made
+    return kind(rows.labels(dtype=dtype, out=out), rows.frame, rows.seeds, sides=sides)
 
 
 def labeled_rows(

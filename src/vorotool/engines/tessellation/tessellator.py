@@ -193,8 +193,7 @@ class Tessellator:
     @property
     def step(self) -> Fraction:
         """The length whose square is the unit of squared distances."""
-        step: Fraction = self.sides.step / self.seeds.scale
-        return step
+        return self.sides.step / self.seeds.scale
 
     @cached_property
     def square_dtype(self) -> np.dtype[Any]:

@@ -389,5 +389,4 @@ class OuterSeeds:
             return labels
         number = np.empty(self._components.size + 1, np.uint32)
         self._components.settle(number)
-        numbers: NDArray[np.uint32] = number[labels]
-        return numbers
+        return number[labels]

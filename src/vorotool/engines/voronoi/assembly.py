@@ -153,8 +153,7 @@ def _lengths(arcs: Arcs) -> Floats:
 
 
 def _norm(way: Floats) -> Floats:
-    length: Floats = np.sqrt(np.square(way).sum(axis=1))
-    return length
+    return np.sqrt(np.square(way).sum(axis=1))
 
 
 def shells_of(rings: Rings, arcs: Arcs) -> Indices:

@@ -104,8 +104,7 @@ def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, level: float
 def _aliased(element: Indices, alias: NDArray[np.int32]) -> Indices:
     """Elements, but for points whose cells have no area their aliases, segments beside them."""
     points = len(alias)
-    aliased: Indices = np.where(element < points, alias[np.minimum(element, points - 1)], element)
-    return aliased
+    return np.where(element < points, alias[np.minimum(element, points - 1)], element)
 
 
 def _parts_of_elements(owned: OwnedGraph, element: Indices, face: NDArray[np.int32]) -> Indices:
@@ -114,8 +113,7 @@ def _parts_of_elements(owned: OwnedGraph, element: Indices, face: NDArray[np.int
     segment = np.maximum(element - count, 0)
     sides = graph.segment_faces if len(graph) else np.zeros((1, 2), dtype=np.int32)
     is_right = sides[segment, 0] != face
-    parts: Indices = np.where(element < count, element, count + 2 * segment + is_right)
-    return parts
+    return np.where(element < count, element, count + 2 * segment + is_right)
 
 
 def sites_beside_segments(owned: OwnedGraph) -> NDArray[np.int32]:
@@ -169,8 +167,7 @@ class Limit:
         """Of each crossing, whether rounding leaves nothing of the arc from there."""
         step = np.abs(places - places[self.across]).max(axis=1)
         largest = np.maximum(np.abs(places).max(axis=1), np.abs(self.owned.graph.points).max(initial=0))
-        lost: NDArray[np.bool_] = (step <= ROUNDING * largest) & np.isnan(self.middle[:, 0]) & ~self.is_aligned
-        return lost
+        return (step <= ROUNDING * largest) & np.isnan(self.middle[:, 0]) & ~self.is_aligned
 
     def _places(self, places: Floats) -> Floats:
         """Of crossings: both ends of arcs that are lost are at one place, that of a vertex if there is one."""

@@ -64,8 +64,7 @@ class CutCurves:
             square = 1 + finite * finite
             along = np.where(is_round, self.round * (1 - finite * finite) / square, t)
             beside = np.where(is_round, self.round * 2 * finite / square, up)
-        made: Floats = self.base + along[:, None] * self.way + beside[:, None] * across
-        return made
+        return self.base + along[:, None] * self.way + beside[:, None] * across
 
     def tangent(self, t: Floats) -> Floats:
         """(k, 2) the direction at a parameter, towards rising ones."""
@@ -74,8 +73,7 @@ class CutCurves:
         across = np.stack([-self.way[:, 1], self.way[:, 0]], axis=1)
         is_round = self.round > 0
         along, beside = np.where(is_round, -2 * t, 1), np.where(is_round, 1 - t * t, slope)
-        made: Floats = along[:, None] * self.way + beside[:, None] * across
-        return made
+        return along[:, None] * self.way + beside[:, None] * across
 
     def radius(self, t: Floats) -> Floats:
         """(k,) the distance from both sites at a parameter."""
@@ -84,8 +82,7 @@ class CutCurves:
         offset = place - self.origin
         of_line = np.abs((place * self.line[:, :2]).sum(axis=1) - self.line[:, 2])
         straight = np.where(np.isnan(self.origin[:, 0]), of_line, np.sqrt((offset * offset).sum(axis=1)))
-        made: Floats = np.where(self.height > 0, (t * t + h * h) / (2 * h), straight)
-        return made
+        return np.where(self.height > 0, (t * t + h * h) / (2 * h), straight)
 
     def control(self, t0: Floats, t1: Floats) -> Floats:
         """(k, 2) where the tangents at two parameters meet; NaN of lines."""
@@ -101,16 +98,14 @@ class CutCurves:
         cosine = (1 + t0 * t1) / np.sqrt((1 + t0 * t0) * (1 + t1 * t1))
         control = self.control(t0, t1)
         bend = np.nan_to_num(self.place(t0) - 2 * control + self.place(t1))
-        made: Floats = np.where(self.round > 0, self.round * (1 - cosine), np.sqrt((bend * bend).sum(axis=1)) / 4)
-        return made
+        return np.where(self.round > 0, self.round * (1 - cosine), np.sqrt((bend * bend).sum(axis=1)) / 4)
 
     def hull(self, t0: Floats, t1: Floats) -> Floats:
         """(k, 5, 2) closed rings of tangents and a chord around circular arcs."""
         a, b, middle = (self.place(t) - self.base for t in (t0, t1, (t0 + t1) / 2))
         square = (self.round * self.round)[:, None]
         corners = [(one + middle) * square / (square + (one * middle).sum(axis=1)[:, None]) for one in (a, b)]
-        made: Floats = np.stack([a, corners[0], corners[1], b, a], axis=1) + self.base[:, None]
-        return made
+        return np.stack([a, corners[0], corners[1], b, a], axis=1) + self.base[:, None]
 
     def meets(self, place: Floats, normal: Floats, slack: Floats) -> Floats:
         """(k, 2) parameters where each meets a straight line, missed by some slack at most; NaN elsewhere."""
@@ -211,20 +206,17 @@ class CutEdges:
 
     def along(self, edge: Indices, places: Floats) -> Floats:
         """(k,) how far along edges places are."""
-        far: Floats = (self.forward[edge] * (places - self.lines[edge, 0])).sum(axis=1)
-        return far
+        return (self.forward[edge] * (places - self.lines[edge, 0])).sum(axis=1)
 
     def beside(self, edge: Indices, places: Floats) -> Floats:
         """(k,) how far from the lines of edges."""
-        near: Floats = np.abs((self.normal[edge] * (places - self.lines[edge, 0])).sum(axis=1))
-        return near
+        return np.abs((self.normal[edge] * (places - self.lines[edge, 0])).sum(axis=1))
 
     def place(self, ends: Floats, edge: Indices, far: Floats) -> Floats:
         """(k, 2) places along edges with such ends (m, 2, 2); between ends of one coordinate they have that too."""
         a, b = ends[edge].swapaxes(0, 1)
         part = (far / self.length[edge])[:, None]
-        made: Floats = np.where(part < 1 / 2, a + part * (b - a), b - (1 - part) * (b - a))
-        return made
+        return np.where(part < 1 / 2, a + part * (b - a), b - (1 - part) * (b - a))
 
     def at_ends(self, edge: Indices, far: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Whether what is so far along edges is at their sources, or before, and at their targets, or beyond."""
@@ -325,8 +317,7 @@ def _are_apart(elements: Indices, graph: PlanarGraph) -> NDArray[np.bool_]:
     count = len(graph.points)
     low, high = np.sort(elements, axis=1).T
     first, second = _ends(graph, high)
-    told: NDArray[np.bool_] = (high < count) | ((low < count) & ((first == low) | (second == low)))
-    return told
+    return (high < count) | ((low < count) & ((first == low) | (second == low)))
 
 
 def _measured_from(graph: PlanarGraph, elements: Indices) -> tuple[Floats, Floats]:

@@ -187,8 +187,7 @@ def quarters(way: Floats) -> Floats:
     size = np.abs(x) + np.abs(y)
     size = np.where(size > 0, size, 1)
     turned = np.where(y >= 0, 1 - x / size, 3 + x / size)
-    made: Floats = np.where(turned >= 4, 0, turned)
-    return made
+    return np.where(turned >= 4, 0, turned)
 
 
 def order_around(tail: Indices, angle: Floats, left: Indices, right: Indices) -> Indices:
@@ -220,8 +219,7 @@ def _is_thin_inside(angle: Floats, left: Indices, right: Indices, after: Indices
 
 def _agree(left: Indices, right: Indices) -> NDArray[np.bool_]:
     known = (left[:, 1] != UNKNOWN) & (right[:, 1] != UNKNOWN)
-    same: NDArray[np.bool_] = (left[:, 0] == right[:, 0]) & ((left[:, 1] == right[:, 1]) | ~known)
-    return same
+    return (left[:, 0] == right[:, 0]) & ((left[:, 1] == right[:, 1]) | ~known)
 
 
 def _tried(own: Indices, angle: Floats, left: Indices, right: Indices) -> Indices:

@@ -44,8 +44,7 @@ class FrameBox:
 
     def is_inside(self, places: Floats) -> NDArray[np.bool_]:
         """(n,) whether places in input units are strictly inside."""
-        inside: NDArray[np.bool_] = _all_of(places > self.low) & _all_of(places < self.high)
-        return inside
+        return _all_of(places > self.low) & _all_of(places < self.high)
 
     def side_of(self, places: Floats, rounded: Floats, is_site: NDArray[np.bool_], slack: Floats) -> Indices:
         """(n,) the side that places are at: nearly on the lattice, sites exactly in input units; -1 of others."""
@@ -174,5 +173,4 @@ def _extend_to_circles(low: Floats, high: Floats, center: Floats, radius: float)
 
 
 def _all_of(pairs: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    both: NDArray[np.bool_] = pairs[:, 0] & pairs[:, 1]
-    return both
+    return pairs[:, 0] & pairs[:, 1]

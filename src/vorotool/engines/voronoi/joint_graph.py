@@ -49,8 +49,7 @@ class JointGraph:
 
 def is_of(polygons: range, number: NDArray[np.int32]) -> NDArray[np.bool_]:
     """(k,) whether each is the number of one of some polygons."""
-    found: NDArray[np.bool_] = (number >= polygons.start) & (number < polygons.stop)
-    return found
+    return (number >= polygons.start) & (number < polygons.stop)
 
 
 def joint_graph(

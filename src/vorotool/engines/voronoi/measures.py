@@ -82,8 +82,7 @@ def _below(source: Floats, target: Floats, w: float, h: float) -> Floats:
     stops = np.sort(np.where(np.isfinite(stops), stops, 0).clip(0, 1), axis=0)
     stops = np.concatenate([np.zeros((1, len(way))), stops, np.ones((1, len(way)))])
     height = (first + stops * (last - first)).clip(0, h)
-    total: Floats = (right - left) * (np.diff(stops, axis=0) * (height[:-1] + height[1:])).sum(axis=0) / 2
-    return total
+    return (right - left) * (np.diff(stops, axis=0) * (height[:-1] + height[1:])).sum(axis=0) / 2
 
 
 def _cut_to_cells(areas: Floats, cells: VoronoiMap) -> None:

@@ -135,8 +135,7 @@ def _nearest(owned: OwnedGraph, at: Exact, level: float) -> int:
 
 
 def _squared(way: NDArray[np.float64]) -> NDArray[np.float64]:
-    squared: NDArray[np.float64] = (way * way).sum(axis=1)
-    return squared
+    return (way * way).sum(axis=1)
 
 
 def _squared_of_segments(points: NDArray[np.float64], segments: Any, place: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -156,5 +155,4 @@ def _exact_distance(graph: Any, element: int, at: Exact) -> Fraction:
     length = u * u + v * v
     t = min(max(Fraction(x * u + y * v) / length, Fraction(0)), Fraction(1)) if length else Fraction(0)
     dx, dy = x - t * u, y - t * v
-    squared: Fraction = dx * dx + dy * dy
-    return squared
+    return dx * dx + dy * dy

@@ -167,8 +167,7 @@ class Overlay:
         """How far along an edge a place on it is."""
         is_inner = self.found.edge[node] == edge
         is_source = node == self.count + self.edges.ends[edge, 0]
-        far: Floats = np.where(is_inner, self.found.far[node], np.where(is_source, 0, self.edges.length[edge]))
-        return far
+        return np.where(is_inner, self.found.far[node], np.where(is_source, 0, self.edges.length[edge]))
 
     def _tell_borders(self, pieces: Pieces, along: Indices) -> None:
         """Note the sites beside cuts that borders run along."""
@@ -278,8 +277,7 @@ class RegionOverlay(Overlay):
         inside = np.zeros(groups, dtype=bool)
         held = names[row] == self.region[pieces.piece[at[place]]]
         inside[group[at[place[held]]]] = True
-        kept: NDArray[np.bool_] = inside[group]
-        return kept
+        return inside[group]
 
     def _middles(self, pieces: Pieces) -> tuple[Floats, Floats]:
         """Places in the middle of parts of borders, and how far their ends are apart."""
@@ -307,5 +305,4 @@ def _rows_of(pairs: Indices, wanted: Indices) -> Indices:
 
 
 def _norm(way: Floats) -> Floats:
-    size: Floats = np.sqrt((way * way).sum(axis=1))
-    return size
+    return np.sqrt((way * way).sum(axis=1))

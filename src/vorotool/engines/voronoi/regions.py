@@ -108,8 +108,7 @@ def _as_given(joint: JointGraph) -> Floats:
 def _faces(graph: PlanarGraph, is_line: NDArray[np.bool_]) -> Indices:
     """(f,) the faces between some segments: the smallest face of the graph in each."""
     joined = graph.segment_faces[~is_line].astype(np.int32)
-    root: Indices = _core.graphs.connected_components(joined, graph.faces).astype(np.int64)
-    return root
+    return _core.graphs.connected_components(joined, graph.faces).astype(np.int64)
 
 
 def _parted(joint: JointGraph, face: Indices, is_line: NDArray[np.bool_], shared: NDArray[np.bool_]) -> Indices:

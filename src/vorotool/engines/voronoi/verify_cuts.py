@@ -67,13 +67,11 @@ class EnclosedFaces:
 
     def least(self, places: Floats) -> Floats:
         """Of each place from the nearest of the sites that surely meet its face; infinity where none surely does."""
-        least: Floats = np.maximum.reduce([each.least(places) for each in self.readings])
-        return least
+        return np.maximum.reduce([each.least(places) for each in self.readings])
 
     def may_have(self, places: Floats, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
         """(k,) whether a site may meet the face of each place."""
-        fits: NDArray[np.bool_] = np.logical_or.reduce([each.may_have(places, rows) for each in self.readings])
-        return fits
+        return np.logical_or.reduce([each.may_have(places, rows) for each in self.readings])
 
 
 class _Faces:

@@ -91,31 +91,26 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
 def _check_rings(cells: VoronoiMap) -> None:
     arcs = len(cells.arcs)
     low, high = cells.arcs.T
-    at = first_wrong((low < 0) | (high >= len(cells.vertices)) | (low >= high))
-    if at is not None:
+    if (at := first_wrong((low < 0) | (high >= len(cells.vertices)) | (low >= high))) is not None:
         fail(f"arc {at} is from vertex {low[at]} to {high[at]}: the first must be the smaller one")
     signed = cells.ring_arcs.astype(np.int64)
-    at = first_wrong((signed == 0) | (np.abs(signed) > arcs))
-    if at is not None:
+    if (at := first_wrong((signed == 0) | (np.abs(signed) > arcs))) is not None:
         fail(f"a ring passes arc {signed[at]}, which does not exist")
     arc, is_back = np.abs(signed) - 1, signed < 0
     ring = owners(np.diff(cells.ring_starts))
     cell = cells.cell_of_polygon[owners(np.diff(cells.polygon_starts))][ring]
-    at = first_wrong(cells.sites[arc, is_back.astype(int)] != cell)
-    if at is not None:
+    if (at := first_wrong(cells.sites[arc, is_back.astype(int)] != cell)) is not None:
         fail(
             f"ring {ring[at]} of cell {cell[at]} passes arc {arc[at]}, whose sides belong to sites "
             f"{cells.sites[arc[at]]}"
         )
     passed = np.bincount(2 * arc + is_back, minlength=2 * arcs)
-    at = first_wrong(passed != (cells.sites.ravel() != OUTSIDE))
-    if at is not None:
+    if (at := first_wrong(passed != (cells.sites.ravel() != OUTSIDE))) is not None:
         fail(f"arc {at // 2} is passed {passed[at]} times with its {('left', 'right')[at % 2]} side")
     begin = np.where(is_back, high[arc], low[arc])
     end = np.where(is_back, low[arc], high[arc])
     after = following(cells.ring_starts)
-    at = first_wrong(end != begin[after])
-    if at is not None:
+    if (at := first_wrong(end != begin[after])) is not None:
         fail(f"ring {ring[at]} continues at vertex {begin[after[at]]}, but arc {arc[at]} ends at {end[at]}")
 
 
@@ -139,8 +134,7 @@ def _check_areas(cells: VoronoiMap) -> None:
     slack = AREA * w * h + ROUNDING * largest * (w + h)
     if cells.is_circle.any() and cells.max_distance is not None:
         slack += ROUNDING * cells.max_distance * (cells.max_distance + largest)
-    at = first_wrong(np.where(cells.is_hole, area > slack, area < -slack))
-    if at is not None:
+    if (at := first_wrong(np.where(cells.is_hole, area > slack, area < -slack))) is not None:
         fail(f"ring {at} has the area {area[at]}: shells go counter-clockwise, holes clockwise")
     total = float(area.sum())
     if not (len(cells.cell_starts) > 1 and len(cells.polygons)):
@@ -167,8 +161,7 @@ def _below_circles(cells: VoronoiMap, source: Floats, target: Floats) -> Floats:
     turn = np.where(is_left, np.mod(last - first, 2 * PI), -np.mod(first - last, 2 * PI))
     square = (a * a).sum(axis=1)
     high = center[:, 1] - cells.frame[1]
-    below: Floats = high * (b[:, 0] - a[:, 0]) - (square * turn - b[:, 0] * b[:, 1] + a[:, 0] * a[:, 1]) / 2
-    return below
+    return high * (b[:, 0] - a[:, 0]) - (square * turn - b[:, 0] * b[:, 1] + a[:, 0] * a[:, 1]) / 2
 
 
 # ---- distances ---------------------------------------------------------------------------------------
@@ -194,8 +187,7 @@ class _SitePlaces:
         """Of each place from one site."""
         import shapely
 
-        made: Floats = shapely.distance(self.geometry[site], shapely.points(places))
-        return made
+        return shapely.distance(self.geometry[site], shapely.points(places))
 
     def least(self, places: Floats) -> Floats:
         """Of each place from the nearest site, with enclosures of those that meet the face that it is in."""
@@ -217,8 +209,7 @@ def _check_borders(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Gene
         vertex = cells.arcs[border, end]
         place = cells.vertices[vertex]
         least = sites.least(place) if sites.faces is None else sites.distances(cells.sites[border, 0], place)
-        at = first_wrong(np.abs(least - cells.radius[vertex]) > sites.tolerance)
-        if at is not None:
+        if (at := first_wrong(np.abs(least - cells.radius[vertex]) > sites.tolerance)) is not None:
             k = int(vertex[at])
             place = tuple(cells.vertices[k].tolist())
             fail(f"vertex {k} at {place} is {least[at]} from its sites, but its radius is {cells.radius[k]}")
@@ -232,8 +223,7 @@ def _check_borders(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Gene
         for hand in (0, 1):
             site = cells.sites[border, hand]
             distance = sites.distances(site, place)
-            at = first_wrong(~(distance <= least + slack))
-            if at is not None:
+            if (at := first_wrong(~(distance <= least + slack))) is not None:
                 fail(
                     f"arc {border[at]} at {tuple(place[at].tolist())} is {distance[at]} from site {site[at]}, "
                     f"but another one is {least[at]} from there"
@@ -257,8 +247,7 @@ def _check_limit(cells: VoronoiMap, sites: _SitePlaces, limit: float) -> None:
     for place in (source[arc], middle, target[arc]):
         distance, least = sites.distances(site, place), sites.least(place)
         slack = sites.tolerance
-        at = first_wrong(~((np.abs(distance - limit) <= slack) & (least >= distance - slack)))
-        if at is not None:
+        if (at := first_wrong(~((np.abs(distance - limit) <= slack) & (least >= distance - slack)))) is not None:
             fail(
                 f"arc {arc[at]} at {tuple(place[at].tolist())} is {distance[at]} from site {site[at]}, and "
                 f"{least[at]} from the nearest one, but is on the limit of {limit}"
@@ -276,8 +265,7 @@ def _check_places(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Gener
     least = sites.least(places)
     distance = sites.distances(cell, places[place])
     near = max(w, h) * _FINE + sites.tolerance  # lines instead of curves
-    at = first_wrong(~(distance <= least[place] + 2 * near))
-    if at is not None:
+    if (at := first_wrong(~(distance <= least[place] + 2 * near))) is not None:
         fail(
             f"{tuple(places[place[at]].tolist())} is {distance[at]} from site {cell[at]}, whose cell it is in, "
             f"but another one is {least[place[at]]} from there"
@@ -297,15 +285,13 @@ def _check_reach(
     (places, least), (place, distance) = at_places, held
     limit = cells.max_distance
     assert limit is not None
-    at = first_wrong(distance > limit + near)
-    if at is not None:
+    if (at := first_wrong(distance > limit + near)) is not None:
         fail(f"{tuple(places[place[at]].tolist())} is {distance[at]} from the site of its cell: the limit is {limit}")
     if cells.clip is not None or cells.enclosures is not None:
         return
     is_free = np.ones(len(places), dtype=bool)
     is_free[place] = False
-    at = first_wrong(is_free & (least < limit - near))
-    if at is not None:
+    if (at := first_wrong(is_free & (least < limit - near))) is not None:
         fail(f"{tuple(places[at].tolist())} is {least[at]} from the nearest site, and in no cell: the limit is {limit}")
 
 
@@ -330,8 +316,7 @@ def _check_shares(
         strange = ~sites.faces.may_have(places[place], cell)
         is_wrong[place[strange]] = True
         is_wrong[close] = False
-    at = first_wrong(is_wrong)
-    if at is not None:
+    if (at := first_wrong(is_wrong)) is not None:
         fail(
             f"{tuple(places[at].tolist())} is in {('a' if is_held[at] else 'no')} cell, contrary to the clip or the "
             "enclosures"

@@ -200,7 +200,7 @@ class _Stream:
 def _archive(out: BinaryIO) -> zipfile.ZipFile:
     import zipfile
 
-    return zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED)  # type: ignore[call-overload,no-any-return]
+    return zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED)  # type: ignore[call-overload]
 
 
 def write_npz(out: BinaryIO, columns: list[Column], threads: int) -> None:

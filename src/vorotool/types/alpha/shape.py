@@ -173,12 +173,10 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
         return np.bincount(holes, minlength=self.region_count)
 
     def _rows(self, what: str | None = None) -> Rows:
-        rows: Rows = resolved("types.alpha.tables:shape_rows")(self, what)
-        return rows
+        return resolved("types.alpha.tables:shape_rows")(self, what)
 
     def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows | Mixture:
-        features: Rows | Mixture = resolved("types.alpha.tables:shape_features")(self, what)
-        return features
+        return resolved("types.alpha.tables:shape_features")(self, what)
 
     def _matrix(self, what: str) -> NDArray[np.int32]:
         return self.family.edges[np.flatnonzero(self.edge_classes)] if what == "complex" else self.edges

@@ -119,8 +119,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     @property
     def is_empty(self) -> NDArray[np.bool_]:
         """(n,) whether each cell is empty."""
-        empty: NDArray[np.bool_] = np.diff(self.starts if self.cell_starts is None else self.cell_starts) == 0
-        return empty
+        return np.diff(self.starts if self.cell_starts is None else self.cell_starts) == 0
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
@@ -162,8 +161,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     def cell_of_vertices(self) -> NDArray[np.int64]:
         """(n + 1,) where the vertices of each cell begin in `coordinates`, and the end."""
         rings, polygons, cells = self.nesting
-        starts: NDArray[np.int64] = rings[polygons[cells]]
-        return starts
+        return rings[polygons[cells]]
 
     def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
         x, y = np.ascontiguousarray(self.sites.T)

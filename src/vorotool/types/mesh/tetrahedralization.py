@@ -108,8 +108,7 @@ class Tetrahedralization(Value, Tabular):
     @property
     def is_duplicate(self) -> Booleans:
         """(n,) mask of points that lie on an earlier one."""
-        found: Booleans = self.first != np.arange(len(self.first))
-        return found
+        return self.first != np.arange(len(self.first))
 
     @property
     def duplicates(self) -> int:
@@ -155,12 +154,10 @@ class Tetrahedralization(Value, Tabular):
         chosen = np.flatnonzero(~self.is_duplicate)
         order = chosen[np.lexsort(self.points[chosen].T[::-1])].astype(np.int32)
         pairs = np.sort(np.stack([order[:-1], order[1:]], axis=1), axis=1)
-        chain: NDArray[np.int32] = pairs[np.lexsort(pairs.T[::-1])]
-        return chain
+        return pairs[np.lexsort(pairs.T[::-1])]
 
     def _faces(self, t: NDArray[np.intp], face: NDArray[np.intp]) -> NDArray[np.int32]:
-        faces: NDArray[np.int32] = self.tetrahedra[t[:, None], FACES[face]]
-        return faces
+        return self.tetrahedra[t[:, None], FACES[face]]
 
     # ---- measures
     def edge_lengths(self, rows: slice = ALL) -> Floats:
@@ -220,8 +217,7 @@ class Tetrahedralization(Value, Tabular):
         return Rows(Table(columns))
 
     def _matrix(self, what: str | None) -> NDArray[np.int32]:
-        matrix: NDArray[np.int32] = getattr(self, what or "tetrahedra")
-        return matrix
+        return getattr(self, what or "tetrahedra")
 
     def _summary(self) -> str:
         sizes = counted(len(self.points), "point"), counted(len(self), "tetrahedron", "tetrahedra")
@@ -244,8 +240,7 @@ def cross(p: Floats, q: Floats) -> Floats:
 
 def dot(p: Floats, q: Floats) -> Floats:
     """Scalar products of (3, n) vectors."""
-    products: Floats = p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-    return products
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 
 
 def _spheres(corners: Floats) -> tuple[Floats, Floats]:

@@ -40,16 +40,13 @@ class Mesh:
     """What has edges and maybe triangles, in files and frames."""
 
     def _rows(self, what: str | None = None) -> Rows:
-        rows: Rows = resolved("types.mesh.tables:mesh_rows")(self, what)
-        return rows
+        return resolved("types.mesh.tables:mesh_rows")(self, what)
 
     def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows:
-        features: Rows = resolved("types.mesh.tables:mesh_features")(self, what)
-        return features
+        return resolved("types.mesh.tables:mesh_features")(self, what)
 
     def _matrix(self: Any, what: str) -> NDArray[np.int32]:
-        matrix: NDArray[np.int32] = self.edges if what == "edges" else self.triangles
-        return matrix
+        return self.edges if what == "edges" else self.triangles
 
 
 @record
@@ -162,8 +159,7 @@ class Triangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
         >>> mesh.triangles.tolist(), mesh.neighbors.tolist(), mesh.hull.tolist()
         ([[0, 1, 2], [3, 0, 2]], [[-1, 1, -1], [0, -1, -1]], [0, 1, 2, 3])
         """
-        made: Triangulation = resolved("engines.delaunay.from_triangles:triangulation_of")(points, triangles)
-        return made
+        return resolved("engines.delaunay.from_triangles:triangulation_of")(points, triangles)
 
     @property
     def label_array(self) -> NDArray[np.int64]:
@@ -189,8 +185,7 @@ class Triangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
         onward = np.full(len(self.points), -1, dtype=np.int32)  # next vertex on the hull
         onward[self.hull] = np.roll(self.hull, -1)
         a, b = self.edges.T
-        found: NDArray[np.bool_] = (onward[a] == b) | (onward[b] == a)
-        return found
+        return (onward[a] == b) | (onward[b] == a)
 
     @cached_property
     def circumcenters(self) -> NDArray[np.float64]:
@@ -387,8 +382,7 @@ class DigitalTriangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
     def sides(self) -> NDArray[np.int32]:
         """Return the (s, 2) sides of the triangles, each once, smaller index first, in lexicographic order."""
         pairs = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-        sides: NDArray[np.int32] = np.unique(np.sort(pairs, axis=1), axis=0)
-        return sides
+        return np.unique(np.sort(pairs, axis=1), axis=0)
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "site"), counted(len(self), "triangle"), counted(len(self.edges), "edge"))

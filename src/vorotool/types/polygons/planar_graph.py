@@ -193,5 +193,4 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
 def packed(places: NDArray[Any]) -> NDArray[np.int64]:
     """One number for each place of the lattice."""
     x, y = places.astype(np.int64).T
-    made: NDArray[np.int64] = x * 2**32 + y
-    return made
+    return x * 2**32 + y

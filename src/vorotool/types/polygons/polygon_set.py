@@ -148,8 +148,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     @property
     def as_given(self) -> PolygonSet:
         """These polygons with the coordinates of the input, where an engine has moved vertices to a lattice."""
-        given: PolygonSet = self.__dict__.get("_as_given", self)
-        return given
+        return self.__dict__.get("_as_given", self)
 
     def moved(self, xy: NDArray[np.float64]) -> PolygonSet:
         """Move the vertices: `as_given` of what is returned has those of these polygons.

@@ -91,8 +91,7 @@ class ArcMeasures:
         straight = self.source + v * (self.target - self.source)
         bend = self.source - 2 * control + self.target
         bent = self.source + v * (2 * (control - self.source) + v * bend)
-        places: Floats = np.where(v >= 1, self.target, np.where(self.is_parabola[:, None], bent, straight))
-        return places
+        return np.where(v >= 1, self.target, np.where(self.is_parabola[:, None], bent, straight))
 
     def radius(self, u: Floats) -> Floats:
         """(n,) the radius there."""
@@ -102,8 +101,7 @@ class ArcMeasures:
         return np.where(u <= 0, self.r0, np.where(u >= 1, self.r1, np.where(self.is_parabola, bent, inner)))
 
     def _slope(self, u: Floats) -> Floats:
-        slope: Floats = self.slope0 + u * (self.slope1 - self.slope0)
-        return slope
+        return self.slope0 + u * (self.slope1 - self.slope0)
 
     def parameter(self, distance: Floats) -> Floats:
         """(n,) u at a distance along each arc from its source."""
@@ -141,8 +139,7 @@ def _closed_integral(along: Floats, s: Floats, t: Floats) -> Floats:
     v, w = np.sqrt(1 + s * s), np.sqrt(1 + t * t)
     # s w^3 at both ends, by (t - s) times a sum of positive numbers
     cubes = (v * v * v + w * w * w) / 2 + (s + t) * (s + t) / 2 * (v * v + v * w + w * w) / (v + w)
-    integral: Floats = along * along / (2 * (t - s)) * (cubes / 4 + 3 / 4 * mean_root(s, t))
-    return integral
+    return along * along / (2 * (t - s)) * (cubes / 4 + 3 / 4 * mean_root(s, t))
 
 
 def _quadrature(r0: Floats, along: Floats, slope0: Floats, bend: Floats) -> Floats:
@@ -164,18 +161,15 @@ def mean_root(s: Floats, t: Floats) -> Floats:
     factor = (1 + outer) / (v + w)
     x = np.abs(t - s) * factor
     ratio = np.where(x > 0, _ratio(inverse_sinh(x), x), 1.0)
-    mean: Floats = (products + factor * ratio) / 2
-    return mean
+    return (products + factor * ratio) / 2
 
 
 def _dot(a: Floats, b: Floats) -> Floats:
-    product: Floats = a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]
-    return product
+    return a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]
 
 
 def _norm(way: Floats) -> Floats:
-    length: Floats = np.sqrt(way[..., 0] * way[..., 0] + way[..., 1] * way[..., 1])
-    return length
+    return np.sqrt(way[..., 0] * way[..., 0] + way[..., 1] * way[..., 1])
 
 
 def _ratio(a: Floats, b: Floats) -> Floats:

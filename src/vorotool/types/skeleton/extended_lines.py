@@ -93,8 +93,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
     def extension_length(self) -> Floats:
         """(k, 2) how far the start and the end are extended; 0 where they are not."""
         way = self.ends - self.path.vertices[self.end_nodes]
-        lengths: Floats = np.nan_to_num(np.sqrt((way * way).sum(axis=2)), nan=0.0)
-        return lengths
+        return np.nan_to_num(np.sqrt((way * way).sum(axis=2)), nan=0.0)
 
     @cached_property
     def line_of_row(self) -> NDArray[np.intp]:
@@ -115,8 +114,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
     @cached_property
     def length(self) -> Floats:
         """(k,) lengths, extensions included."""
-        lengths: Floats = self._summed(self.path.length) + self.extension_length.sum(axis=1)
-        return lengths
+        return self._summed(self.path.length) + self.extension_length.sum(axis=1)
 
     @cached_property
     def width_mean(self) -> Floats:

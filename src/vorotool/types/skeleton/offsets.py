@@ -146,10 +146,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
         pieces = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] + np.where(self.is_arc, sector, 0)) / 2
         if not len(self):
             return np.zeros(0)
-        areas: NDArray[np.float64] = np.add.reduceat(
-            np.add.reduceat(pieces, self.ring_starts[:-1]), self.shape_starts[:-1]
-        )
-        return areas
+        return np.add.reduceat(np.add.reduceat(pieces, self.ring_starts[:-1]), self.shape_starts[:-1])
 
     def flattened(self, tolerance: float | None = None) -> PolygonSet:
         """Return the shapes as polygons, with arcs replaced by chords.

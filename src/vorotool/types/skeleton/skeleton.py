@@ -63,13 +63,11 @@ class SiteTable(Record):
 
     def rings(self, polygons: PolygonSet, sites: Any = slice(None)) -> NDArray[np.int64]:
         """Rings of all polygons that some sites are on, or all."""
-        rings: NDArray[np.int64] = polygons.polygon_starts[self.polygon[sites]] + self.ring[sites]
-        return rings
+        return polygons.polygon_starts[self.polygon[sites]] + self.ring[sites]
 
     def vertices(self, polygons: PolygonSet, sites: Any = slice(None)) -> NDArray[np.int64]:
         """Vertices of all polygons that some sites are at, or begin at."""
-        vertices: NDArray[np.int64] = polygons.ring_starts[self.rings(polygons, sites)] + self.index[sites]
-        return vertices
+        return polygons.ring_starts[self.rings(polygons, sites)] + self.index[sites]
 
     def taken(self, chosen: NDArray[np.intp]) -> SiteTable:
         """Some of the sites."""
@@ -254,8 +252,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
 
             in_chunks(len(made), fill, threads=threads)
             self.__dict__["site_ends"] = made
-        ends: NDArray[np.float64] = self.__dict__["site_ends"]
-        return ends
+        return self.__dict__["site_ends"]
 
     def _ends_of(self, sites: Any) -> NDArray[np.float64]:
         ends = ends_of_sites(self.polygons, self.site_table, sites)
@@ -276,8 +273,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         """Compute `arc_radii` on several threads, unless they are known; 0 uses all."""
         if "arc_radii" not in self.__dict__:
             self.__dict__["arc_radii"] = arc_radii(len(self), self._arc_arrays, threads=threads)
-        found: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] = self.__dict__["arc_radii"]
-        return found
+        return self.__dict__["arc_radii"]
 
     def measures(self, arcs: NDArray[np.integer]) -> ArcMeasures:
         """Return points, radii and lengths along some arcs, which may be repeated."""
@@ -325,12 +321,10 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         return polylines(source, self.control, target, self.is_parabola, each)
 
     def _rows(self, what: str | None = None) -> Rows:
-        rows: Rows = resolved("types.skeleton.tables:skeleton_rows")(self, what)
-        return rows
+        return resolved("types.skeleton.tables:skeleton_rows")(self, what)
 
     def _features(self, what: str | None = None, flatten: float | None = None) -> Rows:
-        features: Rows = resolved("types.skeleton.tables:skeleton_features")(self, what, flatten)
-        return features
+        return resolved("types.skeleton.tables:skeleton_features")(self, what, flatten)
 
     def _summary(self) -> str:
         branches = counted(int(self.branch[-1]) + 1 if len(self) else 0, "branch", "branches")
@@ -407,17 +401,14 @@ def _columns(places: Floats) -> Floats:
 
 
 def _dot(a: Floats, b: Floats) -> Floats:
-    product: Floats = a[0] * b[0] + a[1] * b[1]
-    return product
+    return a[0] * b[0] + a[1] * b[1]
 
 
 def _length(way: Floats) -> Floats:
-    length: Floats = np.sqrt(_dot(way, way))  # the same on every machine, as hypot is not
-    return length
+    return np.sqrt(_dot(way, way))  # the same on every machine, as hypot is not
 
 
 def _foot(ends: Floats, place: Floats) -> Floats:
     way = ends[1] - ends[0]
     share = _dot(place - ends[0], way) / np.maximum(_dot(way, way), np.finfo(float).tiny)
-    foot: Floats = ends[0] + share * way
-    return foot
+    return ends[0] + share * way

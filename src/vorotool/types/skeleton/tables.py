@@ -336,8 +336,7 @@ def _components(
 
 def _least_nodes(skeleton: Skeleton, starts: NDArray[np.int64]) -> NDArray[np.int32]:
     """(b,) the smallest node of each branch."""
-    least: NDArray[np.int32] = np.minimum.reduceat(skeleton.arcs.reshape(-1), 2 * starts)
-    return least
+    return np.minimum.reduceat(skeleton.arcs.reshape(-1), 2 * starts)
 
 
 def connected_roots(pairs: NDArray[np.integer], count: int) -> NDArray[np.int64]:

@@ -131,8 +131,7 @@ class LabelVolume(Value, Tabular, Graph, Elements):
         return self.labels
 
     def _rows(self, _what: str | None = None) -> Rows:
-        rows: Rows = resolved("engines.label_images.features:region_rows")(self)
-        return rows
+        return resolved("engines.label_images.features:region_rows")(self)
 
     def _summary(self) -> str:
         return _size_text(self, self.labels)

@@ -44,8 +44,7 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, 
 def _in_pairs(cells: VoronoiMap) -> Indices:
     """Arcs of rings of two: of one piece each they would hold nothing."""
     first = cells.ring_starts[:-1][np.diff(cells.ring_starts) == 2]
-    arcs: Indices = np.abs(cells.ring_arcs[np.concatenate([first, first + 1])].astype(np.int64)) - 1
-    return arcs
+    return np.abs(cells.ring_arcs[np.concatenate([first, first + 1])].astype(np.int64)) - 1
 
 
 def cell_rings(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indices]:
@@ -61,8 +60,7 @@ def cell_rings(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indi
 
 def cell_polygons(cells: VoronoiMap, tolerance: float | None) -> NDArray[Any]:
     """(s,) each cell as a polygon or multipolygon of shapely; what two cells share is the same in both, bit for bit."""
-    made: NDArray[Any] = resolved("convert.frames:shapely_of")(map_features(cells, "cells", tolerance).geometry)
-    return made
+    return resolved("convert.frames:shapely_of")(map_features(cells, "cells", tolerance).geometry)
 
 
 def map_features(cells: VoronoiMap, what: str | None, tolerance: float | None) -> Rows:
@@ -136,8 +134,7 @@ def _axes(arcs: MixedArcs) -> Floats:
     size = _size(axis)
     across = np.stack([-axis[:, 1], axis[:, 0]], axis=1) / np.where(size > 0, size, 1)[:, None]
     forward = np.sign((across * (arcs.target - arcs.source)).sum(axis=1))
-    made: Floats = across * forward[:, None]
-    return made
+    return across * forward[:, None]
 
 
 def _feet(arcs: MixedArcs, place: Floats) -> Floats:
@@ -149,8 +146,7 @@ def _feet(arcs: MixedArcs, place: Floats) -> Floats:
     feet = (1 - t) * (1 - t) * arcs.source + 2 * t * (1 - t) * arcs.control + t * t * arcs.target
     offset = place - arcs.center
     scale = _size(arcs.source - arcs.center) / _size(offset)
-    made: Floats = np.where(arcs.is_circle[:, None], arcs.center + scale[:, None] * offset, feet)
-    return made
+    return np.where(arcs.is_circle[:, None], arcs.center + scale[:, None] * offset, feet)
 
 
 def _along(arcs: MixedArcs, arc: Indices, place: Floats) -> Floats:
@@ -171,8 +167,7 @@ def _middles(arcs: MixedArcs) -> Floats:
     a, b = arcs.source - arcs.center, arcs.target - arcs.center
     chord = np.where(arcs.is_left[:, None], b - a, a - b)
     across = np.stack([chord[:, 1], -chord[:, 0]], axis=1)
-    made: Floats = np.where(((a * b).sum(axis=1) > 0)[:, None], a + b, across)
-    return made
+    return np.where(((a * b).sum(axis=1) > 0)[:, None], a + b, across)
 
 
 def _hulls(arcs: MixedArcs) -> Floats:
@@ -188,8 +183,7 @@ def _hulls(arcs: MixedArcs) -> Floats:
             arcs.center + (one + middle) * square / (square + (one * middle).sum(axis=1)[:, None]) for one in (a, b)
         ]
         corner = [np.where(arcs.is_circle[:, None], circle, arcs.control) for circle in of_circles]
-    hulls: Floats = np.stack([arcs.source, *corner, arcs.target, arcs.source], axis=1)
-    return hulls
+    return np.stack([arcs.source, *corner, arcs.target, arcs.source], axis=1)
 
 
 def _from_parabolas(arcs: MixedArcs, place: Floats) -> Floats:
@@ -204,10 +198,8 @@ def _from_parabolas(arcs: MixedArcs, place: Floats) -> Floats:
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
-    made: Floats = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    return made
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
 def _size(way: Floats) -> Floats:
-    made: Floats = np.sqrt((way * way).sum(axis=1))
-    return made
+    return np.sqrt((way * way).sum(axis=1))

@@ -23,8 +23,7 @@ KINDS = ["line", "parabola", "circle"]
 
 def kinds_of(cells: VoronoiMap) -> NDArray[np.int32]:
     """(a,) the kind of each arc, a number among `KINDS`."""
-    kinds: NDArray[np.int32] = np.where(cells.is_circle, 2, cells.is_parabola).astype(np.int32)
-    return kinds
+    return np.where(cells.is_circle, 2, cells.is_parabola).astype(np.int32)
 
 
 def border_table(cells: VoronoiMap) -> Table:

@@ -149,8 +149,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     @cached_property
     def is_border(self) -> NDArray[np.bool_]:
         """(a,) whether each arc is between two cells; others are cuts."""
-        is_border: NDArray[np.bool_] = (self.sites != OUTSIDE).all(axis=1)
-        return is_border
+        return (self.sites != OUTSIDE).all(axis=1)
 
     @cached_property
     def mixed_arcs(self) -> MixedArcs:
@@ -199,14 +198,12 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     @cached_property
     def own_areas(self) -> Floats:
         """(s,) areas of the site's own polygons that cells have; see `vorotool.engines.voronoi.measures.own_areas`."""
-        made: Floats = resolved("engines.voronoi.measures:own_areas")(self)
-        return made
+        return resolved("engines.voronoi.measures:own_areas")(self)
 
     @cached_property
     def reaches(self) -> Floats:
         """(s,) largest distances of cells from their sites; see `vorotool.engines.voronoi.measures.reaches`."""
-        made: Floats = resolved("engines.voronoi.measures:reaches")(self)
-        return made
+        return resolved("engines.voronoi.measures:reaches")(self)
 
     @cached_property
     def components(self) -> NDArray[np.int64]:
@@ -216,19 +213,16 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     @property
     def edges(self) -> Table:
         """Table of the borders between cells; see `vorotool.types.voronoi.tables.border_table`."""
-        made: Table = resolved(f"{_TABLES}:border_table")(self)
-        return made
+        return resolved(f"{_TABLES}:border_table")(self)
 
     @property
     def neighbors(self) -> Table:
         """Pairs of cells that share a border; see `vorotool.types.voronoi.tables.neighbor_table`."""
-        made: Table = resolved(f"{_TABLES}:neighbor_table")(self)
-        return made
+        return resolved(f"{_TABLES}:neighbor_table")(self)
 
     def table(self) -> Table:
         """Table with one row per cell; see `vorotool.types.voronoi.tables.cell_table`."""
-        made: Table = resolved(f"{_TABLES}:cell_table")(self)
-        return made
+        return resolved(f"{_TABLES}:cell_table")(self)
 
     def to_adjacency(self) -> pandas.DataFrame:
         """Return the pairs of neighbors in the format of libpysal; pandas must be installed.
@@ -267,12 +261,10 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         ]
 
     def _rows(self, what: str | None = None) -> Rows | None:
-        rows: Rows | None = resolved(f"{_TABLES}:map_rows")(self, what)
-        return rows
+        return resolved(f"{_TABLES}:map_rows")(self, what)
 
     def _features(self, what: str | None = None, flatten: float | None = None) -> Rows:
-        features: Rows = resolved("types.voronoi.shapes:map_features")(self, what, flatten)
-        return features
+        return resolved("types.voronoi.shapes:map_features")(self, what, flatten)
 
     def _summary(self) -> str:
         sizes = (
