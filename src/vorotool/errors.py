@@ -10,7 +10,7 @@ from enum import Enum, auto
 _TYPED, _PARAMETER, _END = "\ufdd0", "\ufdd1", "\ufdd2"
 """Noncharacters of Unicode, which no text has: they stand around the two readings of an option in a message."""
 
-_OPTION = re.compile(f"{_TYPED}([^{_TYPED}-{_END}]*){_PARAMETER}([^{_TYPED}-{_END}]*){_END}")
+_OPTION = f"{_TYPED}([^{_TYPED}-{_END}]*){_PARAMETER}([^{_TYPED}-{_END}]*){_END}"
 
 
 def option(typed: str, parameter: str | None = None) -> str:
@@ -60,12 +60,12 @@ AS_VOLUME = option("tessellate --volume", 'geometry="volume"')
 
 def _typed(text: str) -> str:
     """Read a text with options as the command line has them."""
-    return _OPTION.sub(r"\1", text)
+    return re.sub(_OPTION, r"\1", text)
 
 
 def _parameters(text: str) -> str:
     """Read a text with options as Python has them."""
-    return _OPTION.sub(r"\2", text)
+    return re.sub(_OPTION, r"\2", text)
 
 
 class Kind(Enum):

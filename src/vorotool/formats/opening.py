@@ -278,23 +278,25 @@ PICTURES = {"jpeg": "JPEG", "bmp": "BMP", "gif": "GIF", "webp": "WebP", "avif": 
 
 GAP = rb"(?:\s|#[^\n\r]*[\n\r])+"
 """Between the numbers of a header of PBM, PGM or PPM: space and comments."""
-_START = re.compile(rb"P([1-6])" + GAP + rb"(?=[0-9])")
+_START = rb"P([1-6])" + GAP + rb"(?=[0-9])"
 
 
-_PICTURE_HEADS = {
-    "jpeg": rb"\xff\xd8\xff",
-    "gif": rb"GIF8[79]a",
-    "webp": rb"(?s:RIFF.{4}WEBP)",
-    "avif": rb"(?s:.{4}ftypavi[fs])",
+_PICTURE_HEADS = (  # where which bytes are
+    *(("jpeg", 0, b"\xff\xd8\xff"), ("gif", 0, b"GIF87a"), ("gif", 0, b"GIF89a"), ("webp", 8, b"WEBP")),
+    *(("avif", 4, b"ftypavif"), ("avif", 4, b"ftypavis"), ("bmp", 0, b"BM")),
+)
+_MORE_OF_HEADS = {
+    "webp": b"RIFF",
     "bmp": rb"(?s:BM.{12})[\x0c\x10\x28\x34\x38\x40\x6c\x7c](\0{3}|\0{0,2}\Z)",  # the size of its header
 }
 
 
 def picture_format(data: bytes) -> str | None:
     """Which of `PICTURES` data begins as."""
-    return next((name for name, head in _PICTURE_HEADS.items() if re.match(head, data[:32])), None)
+    found = next((name for name, place, head in _PICTURE_HEADS if data.startswith(head, place)), "")
+    return found if found and re.match(_MORE_OF_HEADS.get(found, b""), data[:32]) else None
 
 
 def looks_like_pnm(data: bytes) -> bool:
     """Tell whether data begins as a PBM, PGM or PPM file: P1 to P6, space or comments, a number."""
-    return _START.match(data[:65_536]) is not None
+    return data.startswith(b"P") and re.match(_START, data[:65_536]) is not None

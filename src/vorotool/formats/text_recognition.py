@@ -22,10 +22,9 @@ _SUFFIXES = {f".{name}": each.name for each in INPUTS.values() for name in each.
 """Extensions that tell the format; JSON is of one of several kinds, and text of any."""
 _OF_ROWS = frozenset({"", ".csv", ".tsv", ".txt", ".wkt"})
 """Extensions of texts that need nothing but rows; other formats are damaged without a document or a header."""
-_WKT = re.compile(
-    rb"\s*(SRID\s*=\s*\d+\s*;\s*)?((MULTI)?(POINT|LINESTRING|POLYGON|CURVE|SURFACE)|GEOMETRYCOLLECTION|LINEARRING|"
-    rb"CIRCULARSTRING|COMPOUNDCURVE|CURVEPOLYGON|POLYHEDRALSURFACE|TIN|TRIANGLE)\s*(Z|M|ZM)?\s*(\(|EMPTY)",
-    re.IGNORECASE,
+_WKT = (
+    rb"(?i)\s*(SRID\s*=\s*\d+\s*;\s*)?((MULTI)?(POINT|LINESTRING|POLYGON|CURVE|SURFACE)|GEOMETRYCOLLECTION|LINEARRING|"
+    rb"CIRCULARSTRING|COMPOUNDCURVE|CURVEPOLYGON|POLYHEDRALSURFACE|TIN|TRIANGLE)\s*(Z|M|ZM)?\s*(\(|EMPTY)"
 )
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
@@ -34,7 +33,7 @@ _HEADS = (
     *((MAGIC, "npy"), (NPZ_MAGIC, "npz"), (b"SQLite format 3\0", "gpkg"), (b"fgb\x03fgb", "fgb")),
     *((b"\0\0\x27\x0a", "shp"), (b"PAR1", "parquet"), (b"{", "geojson"), (b"[", "json"), (RECORD_MARK, "jsonl")),
 )
-_MARKUP = re.compile(rb"<(kml|gpx)[\s>]")
+_MARKUP = rb"<(kml|gpx)[\s>]"
 
 
 def recognized_geometry(
@@ -80,10 +79,10 @@ def _by_content(data: bytes) -> str:
         return "shp"
     if found is not None:
         return found
-    markup = _MARKUP.search(head) if head.startswith(b"<") else None
+    markup = re.search(_MARKUP, head) if head.startswith(b"<") else None
     if markup is not None:
         return markup[1].decode()
-    return "wkt" if _WKT.match(head) else "csv"
+    return "wkt" if re.match(_WKT, head) else "csv"
 
 
 def has_no_rows(source: Source) -> bool:
@@ -206,10 +205,8 @@ _TAKERS = option("skeleton-exact, skeleton-approx or draw", "skeleton_exact or s
 
 SUFFIXES = {".svg": "svg", ".svgz": "svg", ".dxf": "dxf"}
 _HEAD = 4096
-_SVG = re.compile(
-    rb"(\xef\xbb\xbf)?(<\?xml[^>]*>|<!--.*?-->|<!DOCTYPE[^>\[]*(\[.*?\]\s*)?>|\s++)*+<([\w-]+:)?svg[\s>]", re.DOTALL
-)
-_DXF = re.compile(rb"(\xef\xbb\xbf)?\s*(999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n")
+_SVG = rb"(?s)(\xef\xbb\xbf)?(<\?xml[^>]*>|<!--.*?-->|<!DOCTYPE[^>\[]*(\[.*?\]\s*)?>|\s++)*+<([\w-]+:)?svg[\s>]"
+_DXF = rb"(\xef\xbb\xbf)?\s*(999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n"
 BINARY_DXF = b"AutoCAD Binary DXF\r\n\x1a\0"
 
 
@@ -221,9 +218,9 @@ def drawing_format(source: Source) -> str | None:
     head = source.data[:_HEAD]
     if head.startswith(b"\x1f\x8b"):
         head = _unpacked_head(head)
-    if _SVG.match(head):
+    if b"svg" in head and re.match(_SVG, head):
         return "svg"
-    return "dxf" if head.startswith(BINARY_DXF) or _DXF.match(head) else None
+    return "dxf" if head.startswith(BINARY_DXF) or (b"SECTION" in head and re.match(_DXF, head)) else None
 
 
 def _unpacked_head(head: bytes) -> bytes:
@@ -251,14 +248,14 @@ _KNOWN_HEADS = (
     *((b"%PDF-", ".pdf"), (b"%!PS", ".ps"), (b"\xc5\xd0\xd3\xc6", ".eps"), (b"OTTO\0", ".otf")),
     *((b"\0\1\0\0\0", ".ttf"), (b"wOFF", ".woff"), (b"wOF2", ".woff2"), (b"ttcf", ".ttc")),
 )
-_DWG = re.compile(rb"AC10\d\d\0")
+_DWG = rb"AC10\d\d\0"
 
 
 def refuse_convertible(source: Source) -> None:
     """Refuse the formats of maps and drawings that are not read, by extension or content."""
     heads = (suffix for head, suffix in _KNOWN_HEADS if source.data.startswith(head))
     found = source.suffix if source.suffix in _MAPS + _DRAWINGS + _OTHERS else next(heads, None)
-    if found is None and _DWG.match(source.data):
+    if found is None and source.data.startswith(b"AC10") and re.match(_DWG, source.data):
         found = ".dwg"
     if found == ".zip" and b".roi" in source.data:
         found = ".roi"

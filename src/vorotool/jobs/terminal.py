@@ -8,13 +8,13 @@ from typing import TextIO
 
 from vorotool.errors import LimitError, Message, VorotoolError
 
-_UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+_UNPRINTABLE = "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]"
 """Control characters, ends of lines, and what changes the direction of text."""
 
 
 def escaped(text: str) -> str:
     """Write characters that a terminal acts upon as escapes."""
-    return _UNPRINTABLE.sub(lambda match: repr(match[0])[1:-1], text)
+    return re.sub(_UNPRINTABLE, lambda match: repr(match[0])[1:-1], text)
 
 
 def tell(line: str) -> None:

@@ -12,10 +12,10 @@ if TYPE_CHECKING:
     from vorotool.numeric.arrays import Floats
 
 _FORMS = (
-    re.compile(r"urn:(?:x-)?ogc:def:crs:(\w+):[^:]*:(\w+)", re.IGNORECASE),
-    re.compile(r"https?://www\.opengis\.net/def/crs/(\w+)/[^/]+/(\w+)", re.IGNORECASE),
-    re.compile(r"https?://www\.opengis\.net/gml/srs/(\w+)\.xml#(\w+)", re.IGNORECASE),
-    re.compile(r"(\w+)::?(\w+)"),
+    r"(?i)urn:(?:x-)?ogc:def:crs:(\w+):[^:]*:(\w+)",
+    r"(?i)https?://www\.opengis\.net/def/crs/(\w+)/[^/]+/(\w+)",
+    r"(?i)https?://www\.opengis\.net/gml/srs/(\w+)\.xml#(\w+)",
+    r"(\w+)::?(\w+)",
 )
 """How authority and code are written: URN, URL, the URL of GML 2, and plainly."""
 
@@ -36,10 +36,10 @@ _SAME = {
 
 _LONGITUDE_LATITUDE = frozenset({"OGC:CRS84", "OGC:CRS83", "OGC:CRS27"})
 
-_WELL_KNOWN = re.compile(r"\s*(?P<kind>[A-Z_]+)\s*\[\s*\"(?P<name>[^\"]*)\"")
+_WELL_KNOWN = r"\s*(?P<kind>[A-Z_]+)\s*\[\s*\"(?P<name>[^\"]*)\""
 """How the text of a system begins that is spelled out, not named (WKT of either version)."""
 
-_SRID = re.compile(r"\ASRID\s*=\s*(\d{1,9})\s*;\s*", re.IGNORECASE)
+_SRID = r"(?i)\ASRID\s*=\s*(\d{1,9})\s*;\s*"
 
 _GEOGRAPHIC_KINDS = ("GEOGCS", "GEOGCRS", "GEOGRAPHICCRS", "GEODCRS", "GEODETICCRS")
 
@@ -50,11 +50,11 @@ LONGITUDE_LATITUDE = "urn:ogc:def:crs:OGC:1.3:CRS84"
 def crs_name(crs: Any) -> str:
     """Give the plain name of a coordinate reference system, for messages."""
     text = _text_of(crs)
-    spelled = _WELL_KNOWN.match(text)
+    spelled = re.match(_WELL_KNOWN, text)
     if spelled is not None:
         return spelled["name"]
     for form in _FORMS:
-        found = form.fullmatch(text)
+        found = re.fullmatch(form, text)
         if found is not None:
             return f"{found[1]}:{found[2]}".upper()
     return text
@@ -76,7 +76,7 @@ def _text_of(crs: Any) -> str:
 
 def same_crs(a: Any, b: Any) -> bool:
     """Tell whether two names mean one system; EPSG:4326 has the longitude first in files, as OGC:CRS84 has."""
-    if _WELL_KNOWN.match(_text_of(a)) or _WELL_KNOWN.match(_text_of(b)):
+    if re.match(_WELL_KNOWN, _text_of(a)) or re.match(_WELL_KNOWN, _text_of(b)):
         return _text_of(a) == _text_of(b)  # one name may be that of several
     return _one_name(a) == _one_name(b)
 
@@ -90,7 +90,7 @@ def is_geographic(crs: Any) -> bool:
     """Tell whether a system is known to be of longitude and latitude in degrees; None is not."""
     if crs is None:
         return False
-    spelled = _WELL_KNOWN.match(_text_of(crs))
+    spelled = re.match(_WELL_KNOWN, _text_of(crs))
     if spelled is not None:
         return spelled["kind"] in _GEOGRAPHIC_KINDS
     authority, _, code = _one_name(crs).partition(":")
@@ -102,7 +102,7 @@ def is_geographic(crs: Any) -> bool:
 def crs_member(name: str) -> dict[str, Any] | None:
     """Give the ``crs`` member of GeoJSON for a name in any of the usual forms; None if it is in none."""
     text = name.strip()
-    if not any(form.fullmatch(text) for form in _FORMS):
+    if not any(re.fullmatch(form, text) for form in _FORMS):
         return None
     plain = crs_name(text)
     authority, _, code = plain.partition(":")
@@ -123,7 +123,7 @@ def crs_text(crs: Any) -> str | None:
     if crs is None:
         return None
     text = _text_of(crs)
-    if _WELL_KNOWN.match(text):
+    if re.match(_WELL_KNOWN, text):
         return text
     return {"OGC:CRS84": "EPSG:4326", "OGC:CRS83": "EPSG:4269", "OGC:CRS27": "EPSG:4267"}.get(
         _one_name(crs), crs_name(crs)
@@ -132,7 +132,7 @@ def crs_text(crs: Any) -> str | None:
 
 def without_number(text: str) -> tuple[str, int]:
     """Take the number (SRID) of its reference system off extended well-known text; 0 where it has none."""
-    srid = _SRID.match(text)
+    srid = re.match(_SRID, text)
     return (text, 0) if srid is None else (text[srid.end() :], int(srid[1]))
 
 

@@ -124,7 +124,7 @@ def checked_flatten(tolerance: Flatten) -> float | None:
     return None if is_own else checked_tolerance(tolerance)
 
 
-_COLUMN = re.compile(r"(?:(?:-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?)?\n)*", re.ASCII)
+_COLUMN = r"(?a)(?:(?:-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?)?\n)*"
 
 
 class NumberText(str):
@@ -141,7 +141,7 @@ class NumberText(str):
 def typed_texts(values: list[str]) -> list[Any]:
     """Give the texts of a column as numbers if all are, but for empty ones, which are None then."""
     text = "\n".join(values)
-    if text.count("\n") + 1 != len(values) or not any(values) or not _COLUMN.fullmatch(text + "\n"):
+    if text.count("\n") + 1 != len(values) or not any(values) or not re.fullmatch(_COLUMN, text + "\n"):
         return values
     return [NumberText(value) if value else None for value in values]
 

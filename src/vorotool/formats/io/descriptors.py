@@ -35,7 +35,7 @@ MOST_LINKS = 40
 READ_BYTES = 1 << 20
 """That are asked for at a time."""
 
-_OF_A_PROCESS = re.compile("/proc/([0-9]+)(?:/task/[0-9]+)?/fd")
+_OF_A_PROCESS = "/proc/([0-9]+)(?:/task/[0-9]+)?/fd"
 
 _KINDS = (
     (stat.S_ISFIFO, "a pipe"),
@@ -64,7 +64,7 @@ def _place(name: str) -> tuple[int | None, int] | None:
         for _ in range(MOST_LINKS):
             folder, last = os.path.split(path)
             folder = os.path.realpath(folder or ".")
-            match = _OF_A_PROCESS.fullmatch(folder)
+            match = re.fullmatch(_OF_A_PROCESS, folder) if folder.startswith("/proc/") else None
             if match or folder == "/dev/fd":
                 return (int(match[1]) if match else None, int(last)) if re.fullmatch("[0-9]{1,9}", last) else None
             path = str(os.path.join(folder, os.readlink(os.path.join(folder, last))))  # noqa: PTH115, PTH118

@@ -193,7 +193,7 @@ def check_nesting(text: str | bytes, limit: int = NESTING_LIMIT, name: str = "th
 
 _SHORTEST = 2
 """Characters of a file before a colon: a single one is a drive letter."""
-_NOT_IN_NAMES = re.compile(r'[<>:"/\\|?*\x00-\x1f]')
+_NOT_IN_NAMES = r'[<>:"/\\|?*\x00-\x1f]'
 """Characters that file names cannot have somewhere."""
 
 
@@ -225,7 +225,7 @@ def output_name(name: str) -> str:
     if layer is None:
         return Path(name).name
     path = Path(file[: -len(".gz")] if file.lower().endswith(".gz") else file)
-    return f"{path.stem}.{_NOT_IN_NAMES.sub('_', layer)}{path.suffix or '.layer'}"
+    return f"{path.stem}.{re.sub(_NOT_IN_NAMES, '_', layer)}{path.suffix or '.layer'}"
 
 
 def _is_file(path: str) -> bool:

@@ -44,7 +44,7 @@ except ImportError:  # on Windows
 _TAG: ContextVar[str] = ContextVar("tag", default="")
 """In the names of temporaries."""
 
-_NAME = re.compile(r"\.vorotool-(?:([0-9a-f]{12})([0-9a-f]{12})-)?((?:[A-Za-z0-9]+-)*)[0-9a-f]{16}\.(?:tmp|aside)")
+_NAME = r"\.vorotool-(?:([0-9a-f]{12})([0-9a-f]{12})-)?((?:[A-Za-z0-9]+-)*)[0-9a-f]{16}\.(?:tmp|aside)"
 """Boot, machine and tag."""
 
 ASIDE = ".aside"
@@ -226,7 +226,7 @@ def _temporaries(folder: str | os.PathLike[str]) -> list[tuple[Path, re.Match[st
     """Temporaries in a folder and the parts of their names; none if it cannot be listed."""
     with suppress(OSError), os.scandir(folder) as entries:
         names = [entry.name for entry in entries if entry.name.startswith(".vorotool-")]
-        return [(Path(folder) / name, found) for name in names if (found := _NAME.fullmatch(name))]
+        return [(Path(folder) / name, found) for name in names if (found := re.fullmatch(_NAME, name))]
     return []
 
 

@@ -135,7 +135,7 @@ RECORD_MARK = b"\x1e"
 _LOOKED_AT = 1 << 24
 """Bytes in which two lines must end to be told from a document over several lines."""
 _LONGEST_ROW = 1 << 16
-_NO_ROW = re.compile(rb'.[{[]|"type"|"polygons"|^{\s*}')
+_NO_ROW = rb'.[{[]|"type"|"polygons"|^{\s*}'
 """What no row of a table has: lists, objects, and the members of our documents and of GeoJSON."""
 _GEOMETRIES = ("Point", "LineString", "Polygon", "MultiPoint", "MultiLineString", "MultiPolygon", "GeometryCollection")
 
@@ -148,7 +148,7 @@ def is_json_lines(data: bytes) -> bool:
         return True
     lines = [line for line in data[:_LOOKED_AT].split(b"\n", 2)[:2] if line.startswith(b"{")]
     if len(lines) == 1 and len(data) < _LONGEST_ROW and len(data.strip()) == len(lines[0].strip()):
-        return not _NO_ROW.search(lines[0])
+        return not re.search(_NO_ROW, lines[0])
     try:
         return len(lines) == 2 and all(isinstance(orjson.loads(line), dict) for line in lines)
     except orjson.JSONDecodeError:

@@ -17,8 +17,8 @@ COLUMNS, _X_Y = option("--columns"), option("--columns X,Y", 'columns="X,Y"')
 _BEGINNINGS = (("x", "y"), ("longitude", "latitude"), ("lon", "lat"), ("lng", "lat"), ("east", "north"))
 """Of names that may be a pair of coordinates, such as x0 and y0."""
 
-_NUMBER = re.compile(r"[+-]?(\d++(?:\.\d*+)?|\.\d++)(e[+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
-DECIMAL_COMMA = re.compile(r"[+-]?\d*+,\d++(e[+-]?\d+)?", re.IGNORECASE)
+_NUMBER = r"(?i)[+-]?(\d++(?:\.\d*+)?|\.\d++)(e[+-]?\d+)?|[+-]?(nan|inf|infinity)"
+DECIMAL_COMMA = r"(?i)[+-]?\d*+,\d++(e[+-]?\d+)?"
 _X_Y_Z = option("--columns X,Y,z=Z", 'columns="X,Y,z=Z"')
 _MOST_LISTED = 12
 
@@ -192,7 +192,7 @@ def _cut(text: str) -> str:
 
 
 def _looks_numeric(text: str) -> bool:
-    return bool(_NUMBER.fullmatch(text) or DECIMAL_COMMA.fullmatch(text))
+    return bool(re.fullmatch(_NUMBER, text) or re.fullmatch(DECIMAL_COMMA, text))
 
 
 # ---- points as readers find them -----------------------------------------------------------------

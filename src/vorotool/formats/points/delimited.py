@@ -45,7 +45,7 @@ from vorotool.types.points.point_set import PointSet
 GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
 """Names of columns with geometry."""
 
-_QUOTED = re.compile(r'"[^"]*"')
+_QUOTED = r'"[^"]*"'
 
 
 @plain
@@ -136,7 +136,8 @@ def _plain_lines(data: bytes) -> bytes:
 
 def _guess_delimiter(data: bytes) -> str:
     first = _core.text.first_record(data, ",")
-    text = "" if first is None else _QUOTED.sub("", first[1]).strip()
+    text = "" if first is None else first[1]
+    text = (re.sub(_QUOTED, "", text) if '"' in text else text).strip()
     return next((delimiter for delimiter in ("\t", ";", ",") if delimiter in text), " ")
 
 
@@ -229,7 +230,7 @@ def explain(
         what = f"{text!r} in {place} is not a finite number; correct it, or remove the line"
     elif not text:
         what = f"{place} is empty; fill in a number, or remove the line"
-    elif DECIMAL_COMMA.fullmatch(text):
+    elif re.fullmatch(DECIMAL_COMMA, text):
         point = text.replace(",", ".")
         what = f"{text!r} in {place} is not a number: decimal commas are not read, write {point}"
     else:
@@ -243,6 +244,8 @@ _SPACE = option("tessellate --size WxHxD", 'geometry="space"')
 
 @plain
 class _Header:
+    """The first line of a ``.node`` file."""
+
     line: int
     vertices: int
     dimension: int

@@ -97,8 +97,8 @@ def _with_unit(table: Table) -> dict[str, Any]:
 
 # ---- CSV and TSV ---------------------------------------------------------------------------------
 _SAFE: ContextVar[bool] = ContextVar("safe", default=False)
-_FORMULA = re.compile(r"[=+\-@\t\r]")
-_NUMBER = re.compile(r"[+-]?(\d++(?:\.\d*+)?|\.\d++)([eE][+-]?\d+)?")
+_FORMULA = r"[=+\-@\t\r]"
+_NUMBER = r"[+-]?(\d++(?:\.\d*+)?|\.\d++)([eE][+-]?\d+)?"
 
 
 def safe_texts(is_wanted: bool = True) -> AbstractContextManager[None]:
@@ -108,7 +108,7 @@ def safe_texts(is_wanted: bool = True) -> AbstractContextManager[None]:
 
 def safe_text(text: str) -> str:
     """Put an apostrophe before a text that begins with =, +, -, @, a tab or a carriage return and is no number."""
-    return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
+    return f"'{text}" if re.match(_FORMULA, text) and not re.fullmatch(_NUMBER, text) else text
 
 
 def _write_delimited(out: BinaryIO, columns: list[Column], by_tabs: bool, precision: int | None, threads: int) -> None:
