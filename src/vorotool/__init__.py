@@ -63,7 +63,7 @@ _HOME = {
     "digital_triangulation": "vorotool.engines.digital.triangulation",
     "digital_delaunay": "vorotool.engines.digital.triangulation",
     "repair_digital": "vorotool.engines.digital.triangulation",
-    "verify_digital_triangulation": "vorotool.engines.digital.verify_digital",
+    "verify_digital_triangulation": "vorotool.engines.digital.triangulation",
     "DigitalComparison": "vorotool.types.mesh.triangulation",
     "compare_digital": "vorotool.engines.digital.comparison",
     "site_table": "vorotool.engines.delaunay.site_table",
@@ -74,7 +74,7 @@ _HOME = {
     "cell_statistics": "vorotool.engines.delaunay.site_table",
     "ProximityGraph": "vorotool.types.mesh.cells",
     "proximity_graph": "vorotool.engines.delaunay.proximity",
-    "verify_proximity_graph": "vorotool.engines.delaunay.verify_proximity",
+    "verify_proximity_graph": "vorotool.engines.delaunay.proximity",
     "outlines": "vorotool.engines.label_images.outlines",
     "planar_graph": "vorotool.engines.arrangement.planar_graph",
     "verify_planar_graph": "vorotool.engines.arrangement.planar_graph",
@@ -92,7 +92,7 @@ _HOME = {
     "prune": "vorotool.engines.pruning.pruning",
     "verify_pruning": "vorotool.engines.pruning.verify_pruning",
     "join_junctions": "vorotool.engines.pruning.joining",
-    "verify_joining": "vorotool.engines.pruning.verify_joining",
+    "verify_joining": "vorotool.engines.pruning.verify_pruning",
     "skeleton_approx": "vorotool.engines.skeleton_api",
     "skeleton_exact": "vorotool.engines.skeleton_api",
     "verify_skeleton": "vorotool.engines.skeleton.verify_skeleton",
@@ -136,8 +136,8 @@ _HOME = {
     "alpha_hull": "vorotool.engines.alpha.alpha_hull",
     "alpha_shape": "vorotool.engines.alpha.alpha_shape",
     "verify_alpha_shape": "vorotool.engines.alpha.verify_alpha",
-    "local_thickness": "vorotool.engines.peers.medial_axis",
-    "verify_thickness": "vorotool.engines.from_skeleton.verify_thickness",
+    "local_thickness": "vorotool.engines.masks",
+    "verify_thickness": "vorotool.engines.from_skeleton.thickness",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 - the keys are strings

@@ -59,14 +59,14 @@ from vorotool.engines.delaunay.delaunay import (
 from vorotool.engines.delaunay.proximity import (
     proximity_graph as proximity_graph,
 )
+from vorotool.engines.delaunay.proximity import (
+    verify_proximity_graph as verify_proximity_graph,
+)
 from vorotool.engines.delaunay.site_table import (
     cell_statistics as cell_statistics,
 )
 from vorotool.engines.delaunay.site_table import (
     site_table as site_table,
-)
-from vorotool.engines.delaunay.verify_proximity import (
-    verify_proximity_graph as verify_proximity_graph,
 )
 from vorotool.engines.digital.comparison import (
     compare_digital as compare_digital,
@@ -80,7 +80,7 @@ from vorotool.engines.digital.triangulation import (
 from vorotool.engines.digital.triangulation import (
     repair_digital as repair_digital,
 )
-from vorotool.engines.digital.verify_digital import (
+from vorotool.engines.digital.triangulation import (
     verify_digital_triangulation as verify_digital_triangulation,
 )
 from vorotool.engines.distances.hausdorff import (
@@ -104,11 +104,11 @@ from vorotool.engines.from_skeleton.points_along import (
 from vorotool.engines.from_skeleton.reconstruction import (
     rebuild as rebuild,
 )
+from vorotool.engines.from_skeleton.thickness import (
+    verify_thickness as verify_thickness,
+)
 from vorotool.engines.from_skeleton.verify_discs import (
     verify_discs as verify_discs,
-)
-from vorotool.engines.from_skeleton.verify_thickness import (
-    verify_thickness as verify_thickness,
 )
 from vorotool.engines.label_images.outlines import (
     outlines as outlines,
@@ -124,6 +124,9 @@ from vorotool.engines.label_images.regions import (
 )
 from vorotool.engines.label_images.regions import (
     voronoi_diagram as voronoi_diagram,
+)
+from vorotool.engines.masks import (
+    local_thickness as local_thickness,
 )
 from vorotool.engines.necks.necks import (
     necks as necks,
@@ -143,9 +146,6 @@ from vorotool.engines.offsets.offsets import (
 from vorotool.engines.offsets.verify_offsets import (
     verify_offsets as verify_offsets,
 )
-from vorotool.engines.peers.medial_axis import (
-    local_thickness as local_thickness,
-)
 from vorotool.engines.pruning.joining import (
     join_junctions as join_junctions,
 )
@@ -158,7 +158,7 @@ from vorotool.engines.pruning.pruning import (
 from vorotool.engines.pruning.pruning import (
     prune as prune,
 )
-from vorotool.engines.pruning.verify_joining import (
+from vorotool.engines.pruning.verify_pruning import (
     verify_joining as verify_joining,
 )
 from vorotool.engines.pruning.verify_pruning import (

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.convert.polygons import as_polygons
-from vorotool.engines import peers
+from vorotool.engines import masks
+from vorotool.engines.delaunay import cells
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.numbers import shown_number
@@ -77,7 +78,7 @@ def distance_transform_edt(
     _check_output(distances, "distances", np.float64, values.shape)
     _check_output(indices, "indices", np.int32, (values.ndim, *values.shape))
     found: dict[str, Any] = {}
-    made = peers.distance_transform(
+    made = masks.distance_transform(
         _of_two_axes(values),
         spacing=_spacing(sampling, values.ndim, "sampling"),
         return_distances=bool(return_distances),  # type: ignore[call-overload]
@@ -125,7 +126,7 @@ def expand_labels(label_image: ArrayLike, distance: float = 1, spacing: Sides = 
     """
     values = _elements(label_image, "label_image")
     sides = None if np.ndim(spacing) == 0 and spacing == 1 else _spacing(spacing, values.ndim, "spacing")
-    return peers.expand_labels(_of_two_axes(values), distance, spacing=sides).reshape(values.shape)
+    return masks.expand_labels(_of_two_axes(values), distance, spacing=sides).reshape(values.shape)
 
 
 def medial_axis(
@@ -172,7 +173,7 @@ def medial_axis(
         if chosen.shape != foreground.shape:
             raise InputError(f"invalid mask: expected the shape {foreground.shape}, but got {chosen.shape}")
         used = foreground & chosen
-    axis = peers.medial_axis(used)
+    axis = masks.medial_axis(used)
     if mask is not None:
         axis = np.where(chosen, axis, foreground)
     return (axis, distance_transform_edt(used)) if return_distance else axis
@@ -277,7 +278,7 @@ def voronoi_polygons(
 
     if only_edges:
         raise UsageError("only_edges is not supported: use vorotool.voronoi(points).edges for the borders of cells")
-    return peers.voronoi_polygons(shapely.get_coordinates(geometry), extend_to=extend_to)
+    return cells.voronoi_polygons(shapely.get_coordinates(geometry), extend_to=extend_to)
 
 
 def _elements(values: Any, name: str) -> NDArray[Any]:

@@ -23,8 +23,7 @@ from fuzz.runner import Cases, options
 from support.families.segment_families import FAMILIES, LIMIT, coarse, draw, renumbered, symmetries
 from support.oracles import boost_oracle, segment_oracle
 from vorotool import VorotoolError
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
-from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, verify_segment_voronoi
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 MOVED = 1 / 4

@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
 from support.families.skeleton_shapes import DATA, FAMILIES, under_symmetries
 from vorotool import Skeleton, VorotoolError, read, skeleton_exact, verify_skeleton
-from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+from vorotool.engines.segment_voronoi.segment_voronoi import verify_segment_voronoi
 from vorotool.engines.skeleton.exact import shape_diagram, skeleton_of
 from vorotool.engines.skeleton.verify_skeleton import verify_exterior
 

@@ -17,9 +17,8 @@ from fuzz.runner import compare
 from support.families.families import fine_case, random_case
 from support.oracles.oracles import nearest_labels, nearest_labels_of_fine_seeds
 from vorotool import _core
-from vorotool.engines.tessellation.bands import SeedBands
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
-from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.tessellator import SeedBands, Tessellator
 from vorotool.types.pixels import SQUARE, Frame
 from vorotool.types.points.seed_set import SeedSet
 

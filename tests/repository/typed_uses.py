@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 import vorotool
-from vorotool.engines import peers
+from vorotool.engines import masks
+from vorotool.engines.delaunay.cells import voronoi_polygons
 from vorotool.typing import ImageLike, PointsLike, PolygonsLike
 
 POINTS = [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
@@ -88,9 +89,9 @@ def values() -> None:
 
 def results_by_arguments() -> None:
     """Some results depend on an argument."""
-    assert_type(peers.distance_transform(MASK), npt.NDArray[np.float64])
-    assert_type(peers.distance_transform(MASK, return_distances=False, return_indices=True), npt.NDArray[np.int32])
-    distances, indices = peers.distance_transform(MASK, spacing=(2, 0.5), return_indices=True)
+    assert_type(masks.distance_transform(MASK), npt.NDArray[np.float64])
+    assert_type(masks.distance_transform(MASK, return_distances=False, return_indices=True), npt.NDArray[np.int32])
+    distances, indices = masks.distance_transform(MASK, spacing=(2, 0.5), return_indices=True)
     assert_type(distances, npt.NDArray[np.float64])
     assert_type(indices, npt.NDArray[np.int32])
     assert_type(vorotool.tessellate([[1, 1]], shape=(3, 3)), vorotool.LabelImage)
@@ -98,8 +99,8 @@ def results_by_arguments() -> None:
     assert_type(vorotool.tessellate([[1, 1, 1]], window=(0, 0, 0, 3, 3, 3)), vorotool.LabelVolume)
     assert_type(vorotool.tessellate(vorotool.VolumePoints(np.ones((1, 3)))), vorotool.LabelVolume)
     assert_type(vorotool.delaunay(vorotool.VolumePoints(np.ones((1, 3)))), vorotool.Tetrahedralization)
-    assert_type(peers.medial_axis(MASK), npt.NDArray[np.bool_])
-    assert_type(peers.medial_axis(MASK, return_distance=True), tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]])
+    assert_type(masks.medial_axis(MASK), npt.NDArray[np.bool_])
+    assert_type(masks.medial_axis(MASK, return_distance=True), tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]])
 
 
 def misuses() -> None:
@@ -130,6 +131,6 @@ def misuses() -> None:
     vorotool.read("a.csv", geometry="lines")  # type: ignore[call-overload]
     vorotool.read(3)  # type: ignore[call-overload]
     vorotool.write(mesh)  # type: ignore[call-arg]
-    peers.voronoi_polygons(POINTS, extend_to=4)  # type: ignore[arg-type]
-    peers.expand_labels(MASK, "far")  # type: ignore[arg-type]
-    peers.distance_transform(MASK, return_indices=1)  # type: ignore[call-overload]
+    voronoi_polygons(POINTS, extend_to=4)  # type: ignore[arg-type]
+    masks.expand_labels(MASK, "far")  # type: ignore[arg-type]
+    masks.distance_transform(MASK, return_indices=1)  # type: ignore[call-overload]

@@ -19,7 +19,7 @@ from vorotool.errors import OutputError, UsageError, VorotoolError
 from vorotool.formats.zarr.writer import open_array, write_chunks
 
 if TYPE_CHECKING:
-    from vorotool.engines.tessellation.bands import Band
+    from vorotool.engines.tessellation.tessellator import Band
 
 LOCAL = "local"
 PATIENCE = 10.0

@@ -13,8 +13,7 @@ from vorotool.engines.skeleton.diagrams import (
     skeleton_in,
     skeleton_inside,
 )
-from vorotool.engines.skeleton.exact import check_features, check_skeleton_options
-from vorotool.engines.skeleton.open_border import check_border
+from vorotool.engines.skeleton.exact import check_border, check_features, check_skeleton_options
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.types.box import Box, Extent, as_extent, check_lengths

@@ -7,8 +7,12 @@ from functools import cached_property, partial
 from typing import Any
 
 from vorotool.engines.digital.comparison import compare_digital
-from vorotool.engines.digital.triangulation import DigitalRepair, digital_triangulation, repair_digital
-from vorotool.engines.digital.verify_digital import verify_digital_triangulation
+from vorotool.engines.digital.triangulation import (
+    DigitalRepair,
+    digital_triangulation,
+    repair_digital,
+    verify_digital_triangulation,
+)
 from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.errors import Message
 from vorotool.jobs.inputs import JobInput, frame_of, window_of

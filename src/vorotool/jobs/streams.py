@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.tessellation.bands import Band, SeedBands, with_neighbors
 from vorotool.engines.tessellation.frames import band_limits, label_dtype, require_memory
 from vorotool.engines.tessellation.tessellate import labeled_rows, verify_rows
-from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.tessellator import Band, SeedBands, Tessellator, with_neighbors
 from vorotool.errors import LimitError
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, frame_of

@@ -13,13 +13,12 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.tessellation.bands import Band
 from vorotool.engines.tessellation.frames import require_memory, squared_limit
 from vorotool.engines.tessellation.raster_objects import PartwiseObjects
 from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.engines.tessellation.streamed_image import StreamedImage
 from vorotool.engines.tessellation.tessellate import PropagatedRows
-from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.tessellator import Band, Tessellator
 from vorotool.errors import LimitError, UsageError
 from vorotool.jobs.checked_columns import tell_outside
 from vorotool.jobs.inputs import JobInput, asked_frame, frame_of, no_seeds, opened_input, read_opened, seeds_of_image

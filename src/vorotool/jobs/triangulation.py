@@ -208,7 +208,7 @@ class MeshProducts(Results):
     def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""
         from vorotool.engines.delaunay.cells import verify_cells
-        from vorotool.engines.delaunay.verify_proximity import verify_proximity_graph
+        from vorotool.engines.delaunay.proximity import verify_proximity_graph
 
         verify_triangulation(self.mesh, threads=self.options.threads, progress=progress)
         if self.edged is not self.mesh:

@@ -105,7 +105,7 @@ def _step(shape: tuple[int, int]) -> int:
 
 
 def _labels_png(image: LabelImage) -> bytes:
-    from vorotool.engines.label_images.objects import object_colors
+    from vorotool.engines.label_images.names_and_colors import object_colors
     from vorotool.render.canvas.styles import PictureStyle
 
     step = _step(image.shape)
@@ -183,7 +183,7 @@ def _show_image(ax: Axes, image: LabelImage | Raster, style: dict[str, Any]) -> 
 
 def _colored(image: LabelImage) -> NDArray[np.uint8]:
     """(H, W, 3) colors of the pixels, as pictures of label images have them."""
-    from vorotool.engines.label_images.objects import object_colors
+    from vorotool.engines.label_images.names_and_colors import object_colors
     from vorotool.render.canvas.styles import picture_palette
 
     labels, classes = object_colors(image)

@@ -7,8 +7,7 @@ import shapely
 import vorotool
 from support.oracles.centerline_oracle import expected
 from vorotool.engines.centerlines.ends import unforked
-from vorotool.engines.centerlines.path_network import Network
-from vorotool.engines.centerlines.strip_ends import at_strip_ends
+from vorotool.engines.centerlines.path_network import Network, at_strip_ends
 from vorotool.engines.from_skeleton.points_along import first_hits
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 

@@ -9,8 +9,8 @@ from support.families.skeleton_shapes import crossing, star, valid
 from support.families.stems import disc_with_stems, letter, lines_of, lost, mask_of
 from support.families.strips import strip
 from support.few import few
-from vorotool.engines.centerlines.end_pieces import TIP
-from vorotool.engines.centerlines.pruned_twigs import with_pruned_twigs
+from vorotool.engines.centerlines.extended_ends import TIP
+from vorotool.engines.centerlines.twigs import with_pruned_twigs
 
 SIZE = 128
 

@@ -8,7 +8,7 @@ import shapely
 
 from support.few import few
 from vorotool import VerificationError, centerline, extend_ends, points_along, prune, skeleton_exact
-from vorotool.engines.from_skeleton.verify_sections import verify_sections
+from vorotool.engines.from_skeleton.points_along import verify_sections
 from vorotool.engines.skeleton.clearance import SitePlaces
 
 CURVE = shapely.LineString([(x, 3 * np.sin(x / 4)) for x in np.linspace(0, 30, 120)])

@@ -6,7 +6,7 @@ from scipy import ndimage
 
 import vorotool
 from vorotool import tessellate
-from vorotool.engines.label_images.objects import label_places, name_places, object_colors
+from vorotool.engines.label_images.names_and_colors import label_places, name_places, object_colors
 from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.types.images import LabelImage

@@ -20,8 +20,7 @@ from support.few import few
 from support.oracles import boost_oracle
 from support.oracles.segment_oracle import differences, voronoi_diagram
 from vorotool import _core
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
-from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, verify_segment_voronoi
 from vorotool.errors import InputError, LimitError
 
 ARRAYS = ("vertices", "radius", "vertex_starts", "vertex_sites", "edges", "edge_sites")

@@ -9,7 +9,7 @@ import pytest
 from support.families import segment_cases, segment_families
 from support.few import few
 from support.oracles.segment_oracle import voronoi_diagram
-from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+from vorotool.engines.segment_voronoi.segment_voronoi import verify_segment_voronoi
 from vorotool.errors import VerificationError
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 

@@ -12,7 +12,7 @@ import vorotool
 from support.families.skeleton_shapes import FAMILIES, under_symmetries
 from support.few import few
 from vorotool.engines.offsets.verify_offsets import verify_offsets
-from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+from vorotool.engines.segment_voronoi.segment_voronoi import verify_segment_voronoi
 from vorotool.engines.skeleton.exact import shape_diagram
 from vorotool.engines.skeleton.exact import skeleton_of as skeleton_of_shapes
 from vorotool.engines.skeleton.shortened_edges import element_diagram, exact_for, gap_deviation

@@ -19,9 +19,8 @@ from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import placed_vertices
 from vorotool.engines.features import batches as feature_sheets
 from vorotool.engines.features.batches import Features, sheets_of_boxes, sheets_of_cracks
-from vorotool.engines.skeleton.diagrams import feature_elements
+from vorotool.engines.skeleton.diagrams import feature_elements, feature_skeleton
 from vorotool.engines.skeleton.exact import shape_diagram, skeleton_of
-from vorotool.engines.skeleton.per_feature import feature_skeleton
 from vorotool.errors import InputError, VerificationError, VorotoolWarning
 
 OUTER = [[0, 0], [10, 0], [10, 10], [0, 10]]

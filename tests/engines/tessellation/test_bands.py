@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from support.few import few
-from vorotool.engines.tessellation.bands import SeedBand, SeedBands
 from vorotool.engines.tessellation.seeding import seeds_from_points
-from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.tessellator import SeedBand, SeedBands, Tessellator
 from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.points.point_set import PointSet
 

@@ -7,7 +7,7 @@ import xarray
 
 import vorotool
 from vorotool import UsageError, VorotoolWarning
-from vorotool.engines import peers
+from vorotool.engines import masks
 
 LABELS = np.zeros((6, 8), np.uint8)
 LABELS[1, 2], LABELS[4, 6] = 1, 2
@@ -40,8 +40,8 @@ def solid(_=None):
 SIDES = {raster: (0.5, 0.25), plane: (0.5, 0.25), solid: (2, 0.5, 0.25)}
 FUNCTIONS = {
     "tessellate": lambda value, **more: vorotool.tessellate(value, **more).labels,
-    "expand_labels": lambda value, **more: peers.expand_labels(value, 1.1, **more),
-    "distance_transform": lambda value, **more: peers.distance_transform(value == 0, **more),
+    "expand_labels": lambda value, **more: masks.expand_labels(value, 1.1, **more),
+    "distance_transform": lambda value, **more: masks.distance_transform(value == 0, **more),
     "local_thickness": vorotool.local_thickness,
 }
 

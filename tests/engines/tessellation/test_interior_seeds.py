@@ -5,10 +5,9 @@ import pytest
 
 from support.few import few
 from support.oracles.oracles import nearest_labels, nearest_squares
-from vorotool.engines.tessellation.interior_seeds import needed_seeds
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellate import verify_rows
-from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.tessellator import Tessellator, needed_seeds
 from vorotool.types.images import Raster
 from vorotool.types.pixels import Frame
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vorotool.engines.tessellation.bands import SeedBand
+from vorotool.engines.tessellation.tessellator import SeedBand
 from vorotool.types.volumes.volume import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 

@@ -7,7 +7,7 @@ import pytest
 from scipy import ndimage
 
 from support.few import few
-from vorotool.engines import peers
+from vorotool.engines import masks
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import UsageError, VerificationError
@@ -96,7 +96,7 @@ def test_large_objects_need_their_outer_pixels_only():
     image = np.zeros((24, 30), np.uint16)
     image[3:18, 3:18], image[6:23, 19:29] = 1, 2
     sides = (0.2, 1.0)
-    grown = peers.expand_labels(image, float("inf"), spacing=sides)
+    grown = masks.expand_labels(image, float("inf"), spacing=sides)
     y, x = np.nonzero(image)
     labels, _ = brute(SeedSet(x, y, image[y, x]), Frame(0, 0, 30, 24), pixel_sides(sides))
     assert np.array_equal(grown, labels)
@@ -105,7 +105,7 @@ def test_large_objects_need_their_outer_pixels_only():
 @pytest.mark.parametrize("spacing", [(1.5, 0.325), (1, 2), (0.1, 0.3), (Fraction(1, 3), Fraction(1, 7)), (30, 25)])
 def test_distances_are_those_of_scipy(spacing):
     mask = np.random.default_rng(7).random((60, 70)) > 0.02
-    ours, indices = peers.distance_transform(mask, spacing=spacing, return_indices=True)
+    ours, indices = masks.distance_transform(mask, spacing=spacing, return_indices=True)
     sampling = [float(side) for side in spacing]
     theirs = ndimage.distance_transform_edt(mask, sampling=sampling)
     np.testing.assert_allclose(ours, theirs, rtol=1e-14, atol=1e-12)
@@ -118,8 +118,8 @@ def test_distances_are_those_of_scipy(spacing):
 
 def test_a_float_is_the_decimal_that_it_is_written_as():
     labels = np.array([[1, 0, 0, 0, 0]])
-    assert peers.expand_labels(labels, 0.3, spacing=0.1).tolist() == [[1, 1, 1, 1, 0]]
-    assert peers.expand_labels(labels, 0.3, spacing=(5, 0.1)).tolist() == [[1, 1, 1, 1, 0]]
+    assert masks.expand_labels(labels, 0.3, spacing=0.1).tolist() == [[1, 1, 1, 1, 0]]
+    assert masks.expand_labels(labels, 0.3, spacing=(5, 0.1)).tolist() == [[1, 1, 1, 1, 0]]
 
 
 def test_sides_without_a_coarse_step_are_refused():

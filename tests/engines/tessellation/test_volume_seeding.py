@@ -9,8 +9,7 @@ from skimage.filters import threshold_otsu
 
 import vorotool
 from support.few import few
-from vorotool.engines.tessellation.interior_seeds import paint_inner
-from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.tessellator import Tessellator, paint_inner
 from vorotool.engines.tessellation.volume_seeding import (
     objects_of_volume,
     seeds_from_volume,

@@ -9,8 +9,8 @@ from skimage import segmentation
 
 from support.few import few
 from vorotool import _core
-from vorotool.engines import peers
-from vorotool.engines.peers.distance_transform import bare_seeds
+from vorotool.engines import masks
+from vorotool.engines.masks import bare_seeds
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.pixels import PixelSides
@@ -192,7 +192,7 @@ def test_distances_are_those_of_scipy(spacing, part):
     random = np.random.default_rng(3)
     mask = random.random((20, 31, 27)) > part
     mask[0, 0, 0] = False
-    ours, indices = peers.distance_transform(mask, spacing=spacing, return_indices=True)
+    ours, indices = masks.distance_transform(mask, spacing=spacing, return_indices=True)
     sampling = [float(side) for side in np.broadcast_to(1 if spacing is None else spacing, 3)]
     theirs = ndimage.distance_transform_edt(mask, sampling=sampling)
     np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-12)
@@ -211,7 +211,7 @@ def test_labels_grow_as_those_of_scikit_image(distance, spacing):
     for label in (9, 2, 31, 7):
         z, y, x = (random.integers(0, side - 5) for side in labels.shape)
         labels[z : z + 4, y : y + 5, x : x + 5] = label
-    ours = peers.expand_labels(labels, distance, spacing=spacing)
+    ours = masks.expand_labels(labels, distance, spacing=spacing)
     assert ours.dtype == labels.dtype
     assert np.array_equal(ours[labels > 0], labels[labels > 0])
     theirs = segmentation.expand_labels(labels, distance, spacing=1 if spacing is None else spacing)
@@ -222,7 +222,7 @@ def test_labels_grow_as_those_of_scikit_image(distance, spacing):
     assert np.array_equal(ours, np.where(ours != 0, nearest, 0))
 
 
-@pytest.mark.parametrize("function", [peers.distance_transform, peers.expand_labels])
+@pytest.mark.parametrize("function", [masks.distance_transform, masks.expand_labels])
 def test_what_is_no_volume_is_refused(function):
     with pytest.raises(UsageError, match=r"or 3 of them, \(depth, height, width\)"):
         function(np.eye(3, dtype=int)[None] * 0, spacing=(1, 2))
@@ -235,11 +235,11 @@ def test_what_is_no_volume_is_refused(function):
 
 
 def test_volumes_that_say_nothing():
-    assert peers.distance_transform(np.zeros((0, 2, 3))).shape == (0, 2, 3)
-    assert not peers.expand_labels(np.zeros((3, 4, 5), np.uint8)).any()
+    assert masks.distance_transform(np.zeros((0, 2, 3))).shape == (0, 2, 3)
+    assert not masks.expand_labels(np.zeros((3, 4, 5), np.uint8)).any()
     with pytest.raises(InputError, match="expected at least one zero pixel"):
-        peers.distance_transform(np.ones((3, 4, 5)))
+        masks.distance_transform(np.ones((3, 4, 5)))
     with pytest.raises(InputError, match="holds the value -2 in slice 0, row 0, column 1: labels must be integers"):
-        peers.expand_labels(np.full((1, 1, 2), [0, -2]))
+        masks.expand_labels(np.full((1, 1, 2), [0, -2]))
     with pytest.raises(InputError, match="round them first"):
-        peers.expand_labels(np.ones((2, 2, 2)))
+        masks.expand_labels(np.ones((2, 2, 2)))

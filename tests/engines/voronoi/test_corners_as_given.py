@@ -8,7 +8,7 @@ import shapely
 
 from support.few import few
 from vorotool import read, verify_voronoi, voronoi, write
-from vorotool.engines.voronoi.assembly import Arcs, Rings, moved_vertices
+from vorotool.engines.voronoi.planar_map import Arcs, Rings, moved_vertices
 
 FAR = shapely.box(500000.1, 3.3, 500010.7, 9.9)
 CLIP = shapely.Polygon([(-3.3, -3.1), (70.7, -2.2), (69.9, 66.6), (-5.5, 61.1)], [[(41, 30.3), (42.1, 30.9), (41, 31)]])

@@ -7,8 +7,8 @@ from tests.support.families.site_families import mixed_sites, squares
 from tests.support.oracles.voronoi_oracle import EQUAL, NEARLY, distances_of
 
 from vorotool.convert.sites import as_sites
-from vorotool.engines.voronoi.elements import owned_graph
-from vorotool.engines.voronoi.nearest import site_at
+from vorotool.engines.voronoi.regions import site_at
+from vorotool.engines.voronoi.site_graph import owned_graph
 
 
 def owned_of(geometry):

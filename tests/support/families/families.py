@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vorotool.engines.tessellation.seed_lattice import finest_scale
+from vorotool.engines.tessellation.seeding import finest_scale
 from vorotool.types.pixels import Frame, PixelSides
 
 

@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.points import as_place
-from vorotool.engines.centerlines.corner_twigs import around_edges
 from vorotool.engines.centerlines.ends import Unforked, forked, unforked
 from vorotool.engines.centerlines.extended_ends import led_on, rounded
-from vorotool.engines.centerlines.path_network import Network, Paths, Pieces, geometry_of
-from vorotool.engines.centerlines.strip_ends import at_strip_ends
+from vorotool.engines.centerlines.path_network import Network, Paths, Pieces, at_strip_ends, geometry_of
+from vorotool.engines.centerlines.twigs import around_edges
 from vorotool.engines.from_skeleton.points_along import first_hits
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError, UsageError, warn
@@ -51,7 +50,7 @@ def centerline(
     An *end* is a leaf, or a fork of two arcs to both corners of one edge, as far as its longer arc reaches. The
     longest path is decided first; of those as long but for a millionth that at the first edges of the polygon (where
     it has cycles, of exactly as long ones). Then a fork is replaced by the straight line to the middle of its edge.
-    At the end of a strip, whose sides are about parallel for its width (`vorotool.engines.centerlines.strip_ends`),
+    At the end of a strip, whose sides are about parallel for its width (`vorotool.engines.centerlines.path_network`),
     the path stops at the last disc that touches both; from there, and from leaves inside, a straight line leads to
     the middle of the end: the piece of outline between both sides, however many vertices it has
     (`vorotool.engines.centerlines.extended_ends`). Other round ends, where the skeleton forks to more corners that

@@ -1,7 +1,7 @@
 """Ends of a skeleton: where it forks to both corners of one edge, or fans out into a round end.
 
 Two twigs of one junction are *beside each other* if they have an edge in common, and neither of its corners is a tip
-(`vorotool.engines.centerlines.corner_twigs.is_blunt`), which the skeleton leads into. Twigs beside each other make
+(`vorotool.engines.centerlines.twigs.is_blunt`), which the skeleton leads into. Twigs beside each other make
 runs. A run of two is the *fork* of their edge; a run of more is a *round end*, also over several junctions near each
 other, as below. Where all arcs of a junction are twigs, the polygon is around a circle: see `_forks_of_stars`. Where a
 run goes all around a polygon with more than four edges, all spokes are much the same and none is an end: the centerline
@@ -23,7 +23,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.centerlines.corner_twigs import (
+from vorotool.engines.centerlines.twigs import (
     TIE,
     Branches,
     Pairs,
@@ -34,8 +34,8 @@ from vorotool.engines.centerlines.corner_twigs import (
     is_blunt,
     pairs_of,
     shortest,
+    with_pruned_twigs,
 )
-from vorotool.engines.centerlines.pruned_twigs import with_pruned_twigs
 from vorotool.engines.skeleton.parts import with_straight_arcs
 from vorotool.numeric.arrays import Booleans, Floats, Numbers, starts_of
 from vorotool.plain import plain

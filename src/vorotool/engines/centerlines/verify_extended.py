@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from vorotool.engines.centerlines.end_pieces import HAIR, TIP
+from vorotool.engines.centerlines.extended_ends import HAIR, TIP
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.pruning.verify_pruning import check_counts
 from vorotool.engines.skeleton.parts import with_arcs

@@ -16,7 +16,7 @@ from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
 from vorotool.engines.features.batches import BatchShapes, are_apart, in_batches, together
 from vorotool.engines.features.order import InputOrder
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
-from vorotool.engines.skeleton.diagrams import joined_sites
+from vorotool.engines.skeleton.diagrams import batch_diagram, joined_sites
 from vorotool.engines.skeleton.exact import (
     ShapeDiagram,
     check_features,
@@ -24,7 +24,6 @@ from vorotool.engines.skeleton.exact import (
     kept_edges,
     shape_diagram,
 )
-from vorotool.engines.skeleton.per_feature import batch_diagram
 from vorotool.errors import UsageError, VorotoolWarning
 from vorotool.numeric.arrays import ranges, starts_of
 from vorotool.numeric.checks import checked_threads

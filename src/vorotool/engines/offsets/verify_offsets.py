@@ -15,8 +15,7 @@ from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.offsets.offsets import listed_distances
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
-from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, verify_segment_voronoi
 from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.arrays import Floats, following, ranges, starts_of

@@ -30,10 +30,9 @@ from vorotool.engines.sampled_skeleton.approximate import (
     told_together,
     warn_without_inside,
 )
-from vorotool.engines.skeleton.diagrams import joined_sides
+from vorotool.engines.skeleton.diagrams import joined_sides, joined_with_places
 from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.engines.skeleton.parts import contraction
-from vorotool.engines.skeleton.per_feature import joined_with_places
 from vorotool.errors import LimitError, silent
 from vorotool.numeric.arrays import Indices, starts_of
 from vorotool.numeric.parallel import Progress

@@ -150,3 +150,10 @@ def _on_lattice(array: NDArray[Any], name: str) -> NDArray[np.int32]:
     if largest > LATTICE_LIMIT:
         raise InputError(f"{name} hold {largest}, beyond {LATTICE_LIMIT}: place the input on the lattice first")
     return np.array(array, dtype=np.int32, order="C")  # a copy: no kernel reads memory that others may change
+
+
+def verify_segment_voronoi(diagram: SegmentVoronoiDiagram, *, threads: int = 0, progress: Progress = None) -> None:
+    """Check a segment Voronoi diagram exactly, from its arrays alone."""
+    fault = _core.segment_voronoi.find_fault(core_diagram(diagram), checked_threads(threads), progress)
+    if fault is not None:
+        raise VerificationError(fault)

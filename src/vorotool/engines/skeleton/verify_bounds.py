@@ -9,9 +9,9 @@ from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
+from vorotool.engines.skeleton.diagrams import batch_diagram
 from vorotool.engines.skeleton.exact import diagram_of_graph, interior_skeleton, skeleton_of
 from vorotool.engines.skeleton.parts import outside_of, with_arcs, with_polygons
-from vorotool.engines.skeleton.per_feature import batch_diagram
 from vorotool.engines.skeleton.verify_regions import border_components, with_corners_apart
 from vorotool.numeric.arrays import owners
 from vorotool.numeric.parallel import Progress

@@ -13,16 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.tessellation.bands import Quantity
 from vorotool.engines.tessellation.frames import label_dtype
-from vorotool.engines.tessellation.interior_seeds import surrounded
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
     Note,
     PartwiseObjects,
     report_no_foreground,
 )
-from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.tessellator import Quantity, Tessellator, surrounded
 from vorotool.errors import LimitError, option
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain

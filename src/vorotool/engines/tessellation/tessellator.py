@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,13 +20,13 @@ from vorotool.engines.tessellation.frames import (
     square_dtype,
     squared_limit,
 )
-from vorotool.engines.tessellation.interior_seeds import needed_seeds, paint_inner, paint_seeds
 from vorotool.engines.tessellation.raster_objects import refuse_distances
-from vorotool.engines.tessellation.seed_lattice import on_coarser_lattice
+from vorotool.engines.tessellation.seeding import on_coarser_lattice
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
+from vorotool.plain import plain
 from vorotool.types.pixels import CELL, MAX_SIDE, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.volumes.volume import VolumeSeeds
@@ -230,3 +230,195 @@ class Tessellator:
         if out.dtype != dtype:
             raise UsageError(f"out must be of type {dtype}, but is of type {out.dtype}")
         return out
+
+
+Quantity = Literal["labels", "distance", "distance2", "diagram"]
+
+
+class Band(Protocol):
+    """Some rows of an image, or slices of a volume, computed where they are asked for: it can be pickled."""
+
+    def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
+        """Compute them."""
+
+
+def with_neighbors(frame: Frame | VoxelFrame, first: int, count: int) -> tuple[int, int]:
+    """Give the first row or slice and their number, with one more on each side where the frame has one."""
+    begin, end = max(first - 1, 0), min(first + count + 1, frame.shape[0])
+    return begin, end - begin
+
+
+@plain
+class SeedBand:
+    """Rows or slices of a tessellation, with the seeds that they need."""
+
+    seeds: SeedSet | VolumeSeeds  # enough of them
+    frame: Frame | VoxelFrame  # the whole one
+    first: int
+    count: int
+    what: Quantity  # what is computed
+    dtype: np.dtype[Any]  # its type, which is that of the whole
+    sides: PixelSides | None = None  # of a pixel or voxel, in whose unit distances are
+    max_distance: float | Fraction | None = None
+
+    def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
+        """Compute the rows or slices."""
+        is_diagram = self.what == "diagram"
+        begin, count = (with_neighbors if is_diagram else _alone)(self.frame, self.first, self.count)
+        sweep = Tessellator(
+            self.seeds,
+            self.frame.part(begin, count),
+            max_distance=self.max_distance,
+            sides=self.sides,
+            threads=threads,
+            progress=progress,
+        )
+        if is_diagram:
+            from vorotool.engines.label_images.regions import diagram_of
+
+            return diagram_of(sweep.labels(), threads=threads)[self.first - begin :][: self.count]
+        return sweep.computed(self.what, self.dtype)
+
+
+def _alone(_frame: Frame | VoxelFrame, first: int, count: int) -> tuple[int, int]:
+    return first, count
+
+
+class SeedBands:
+    """Cuts seeds into those that bands of rows or slices need."""
+
+    def __init__(self, seeds: SeedSet | VolumeSeeds, frame: Frame | VoxelFrame) -> None:
+        self.frame, self.seeds = frame, seeds
+        filled = getattr(seeds, "filled", None)
+        keys: Any = (seeds.labels, *seeds.coordinates)
+        order = np.lexsort(keys)  # rows stay whole, with what is inside objects
+        places = [values[order] for values in seeds.coordinates]
+        is_first = np.ones(len(order), bool)  # of those at one place: the one with the smallest label
+        is_first[1:] = np.logical_or.reduce([values[1:] != values[:-1] for values in places])
+        self._places = [values[is_first] for values in places]
+        self._labels = seeds.labels[order][is_first]
+        self._filled = None if filled is None else filled[order][is_first]
+        across = self._places[:-1]
+        by_column = np.lexsort(across[::-1])
+        steps = [values[by_column][1:] != values[by_column][:-1] for values in across]
+        self._column = np.empty(len(by_column), np.int64)
+        self._column[by_column] = np.append(0, np.cumsum(np.logical_or.reduce(steps)))[: len(by_column)]
+        self._columns = int(self._column.max(initial=-1)) + 1
+
+    def band(
+        self,
+        what: Quantity,
+        dtype: np.dtype[Any],
+        first: int,
+        count: int,
+        *,
+        sides: PixelSides | None = None,
+        max_distance: float | Fraction | None = None,
+    ) -> SeedBand:
+        """Give some rows or slices as what computes them anywhere."""
+        own = with_neighbors(self.frame, first, count) if what == "diagram" else (first, count)
+        return SeedBand(self.seeds_of(*own), self.frame, first, count, what, dtype, sides, max_distance)
+
+    def seeds_of(self, first: int, count: int) -> SeedSet | VolumeSeeds:
+        """Give the seeds that some rows or slices of the frame need, from the first to the last."""
+        scale, along = self.seeds.scale, self._places[-1]
+        top = scale * (self.frame.origin[-1] + first)
+        before, behind = np.searchsorted(along, [top, top + scale * count])
+        above, below = self._nearest(np.arange(before)), self._nearest(np.arange(behind, len(along))[::-1])
+        chosen = np.concatenate([above, np.arange(before, behind), below])
+        places = [values[chosen] for values in self._places]
+        known: dict[str, Any] = {"scale": scale, "frame": self.seeds.frame, "site_labels": np.empty(0, np.uint32)}
+        if len(places) == 2:
+            x, y = places
+            return SeedSet(x, y, self._labels[chosen], sites=np.empty((0, 2)), **known)
+        if self._filled is not None:
+            known["filled"] = filled = np.zeros(len(chosen), bool)
+            filled[len(above) : len(chosen) - len(below)] = self._filled[before:behind]
+        return VolumeSeeds(np.array(places).T, self._labels[chosen], sites=np.empty((0, 3)), **known)
+
+    def _nearest(self, seeds: NDArray[np.intp]) -> NDArray[np.intp]:
+        """The last seed in each column, of seeds in the order in which they come nearer."""
+        nearest = np.full(self._columns, -1)
+        nearest[self._column[seeds]] = seeds  # of values for one index the last one stays
+        return np.sort(nearest[nearest >= 0])
+
+
+CHUNK = 1 << 20
+"""Seeds that are painted at a time: what that needs beside them stays small."""
+
+
+def surrounded(values: NDArray[Any]) -> NDArray[np.bool_]:
+    """Find the pixels or voxels whose neighbors along all axes have their value; those at the sides lack some."""
+    inside = np.zeros(values.shape, bool)
+    middle = (slice(1, -1),) * values.ndim
+    center, found = values[middle], inside[middle]
+    found[...] = True
+    for axis in range(values.ndim):
+        for end in (slice(None, -2), slice(2, None)):
+            found &= center == values[(*middle[:axis], end, *middle[axis + 1 :])]
+    return inside
+
+
+def needed_seeds(seeds: SeedSet) -> NDArray[np.intp] | None:
+    """Find the seeds that still give every other pixel its label, where that leaves many out."""
+    if seeds.scale != 1 or not _may_be_surrounded(seeds):
+        return None
+    left, top = int(seeds.x.min()), int(seeds.y[0])
+    width, height = int(seeds.x.max()) - left + 1, int(seeds.y[-1]) - top + 1
+    if width * height > 4 * len(seeds):
+        return None
+    image = np.zeros((height, width), np.uint32)
+    paint_seeds(image, seeds, Frame(left, top, width, height))
+    if np.count_nonzero(image) != len(seeds):
+        return None
+    return np.flatnonzero(~surrounded(image)[image != 0])  # a mask takes values in raster order, as the seeds are
+
+
+def _may_be_surrounded(seeds: SeedSet) -> bool:
+    """Whether the seeds are in raster order, and most of them follow one of their label."""
+    same_label = np.count_nonzero(seeds.labels[1:] == seeds.labels[:-1])
+    if 2 * same_label <= len(seeds):
+        return False
+    same_row = seeds.y[1:] == seeds.y[:-1]
+    return bool(((seeds.x[1:] > seeds.x[:-1]) | ~same_row).all() and (seeds.y[1:] >= seeds.y[:-1]).all())
+
+
+def paint_seeds(rows: NDArray[Any], seeds: SeedSet, frame: Frame, value: int | None = None) -> None:
+    """Set the pixels on which seeds lie, to their labels or to one value."""
+    first, last = np.searchsorted(seeds.y, [frame.y, frame.y + frame.height])
+    for start in range(int(first), int(last), CHUNK):
+        part = slice(start, min(start + CHUNK, int(last)))
+        x, y = seeds.x[part] - frame.x, seeds.y[part] - frame.y
+        labels: Any = seeds.labels[part] if value is None else value
+        inside = (x >= 0) & (x < frame.width)
+        if not inside.all():
+            x, y = x[inside], y[inside]
+            labels = labels[inside] if value is None else value
+        rows[y, x] = labels
+
+
+def inner_runs(seeds: VolumeSeeds, part: slice) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Find the runs of inner voxels that follow some seeds."""
+    assert seeds.filled is not None
+    seed = np.flatnonzero(seeds.filled[part]) + (part.start or 0)
+    return seed, seeds.x[seed] + 1, seeds.x[seed + 1]
+
+
+def paint_inner(slices: NDArray[Any], seeds: VolumeSeeds, frame: VoxelFrame, value: int | None = None) -> None:
+    """Set the voxels inside objects to their labels or to one value."""
+    if seeds.filled is None:
+        return
+    width = frame.width
+    limits = np.searchsorted(seeds.z, frame.z + np.arange(len(slices) + 1))
+    for plane, begin, stop in zip(slices, limits[:-1].tolist(), limits[1:].tolist(), strict=True):
+        seed, start, end = inner_runs(seeds, slice(begin, stop))
+        row = seeds.y[seed] - frame.y
+        start, end = np.maximum(start - frame.x, 0), np.minimum(end - frame.x, width)
+        inside = np.flatnonzero((row >= 0) & (row < frame.height) & (start < end))
+        seed, row, start, end = seed[inside], row[inside], start[inside], end[inside]
+        steps = np.zeros(plane.size + 1, np.int8)
+        steps[row * width + start] += 1
+        steps[row * width + end] -= 1
+        is_inner = np.cumsum(steps[:-1], dtype=np.int8).view(bool)
+        labels: Any = np.repeat(seeds.labels[seed], end - start) if value is None else value
+        plane.reshape(-1)[is_inner] = labels

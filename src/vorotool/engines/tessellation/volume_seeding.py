@@ -12,15 +12,23 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.convert.volumes import as_volume, as_volume_points, is_volume
 from vorotool.engines.tessellation.cleaned_masks import CleanedSlices, Cleaning
-from vorotool.engines.tessellation.interior_seeds import inner_runs, surrounded
 from vorotool.engines.tessellation.raster_objects import (
     Note,
     PartwiseObjects,
     check_objects,
     report_no_foreground,
 )
-from vorotool.engines.tessellation.seed_lattice import report_snapped, sites_of_points, snapped_places
-from vorotool.engines.tessellation.seeding import SeedMode, moved_to, numbered, parts, sums
+from vorotool.engines.tessellation.seeding import (
+    SeedMode,
+    moved_to,
+    numbered,
+    parts,
+    report_snapped,
+    sites_of_points,
+    snapped_places,
+    sums,
+)
+from vorotool.engines.tessellation.tessellator import inner_runs, surrounded
 from vorotool.errors import LimitError, option
 from vorotool.numeric.numbers import finite_double, whole_number
 from vorotool.numeric.parallel import Progress

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
-from vorotool.engines.voronoi.elements import OwnedGraph
+from vorotool.engines.voronoi.site_graph import OwnedGraph
 from vorotool.errors import VerificationError
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import distinct

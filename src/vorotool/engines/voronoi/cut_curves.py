@@ -17,7 +17,7 @@ FAR = 2.0**34
 """Beyond all that is on the lattice: ends that are farther away tell less of a line than its two elements do."""
 
 
-NOBODY = -1
+NO_REGION = -1
 """The region of what no cell may have."""
 
 SLACK = 2.0**-12
@@ -181,7 +181,7 @@ class CutEdges:
         places: Floats,  # (n, 2): in input units
         given: Floats,  # (n, 2): the same, as the input has them: see `_as_given`
         ends: Indices,  # (m, 2): source and target, numbers of points
-        regions: Indices,  # (m, 2): left and right, two different ones; `NOBODY` where nothing is shared out
+        regions: Indices,  # (m, 2): left and right, two different ones; `NO_REGION` where nothing is shared out
         is_enclosure: NDArray[np.bool_],  # (m,) whether an enclosure runs along it
         scale: float | None = None,  # the step of the lattice, where places are given in input units, and not on it
     ) -> None:

@@ -7,11 +7,16 @@ import warnings
 import numpy as np
 
 from vorotool.engines.voronoi.borders import ridges_of
-from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owned_graph, shared_elements
-from vorotool.engines.voronoi.frame_cut import FrameOverlay
-from vorotool.engines.voronoi.joint_graph import given_cuts, joint_graph
-from vorotool.engines.voronoi.overlay import Overlay, RegionOverlay
+from vorotool.engines.voronoi.overlay import FrameOverlay, Overlay, RegionOverlay
 from vorotool.engines.voronoi.regions import local_diagrams, regions_of
+from vorotool.engines.voronoi.site_graph import (
+    OwnedGraph,
+    diagram_of,
+    given_cuts,
+    joint_graph,
+    owned_graph,
+    shared_elements,
+)
 from vorotool.errors import RepairWarning
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.numbers import distinct

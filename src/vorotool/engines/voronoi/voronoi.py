@@ -10,15 +10,21 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.convert.sites import Sites, as_sites
-from vorotool.engines.voronoi.assembly import Arcs, Rings, cells_of, moved_vertices, rings_of, shells_of, without_lost
 from vorotool.engines.voronoi.borders import borders_of
-from vorotool.engines.voronoi.cut_map import CutMap, cut_map
-from vorotool.engines.voronoi.elements import OwnedGraph, diagram_of, owned_graph
-from vorotool.engines.voronoi.frame_cut import FrameOverlay
-from vorotool.engines.voronoi.joint_graph import GivenCuts, given_cuts, joint_graph
-from vorotool.engines.voronoi.nearest import site_at
-from vorotool.engines.voronoi.overlay import RegionOverlay
-from vorotool.engines.voronoi.regions import frame_of, local_diagrams, regions_of
+from vorotool.engines.voronoi.overlay import FrameOverlay, RegionOverlay
+from vorotool.engines.voronoi.planar_map import (
+    Arcs,
+    CutMap,
+    Rings,
+    cells_of,
+    cut_map,
+    moved_vertices,
+    rings_of,
+    shells_of,
+    without_lost,
+)
+from vorotool.engines.voronoi.regions import frame_of, local_diagrams, regions_of, site_at
+from vorotool.engines.voronoi.site_graph import GivenCuts, OwnedGraph, diagram_of, given_cuts, joint_graph, owned_graph
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import finite_double, shown_number

@@ -139,7 +139,7 @@ class Steps(Derived):
     def verify(self, progress: Progress) -> None:
         """Check sections: those of branches end where the discs of the skeleton, which is checked, touch."""
         if self.options.along == "centerline":
-            from vorotool.engines.from_skeleton.verify_sections import verify_sections
+            from vorotool.engines.from_skeleton.points_along import verify_sections
 
             verify_sections(self.value, self.origin.centerlines, self.options.every)
 
@@ -185,7 +185,7 @@ class Thickness(Derived):
 
     def verify(self, progress: Progress) -> None:
         """Check some pixels by all arcs, and by the distance from the outlines."""
-        from vorotool.engines.from_skeleton.verify_thickness import verify_thickness
+        from vorotool.engines.from_skeleton.thickness import verify_thickness
 
         verify_thickness(self.value.values, self.origin.whole, sides=self._sides, progress=progress)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from vorotool.engines.skeleton.diagrams import (
     AnyDiagram,
+    FeatureSkeleton,
     all_edges,
     diagram_of_all,
     is_of_single_features,
@@ -15,7 +16,6 @@ from vorotool.engines.skeleton.diagrams import (
 )
 from vorotool.engines.skeleton.exact import ShapeDiagram
 from vorotool.engines.skeleton.parts import outside_of
-from vorotool.engines.skeleton.per_feature import FeatureSkeleton
 from vorotool.engines.skeleton.shortened_edges import ElementDiagram, exact_for, exact_inside, gap_deviation
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
@@ -94,7 +94,7 @@ class ExactProducts(SkeletonProducts):
 
     def _look(self, diagram: AnyDiagram, made: Skeleton) -> Seen:
         if self.options.verify:
-            from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+            from vorotool.engines.segment_voronoi.segment_voronoi import verify_segment_voronoi
 
             verify_segment_voronoi(diagram.diagram, threads=1)
         deviation = 0.0
@@ -128,7 +128,7 @@ class ExactProducts(SkeletonProducts):
 
     def _verify_whole(self, progress: Progress) -> None:
         """Check the diagram and the skeleton, from their arrays alone."""
-        from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+        from vorotool.engines.segment_voronoi.segment_voronoi import verify_segment_voronoi
         from vorotool.engines.skeleton.verify_skeleton import verify_exterior, verify_skeleton
 
         if not self._is_inside_only:  # or else each batch was looked at

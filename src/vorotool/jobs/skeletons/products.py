@@ -223,7 +223,7 @@ class SkeletonProducts(Results, ABC):
 
             verify_pruning(self.skeleton, self.whole)
         if self.options.join_junctions:
-            from vorotool.engines.pruning.verify_joining import verify_joining
+            from vorotool.engines.pruning.verify_pruning import verify_joining
 
             verify_joining(self.joined, self.skeleton)
 

@@ -114,7 +114,7 @@ def _names(picture: LabelPicture) -> Names | None:
     """Names of regions, deep inside their objects or themselves."""
     if "labels" not in picture.layers:
         return None
-    from vorotool.engines.label_images.objects import name_places
+    from vorotool.engines.label_images.names_and_colors import name_places
     from vorotool.render.label_images.png import Names
 
     labels, places = name_places(picture.image, threads=picture.threads)
@@ -129,7 +129,7 @@ def _objects(picture: LabelPicture) -> LabelImage | None:
     """The objects that are the seeds, if they are drawn."""
     if not {"objects", "seeds"} & set(picture.layers):
         return None
-    from vorotool.engines.label_images.objects import seed_objects
+    from vorotool.engines.label_images.names_and_colors import seed_objects
 
     return seed_objects(picture.image)
 
@@ -249,7 +249,7 @@ class _Marks:
     """What is drawn over the cells of a PNG, pixel by pixel, and in which colors."""
 
     def __init__(self, picture: LabelPicture) -> None:
-        from vorotool.engines.label_images.objects import outermost_pixels
+        from vorotool.engines.label_images.names_and_colors import outermost_pixels
         from vorotool.render.canvas.styles import picture_palette
         from vorotool.render.label_images.png import around, widened
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.tessellation.interior_seeds import inner_runs
+from vorotool.engines.tessellation.tessellator import inner_runs
 from vorotool.errors import LimitError, UsageError
 from vorotool.numeric.arrays import ranges
 from vorotool.plain import plain

@@ -159,7 +159,7 @@ class Triangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
         >>> mesh.triangles.tolist(), mesh.neighbors.tolist(), mesh.hull.tolist()
         ([[0, 1, 2], [3, 0, 2]], [[-1, 1, -1], [0, -1, -1]], [0, 1, 2, 3])
         """
-        return resolved("engines.delaunay.from_triangles:triangulation_of")(points, triangles)
+        return resolved("engines.delaunay.delaunay:triangulation_of")(points, triangles)
 
     @property
     def label_array(self) -> NDArray[np.int64]:

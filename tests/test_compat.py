@@ -13,7 +13,7 @@ from skimage.data import binary_blobs
 import vorotool
 from support.few import few
 from vorotool import compat
-from vorotool.engines import peers
+from vorotool.engines import masks
 
 SHAPES = [(40,), (12, 15), (6, 7, 8)]
 
@@ -101,7 +101,7 @@ def test_medial_axis_of_a_part():
     assert np.array_equal(axis[:, 15:], image[:, 15:] != 0)
     assert np.array_equal(distance, ndimage.distance_transform_edt(image.astype(bool) & mask))
     assert axis[:, :15].any()
-    assert np.array_equal(compat.medial_axis(image), peers.medial_axis(image))
+    assert np.array_equal(compat.medial_axis(image), masks.medial_axis(image))
     with pytest.raises(vorotool.InputError, match="mask"):
         compat.medial_axis(image, mask[1:])
 

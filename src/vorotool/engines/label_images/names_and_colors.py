@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.common import label_array
 from vorotool.engines.label_images.regions import region_colors
-from vorotool.engines.tessellation.interior_seeds import surrounded
-from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.tessellator import Tessellator, surrounded
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet

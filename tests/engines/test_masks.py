@@ -11,7 +11,8 @@ from scipy import ndimage
 from skimage import morphology, segmentation
 
 from support.few import few
-from vorotool.engines import peers
+from vorotool.engines import masks
+from vorotool.engines.delaunay.cells import voronoi_polygons
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 
 SHAPES = [(1, 1), (1, 17), (19, 1), (13, 21), (64, 50)]
@@ -39,13 +40,13 @@ def brute_nearest(mask):
 @pytest.mark.parametrize("density", DENSITIES)
 def test_distances_are_those_of_scipy(shape, density):
     mask = mask_of(shape, density)
-    distances, indices = peers.distance_transform(mask, return_indices=True)
+    distances, indices = masks.distance_transform(mask, return_indices=True)
     assert distances.dtype == np.float64
     assert indices.dtype == np.int32
     assert np.array_equal(distances, ndimage.distance_transform_edt(mask))
     assert np.array_equal(indices, brute_nearest(mask))
-    assert np.array_equal(peers.distance_transform(mask), distances)
-    assert np.array_equal(peers.distance_transform(mask, return_distances=False, return_indices=True), indices)
+    assert np.array_equal(masks.distance_transform(mask), distances)
+    assert np.array_equal(masks.distance_transform(mask, return_distances=False, return_indices=True), indices)
 
 
 @pytest.mark.parametrize(
@@ -59,29 +60,29 @@ def test_distances_are_those_of_scipy(shape, density):
         ("1", "spacing"),
     ],
 )
-@pytest.mark.parametrize("function", [peers.distance_transform, peers.expand_labels])
+@pytest.mark.parametrize("function", [masks.distance_transform, masks.expand_labels])
 def test_other_spacings_are_refused(function, spacing, words):
     with pytest.raises(UsageError, match=words):
         function(np.array([[0, 1]]), spacing=spacing)
 
 
 def test_masks_that_say_nothing():
-    assert peers.distance_transform(np.zeros((0, 4))).shape == (0, 4)
-    _, indices = peers.distance_transform(np.zeros((3, 0)), return_indices=True)
+    assert masks.distance_transform(np.zeros((0, 4))).shape == (0, 4)
+    _, indices = masks.distance_transform(np.zeros((3, 0)), return_indices=True)
     assert indices.shape == (2, 3, 0)
-    assert peers.distance_transform(np.zeros((2, 2))).tolist() == [[0, 0], [0, 0]]
+    assert masks.distance_transform(np.zeros((2, 2))).tolist() == [[0, 0], [0, 0]]
     with pytest.raises(InputError, match="expected at least one zero pixel"):
-        peers.distance_transform(np.ones((2, 2)))
+        masks.distance_transform(np.ones((2, 2)))
     with pytest.raises(InputError, match="some are masked"):
-        peers.distance_transform(np.ma.array([[0, 1]], mask=[[0, 1]]))
+        masks.distance_transform(np.ma.array([[0, 1]], mask=[[0, 1]]))
     with pytest.raises(UsageError, match="both False"):
-        peers.distance_transform([[0, 1]], return_distances=False)
+        masks.distance_transform([[0, 1]], return_distances=False)
     with pytest.raises(LimitError, match="max_pixels=3"):
-        peers.distance_transform(np.zeros((2, 2)), max_pixels=3)
+        masks.distance_transform(np.zeros((2, 2)), max_pixels=3)
 
 
 @pytest.mark.parametrize("wrong", [[0, 1], np.zeros((2, 2, 2, 2)), "mask", None, [["a"]], [[1j]], [[["a"]]]])
-@pytest.mark.parametrize("function", [peers.distance_transform, peers.expand_labels, peers.medial_axis])
+@pytest.mark.parametrize("function", [masks.distance_transform, masks.expand_labels, masks.medial_axis])
 def test_what_is_no_image_is_refused(function, wrong):
     with pytest.raises(InputError, match=r"invalid (mask|labels): "):
         function(wrong)
@@ -93,15 +94,15 @@ def test_the_limit_is_exact_where_that_of_scikit_image_is_rounded():
     root = math.sqrt(13)
     assert Fraction(root) ** 2 < 13
     assert segmentation.expand_labels(labels, root)[3, 2] == segmentation.expand_labels(labels, root)[2, 3] == 1
-    ours = peers.expand_labels(labels, root)
+    ours = masks.expand_labels(labels, root)
     assert (ours[3, 2], ours[2, 3], ours[2, 2]) == (0, 0, 1)
-    assert peers.expand_labels(labels, math.nextafter(root, 4))[2, 3] == 1
+    assert masks.expand_labels(labels, math.nextafter(root, 4))[2, 3] == 1
 
 
 @pytest.mark.parametrize("kind", ["bool", "u1", ">u2", "i4", "i8", "u8"])
 def test_labels_keep_their_type(kind):
     labels = np.array([[1, 0, 0, 0]]).astype(kind)
-    grown = peers.expand_labels(labels)
+    grown = masks.expand_labels(labels)
     assert grown.dtype == labels.dtype
     assert grown.tolist() == [[1, 1, 0, 0]]
 
@@ -109,16 +110,16 @@ def test_labels_keep_their_type(kind):
 def test_labels_that_say_nothing():
     with warnings.catch_warnings(action="error"):
         for empty in (np.zeros((3, 3), int), np.zeros((0, 2), int), np.zeros((2, 2), bool)):
-            assert np.array_equal(peers.expand_labels(empty, 5), empty)
+            assert np.array_equal(masks.expand_labels(empty, 5), empty)
     full = np.full((2, 3), 7)
-    assert np.array_equal(peers.expand_labels(full), full)
-    assert np.array_equal(peers.expand_labels(np.array([[0, 255]])), [[255, 255]])
+    assert np.array_equal(masks.expand_labels(full), full)
+    assert np.array_equal(masks.expand_labels(np.array([[0, 255]])), [[255, 255]])
     for wrong, words in (([[-1, 0]], "labels must be integers"), ([[0.0, 1.0]], "expected integers or booleans")):
         with pytest.raises(InputError, match=words):
-            peers.expand_labels(wrong)
+            masks.expand_labels(wrong)
     for distance in (-1, float("nan"), "far"):
         with pytest.raises(UsageError, match="distance"):
-            peers.expand_labels(full, distance)
+            masks.expand_labels(full, distance)
 
 
 # ---- axes ----------------------------------------------------------------------------------------
@@ -143,7 +144,7 @@ def rough_masks():
 
 @pytest.mark.parametrize("mask", [*map(blobs, range(4)), *rough_masks()])
 def test_an_axis_has_the_objects_and_holes_of_its_mask(mask):
-    axis = peers.medial_axis(mask)
+    axis = masks.medial_axis(mask)
     assert axis.dtype == bool
     assert not (axis & ~mask).any()
     objects, count = ndimage.label(mask, EIGHT)
@@ -159,7 +160,7 @@ def test_an_axis_has_the_objects_and_holes_of_its_mask(mask):
 @pytest.mark.parametrize("seed", few(range(4), 2))
 def test_the_discs_of_an_axis_give_the_mask_as_those_of_scikit_image_do(seed):
     mask = blobs(seed)
-    axis, distance = peers.medial_axis(mask, return_distance=True)
+    axis, distance = masks.medial_axis(mask, return_distance=True)
     theirs, their_distance = morphology.medial_axis(mask, return_distance=True, rng=0)
     assert np.array_equal(distance, their_distance)
     y, x = np.indices(mask.shape)
@@ -179,7 +180,7 @@ def test_the_discs_of_an_axis_give_the_mask_as_those_of_scikit_image_do(seed):
 @pytest.mark.parametrize("extend_to", [None, shapely.box(-5, -40, 30, 2), shapely.Point(0.5, 0.5), shapely.Point()])
 def test_cells_are_those_of_shapely(seed, extend_to):
     points = np.random.default_rng(seed).random((40, 2)) * [10, 3]
-    ours = peers.voronoi_polygons(points, extend_to=extend_to)
+    ours = voronoi_polygons(points, extend_to=extend_to)
     theirs = shapely.voronoi_polygons(shapely.MultiPoint(points), extend_to=extend_to, ordered=True)
     assert isinstance(ours, shapely.GeometryCollection)
     assert ours.bounds == pytest.approx(theirs.bounds)
@@ -189,12 +190,12 @@ def test_cells_are_those_of_shapely(seed, extend_to):
 
 
 def test_cells_of_few_points():
-    assert peers.voronoi_polygons([[1, 2]]).wkt == "GEOMETRYCOLLECTION EMPTY"
-    assert peers.voronoi_polygons(np.empty((0, 2))).is_empty
+    assert voronoi_polygons([[1, 2]]).wkt == "GEOMETRYCOLLECTION EMPTY"
+    assert voronoi_polygons(np.empty((0, 2))).is_empty
     box = shapely.box(0, 0, 4, 4)
-    assert peers.voronoi_polygons([[1, 2]], extend_to=box).geoms[0].equals(box)
+    assert voronoi_polygons([[1, 2]], extend_to=box).geoms[0].equals(box)
     with pytest.warns(VorotoolWarning, match="1 of 3 points"):
-        cells = peers.voronoi_polygons([[0, 0], [2, 0], [0, 0]])
+        cells = voronoi_polygons([[0, 0], [2, 0], [0, 0]])
     assert [cell.is_empty for cell in cells.geoms] == [False, False, True]
     with pytest.raises(InputError, match="invalid extend_to: expected a geometry of shapely"):
-        peers.voronoi_polygons([[0, 0], [1, 1]], extend_to=(0, 0, 4, 4))
+        voronoi_polygons([[0, 0], [1, 1]], extend_to=(0, 0, 4, 4))
