@@ -1,4 +1,4 @@
-"""Distance transforms, medial axes, thickness and larger labels of masks, with arguments as in scipy and scikit-image."""
+"""Distance transforms, medial axes, thickness and larger labels of masks; arguments as in scipy and scikit-image."""
 
 from __future__ import annotations
 
