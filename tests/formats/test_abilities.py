@@ -4,7 +4,9 @@ from fractions import Fraction
 from pathlib import Path
 
 import geopandas
+import laspy
 import numpy as np
+import pyproj
 import pytest
 import shapely
 from PIL import Image
@@ -64,6 +66,14 @@ def made_elsewhere(fmt, path):
         path.write_text("\n".join([",".join([*ATTRIBUTES, "wkt"]), *lines]) + "\n")
     elif fmt == "wkb":
         path.write_bytes(shapely.to_wkb(shapely.set_srid(shapely.multipoints(VERTICES[:2]), 2056), include_srid=True))
+    elif fmt == "xyz":
+        path.write_text("".join(f"{x!r} {y!r} 5\n" for x, y in VERTICES[:2].tolist()))
+    elif fmt == "las":
+        header = laspy.LasHeader(point_format=1)
+        header.add_crs(pyproj.CRS.from_epsg(2056))
+        data = laspy.LasData(header)
+        data.x, data.y, data.z, data.intensity = *VERTICES[:2].T, [0, 0], [3, 4]
+        data.write(path)
     elif fmt == "svg":
         path.write_text('<svg xmlns="http://www.w3.org/2000/svg"><path d="M0.1,0 L4,0.25 L0,3 Z"/></svg>')
     else:

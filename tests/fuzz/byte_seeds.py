@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import ezdxf
+import laspy
 import numpy as np
 import shapely
 import tifffile
@@ -51,6 +52,7 @@ def seeds() -> list[Bundle]:
             *_maps(),
             *_layers(),
             *_texts(),
+            *_clouds(),
             *_drawings(),
             *_results(),
         )
@@ -234,6 +236,26 @@ def _layers() -> list[tuple[str, str, bytes]]:
     files.append(("wkb", "a.wkb", struct.pack("<BII", 1, 12, 2) + arcs + bytes.fromhex(wkb)))
     texts = [("kml", "a.kml", f"{kml}</kml>"), ("gpx", "a.gpx", gpx), ("csv", "a.csv", rows), ("wkb", "a.wkb", wkb)]
     return [*files, *((kind, name, text.encode()) for kind, name, text in texts)]
+
+
+def _clouds() -> list[tuple[str, str, bytes]]:
+    header = (
+        "ply\nformat {} 1.0\nelement vertex 5\nproperty double x\nproperty double y\nproperty uchar z\nend_header\n"
+    )
+    rows = np.zeros(5, [("xy", ">f8", 2), ("z", "u1")])
+    rows["xy"] = DOTS
+    text = "".join(f"{x} {y} 1\n" for x, y in DOTS)
+    files = [("ply", header.format("ascii") + text), ("obj", f"v {text.strip()}".replace("\n", "\nv ") + "\nf 1 2 3\n")]
+    files += [("xyz", text), ("xyz", "5\nfive atoms\n" + "".join(f"C {line}\n" for line in text.splitlines()))]
+    clouds = []
+    for name in ("las", "laz"):
+        data = laspy.LasData(laspy.LasHeader(point_format=6, version="1.4"))
+        data.x, data.y = np.transpose(DOTS)
+        out = io.BytesIO()
+        data.write(out, do_compress=name == "laz")
+        clouds.append(("las", f"a.{name}", out.getvalue()))
+    binary = header.format("binary_big_endian").encode() + rows.tobytes()
+    return [("ply", "b.ply", binary), *((kind, f"a.{kind}", each.encode()) for kind, each in files), *clouds]
 
 
 def _shapefiles() -> list[Bundle]:

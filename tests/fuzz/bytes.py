@@ -43,7 +43,7 @@ _IDLE = -1
 class Progress(ctypes.Structure):
     """What a worker says of itself in memory that it shares with the first process."""
 
-    _fields_ = (("case", ctypes.c_int64), ("begun", ctypes.c_double), ("counts", ctypes.c_int64 * (4 * 32)))
+    _fields_ = (("case", ctypes.c_int64), ("begun", ctypes.c_double), ("counts", ctypes.c_int64 * (4 * 64)))
 
 
 class Fuzzer:

@@ -98,8 +98,8 @@ def read(
         x. Space means points with a z: a column of this name, or the third number of a position.
     input_format : str, optional
         One of csv, csv-wkt, node, npy, npz, geojson, jsonl, wkt, wkb, json, poly, gpkg, fgb, shp, kml, gpx, parquet,
-        svg, dxf, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another usual extension), if extension and
-        content are ambiguous.
+        ply, obj, xyz, las, svg, dxf, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another usual extension),
+        if extension and content are ambiguous.
     columns : str, optional
         Columns ``X,Y[,LABEL]`` of a point list, by name or number from 1; for points in space ``X,Y,z=Z[,LABEL]``.
     page : int, optional

@@ -28,10 +28,11 @@ _WKT = (
 )
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
-_WITH_COLUMNS = ("csv", "json", "jsonl", "npz", "parquet", "gpkg")
+_WITH_COLUMNS = ("csv", "json", "jsonl", "npz", "parquet", "gpkg", "ply", "xyz", "las")
 _HEADS = (
     *((MAGIC, "npy"), (NPZ_MAGIC, "npz"), (b"SQLite format 3\0", "gpkg"), (b"fgb\x03fgb", "fgb")),
     *((b"\0\0\x27\x0a", "shp"), (b"PAR1", "parquet"), (b"{", "geojson"), (b"[", "json"), (RECORD_MARK, "jsonl")),
+    *((b"ply\n", "ply"), (b"ply\r", "ply"), (b"LASF", "las")),
 )
 _MARKUP = rb"<(kml|gpx)[\s>]"
 

@@ -49,6 +49,10 @@ _ALL = (
         sites=_FEATURES[2],
     ),
     _of("node", points="formats.points.delimited:read_node"),
+    _of("ply", has="bytes", points="formats.points.clouds:read_ply"),
+    _of("obj", points="formats.points.clouds:read_obj"),
+    _of("xyz", points="formats.points.clouds:read_xyz"),
+    _of("las", "las", "laz", has="bytes", points="formats.points.las:read_las"),
     _of(
         "npz",
         has="bytes",

@@ -61,8 +61,8 @@ def test_a_part_of_a_shapefile_names_the_file_to_read(suffix):
 
 
 def test_options_that_do_not_fit():
-    assert "expected one of csv, tsv, txt, node, npz" in error_of("", kind=UsageError, input_format="xyz")
-    for fmt in set(POINT_FORMATS) - {"csv", "json", "jsonl", "npz", "parquet", "gpkg"}:
+    assert "expected one of csv, tsv, txt, node, ply" in error_of("", kind=UsageError, input_format="abc")
+    for fmt in set(POINT_FORMATS) - {"csv", "json", "jsonl", "npz", "parquet", "gpkg", "ply", "xyz", "las"}:
         assert "columns applies to delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
 
 
@@ -111,7 +111,14 @@ def test_all_formats_agree(points):
     texts["wkb"] = shapely.to_wkb(shapely.multipoints(array))
     texts["csv-wkt"] = "wkt\n" + "".join(f"POINT ({x!r} {y!r})\n" for x, y in points)
     texts["parquet"] = parquet(x=array[:, 0], y=array[:, 1])
-    assert set(texts) == set(POINT_FORMATS) - {"shp", "kml", "gpx"}  # of several files; of longitudes and latitudes
+    texts["ply"] = (
+        f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\nend_header\n"
+    )
+    texts["ply"] += "".join(f"{x!r} {y!r}\n" for x, y in points)
+    texts["obj"] = "".join(f"v {x!r} {y!r} 7\n" for x, y in points)
+    texts["xyz"] = "".join(f"{x!r} {y!r} 7\n" for x, y in points)
+    others = {"shp", "kml", "gpx", "las"}  # of several files; of longitudes and latitudes; of integers
+    assert set(texts) == set(POINT_FORMATS) - others
     for fmt, text in texts.items():
         np.testing.assert_array_equal(read(text, STANDARD_INPUT, input_format=fmt).xy, array)
     whole = shapely.multipoints(array).wkt
