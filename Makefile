@@ -105,6 +105,7 @@ bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/tessellate.py
 	$(RUN) tests/benchmarks/volumes.py
 	$(RUN) tests/benchmarks/delaunay.py
+	$(RUN) tests/benchmarks/space.py
 	$(RUN) tests/benchmarks/alphashape.py
 	$(RUN) tests/benchmarks/mesh_files.py
 	$(RUN) tests/benchmarks/skeleton_exact.py

@@ -1,0 +1,137 @@
+"""Measure triangulations in space beside their peers, in one run: `make bench`.
+
+Nanoseconds a point, the least of several runs; ratios are what to compare, since machines differ. `delaunay` is the
+function of the library; Peers give tetrahedra: scipy (Qhull),
+GUDHI, and CGAL, which is given its own points; some are left out where they would take minutes. A
+peer that is not installed is left out. Bytes a point are those that a process of its own takes at its peak, above what
+it had with the points loaded.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+import vorotool
+from benchmarks.timing import best, in_own_process, options
+
+
+def lattice(_rng: np.random.Generator, n: int) -> np.ndarray:
+    """A cube of a lattice, in order."""
+    side = round(n ** (1 / 3))
+    return np.stack(np.meshgrid(*[np.arange(side)] * 3), axis=-1).reshape(-1, 3).astype(np.float64)
+
+
+def sphere(rng: np.random.Generator, n: int) -> np.ndarray:
+    """Points that would be on a sphere, but for rounding."""
+    points = rng.normal(size=(n, 3))
+    return points / np.sqrt((points**2).sum(axis=1, keepdims=True))
+
+
+def clustered(rng: np.random.Generator, n: int) -> np.ndarray:
+    """Clouds of a thousand points."""
+    return rng.random((n // 1000 + 1, 3))[np.arange(n) // 1000] + rng.normal(0, 1e-3, (n, 3))
+
+
+INPUTS: dict[str, Callable[[np.random.Generator, int], np.ndarray]] = {
+    "uniform": lambda rng, n: rng.random((n, 3)),
+    "lattice": lattice,
+    "sphere": sphere,
+    "clustered": clustered,
+}
+
+
+def scipy_tetrahedra(points: np.ndarray) -> object:
+    """Qhull, by scipy."""
+    from scipy.spatial import Delaunay
+
+    return Delaunay(points).simplices
+
+
+def gudhi_tetrahedra(points: np.ndarray) -> object:
+    """CGAL, by GUDHI, without the values of the simplices."""
+    import gudhi
+
+    made = gudhi.AlphaComplex(points=points, precision="safe")
+    return made.create_simplex_tree(default_filtration_value=True)
+
+
+def cgal_tetrahedra(points: np.ndarray) -> Callable[[], object]:
+    """CGAL, by its Python package, whose own points are made beforehand."""
+    from CGAL.CGAL_Kernel import Point_3
+    from CGAL.CGAL_Triangulation_3 import Delaunay_triangulation_3
+
+    given = [Point_3(x, y, z) for x, y, z in points.tolist()]
+    return lambda: Delaunay_triangulation_3(given)
+
+
+PEERS: dict[str, tuple[str, int]] = {"CGAL": ("CGAL", 10**6), "scipy": ("scipy", 10**5), "GUDHI": ("gudhi", 10**5)}
+"""What is imported of each, and the most points that it gets."""
+MOST_SECONDS = 20.0
+SLOW: set[tuple[str, str]] = set()
+"""Peers that took longer than that: they get no more points of a family."""
+
+
+def call_of(who: str, points: np.ndarray, threads: int = 1) -> Callable[[], object]:
+    """What is timed."""
+    if who == "CGAL":
+        return cgal_tetrahedra(points)
+    peers = {"scipy": scipy_tetrahedra, "GUDHI": gudhi_tetrahedra}
+    return lambda: peers[who](points) if who in peers else vorotool.delaunay(points, threads=threads)
+
+
+def peak_of_process() -> int:
+    """The most memory that this process has had, in bytes."""
+    return int(Path("/proc/self/status").read_text().split("VmHWM:")[1].split()[0]) * 1024
+
+
+def peak(who: str, points: np.ndarray) -> int:
+    """Bytes that a triangulation takes beside its points."""
+    call_of(who, np.random.default_rng(0).random((10, 3)))()  # imports what it needs
+    call = call_of(who, points)
+    before = peak_of_process()
+    call()
+    return peak_of_process() - before
+
+
+def measure(name: str, n: int, arguments: argparse.Namespace, peers: list[str]) -> str:
+    """One row of the table."""
+    points = np.ascontiguousarray(INPUTS[name](np.random.default_rng(n), n))
+    n = len(points)
+    row, whole = f"| {name} | {n:,} |", 0.0
+    for threads in sorted({1, arguments.threads}):
+        whole = 1e9 * best(call_of("vorotool", points, threads), arguments.runs) / n
+        row += f" {whole:,.0f} |"
+    row += f" {in_own_process(peak, 'vorotool', points) / n:,.0f} |"
+    for peer in peers:
+        if n > PEERS[peer][1] or (name, peer) in SLOW:
+            row += " – | – |"
+            continue
+        taken = 1e9 * best(call_of(peer, points), 1) / n
+        if taken * n > MOST_SECONDS * 1e9:
+            SLOW.add((name, peer))
+        row += f" {taken:,.0f} ({taken / whole:,.1f} ×) | {in_own_process(peak, peer, points) / n:,.0f} |"
+    return row
+
+
+def main() -> None:
+    """Print the table."""
+    arguments = options("points", [10_000, 100_000, 1_000_000], runs=2).parse_args()
+    peers = [] if arguments.no_peers else [name for name, (module, _) in PEERS.items() if find_spec(module)]
+    print("nanoseconds a point; in brackets: how many times ours on the most threads; B: bytes a point\n")
+    threads = "".join(f" delaunay, {each} threads |" for each in sorted({1, arguments.threads}))
+    print(f"| points | n |{threads} B |" + "".join(f" {name} | B |" for name in peers))
+    print("|---" * (3 + len({1, arguments.threads}) + 2 * len(peers)) + "|")
+    for n in arguments.points:
+        for name in INPUTS:
+            print(measure(name, n, arguments, peers), flush=True)
+
+
+if __name__ == "__main__":
+    main()
