@@ -36,6 +36,8 @@ constexpr Room rooms[] = {
     {"spatial", bind_spatial, "What is nearest, and which boxes are disjoint."},
     {"tessellation", bind_tessellation, "The tessellation of frames, and its check."},
     {"tetrahedra", bind_tetrahedra, "Delaunay triangulations of space, and their exact predicates."},
+    {"tetrahedral_alpha", bind_tetrahedral_alpha,
+     "Alpha complexes of points in space: ranks are places in the spectrum."},
     {"text", bind_text,
      "Numbers, fields and polygons as text, read and written: a delimiter is one of , ; tab and blank."},
     {"thickness", bind_thickness, "The largest disc inside an outline that covers each pixel."},

@@ -24,6 +24,7 @@ void bind_skeleton(nanobind::module_& room);
 void bind_spatial(nanobind::module_& room);
 void bind_tessellation(nanobind::module_& room);
 void bind_tetrahedra(nanobind::module_& room);
+void bind_tetrahedral_alpha(nanobind::module_& room);
 void bind_text(nanobind::module_& room);
 void bind_thickness(nanobind::module_& room);
 void bind_voronoi(nanobind::module_& room);

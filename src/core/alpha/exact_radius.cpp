@@ -17,13 +17,6 @@ using numbers::BigInteger;
 
 namespace {
 
-// The square of a radius: numerator / denominator times 2^(2 exponent); a zero denominator stands for
-// infinity.
-struct SquaredRadius {
-  BigInteger numerator, denominator;
-  int exponent;
-};
-
 BigInteger integer_of(double value, int exponent) {
   const numbers::OddMantissa parts(value);
   if (parts.mantissa == 0) return {};
@@ -55,15 +48,15 @@ int compare_quotients(const BigInteger& pn, const BigInteger& pd, const BigInteg
 
 }  // namespace
 
-int compare_exactly(const Support& p, const Support& q) {
-  const SquaredRadius a = exact_square(p), b = exact_square(q);
-  return compare_quotients(a.numerator, a.denominator, b.numerator, b.denominator, a.exponent - b.exponent);
+int compare(const SquaredRadius& p, const SquaredRadius& q) {
+  return compare_quotients(p.numerator, p.denominator, q.numerator, q.denominator, p.exponent - q.exponent);
 }
+
+int compare_exactly(const Support& p, const Support& q) { return compare(exact_square(p), exact_square(q)); }
 
 // A mantissa of at most 53 bits times 2^exponent, found from the leading bits and set right by comparing with
 // the midpoints around it.
-double round_exactly(const Support& s) {
-  const SquaredRadius square = exact_square(s);
+double rounded_root(const SquaredRadius& square) {
   if (square.denominator.sign() == 0) return std::numeric_limits<double>::infinity();
   if (square.numerator.sign() == 0) return 0;
   int power = static_cast<int>(square.numerator.bits()) - static_cast<int>(square.denominator.bits()) +
@@ -92,5 +85,7 @@ double round_exactly(const Support& s) {
   }
   return std::ldexp(static_cast<double>(mantissa), exponent);
 }
+
+double round_exactly(const Support& s) { return rounded_root(exact_square(s)); }
 
 }  // namespace vorotool::core::alpha

@@ -34,8 +34,9 @@ std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value 
 class Sorter {
  public:
   Sorter(std::span<const double> values, const CompareItems& compare, unsigned threads,
-         const Monitor& monitor)
+         const Monitor& monitor, int open_bits)
       : values_(values),
+        open_bits_(open_bits),
         compare_(compare),
         threads_(threads),
         monitor_(monitor),
@@ -64,14 +65,18 @@ class Sorter {
     }
   }
 
-  std::uint64_t key(std::size_t item) const { return (bits_of(values_[item]) - least_) >> shift_; }
+  // What counts of the value of an item.
+  double value_of(std::size_t item) const {
+    return open_bits_ == 0 ? values_[item] : rounded_by(open_bits_, values_[item]);
+  }
+  std::uint64_t key(std::size_t item) const { return (bits_of(value_of(item)) - least_) >> shift_; }
 
   void find_range() {
     std::vector<std::uint64_t> least(counts_.size(), ~std::uint64_t{0}), most(counts_.size(), 0);
     const auto find = [&](std::size_t piece) {
       visit_items(piece, [&](std::size_t i) {
-        least[piece] = std::min(least[piece], bits_of(values_[i]));
-        most[piece] = std::max(most[piece], bits_of(values_[i]));
+        least[piece] = std::min(least[piece], bits_of(value_of(i)));
+        most[piece] = std::max(most[piece], bits_of(value_of(i)));
       });
     };
     parallel_for(counts_.size(), threads_, find, monitor_);
@@ -131,7 +136,7 @@ class Sorter {
     }
   }
 
-  double value(std::uint64_t word) const { return values_[item_of(word)]; }
+  double value(std::uint64_t word) const { return value_of(item_of(word)); }
 
   // Sorts words with one key by value, and runs of equal values exactly.
   void settle_key(std::span<std::uint64_t> words) {
@@ -206,7 +211,7 @@ class Sorter {
 
   void gather(std::size_t bucket, const LargeArray<std::uint64_t>& words, LargeArray<double>& sorted) {
     for (std::size_t i = start_[bucket]; i < start_[bucket + 1]; ++i) {
-      sorted[i] = value(words[i]);
+      sorted[i] = values_[item_of(words[i])];
       distinct_[bucket] += (words[i] & starts) != 0;
     }
   }
@@ -239,6 +244,7 @@ class Sorter {
   static constexpr std::uint64_t starts = std::uint64_t{1} << item_bits;  // once sorted the key is not needed
 
   std::span<const double> values_;
+  int open_bits_;
   const CompareItems& compare_;
   unsigned threads_;
   const Monitor& monitor_;
@@ -254,8 +260,8 @@ class Sorter {
 }  // namespace
 
 RadiusRanks rank_radii(std::span<const double> values, const CompareItems& compare, unsigned threads,
-                       const Monitor& monitor) {
-  return Sorter(values, compare, threads, monitor).run();
+                       const Monitor& monitor, int open_bits) {
+  return Sorter(values, compare, threads, monitor, open_bits).run();
 }
 
 }  // namespace vorotool::core::alpha

@@ -1,6 +1,7 @@
 // Ranks of radii by their exact values, of which equal ones share a rank.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -16,13 +17,20 @@ struct RadiusRanks {
   base::LargeArray<std::int32_t> rank;     // [n] place of each item in the above; m of those left out
 };
 
-// Sign of the difference of the exact values of two items whose doubles are equal.
+// Sign of the difference of the exact values of two items whose doubles, as far as they count, are equal.
 using CompareItems = std::function<int(std::uint32_t, std::uint32_t)>;
+
+// A positive double rounded so that its last bits are 0.
+inline double rounded_by(int bits, double value) {
+  const std::uint64_t unit = std::uint64_t{1} << bits;
+  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(value) + unit / 2) & ~(unit - 1));
+}
 
 // The items are 0 ... n - 1, n < 2^31, and values[i] is the double nearest to the exact value of item i, not
 // a NaN; items with negative values are left out. Time is linear for values spread like radii, n log n at
-// worst.
+// worst. Where `open_bits` is more than 0, a value need only be such that rounded by these it is what the exact one is,
+// and the values given back may not increase.
 RadiusRanks rank_radii(std::span<const double> values, const CompareItems& compare, unsigned threads,
-                       const base::Monitor& monitor);
+                       const base::Monitor& monitor, int open_bits = 0);
 
 }  // namespace vorotool::core::alpha

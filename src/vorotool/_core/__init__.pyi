@@ -20,6 +20,7 @@ from vorotool._core import (
     spatial as spatial,
     tessellation as tessellation,
     tetrahedra as tetrahedra,
+    tetrahedral_alpha as tetrahedral_alpha,
     text as text,
     thickness as thickness,
     volumes as volumes,

@@ -1,0 +1,428 @@
+#include "core/tetrahedral_alpha/simplex_radius.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/alpha/exact_radius.hpp"
+#include "core/alpha/radius_ranks.hpp"
+#include "core/numbers/big_integer.hpp"
+#include "core/numbers/dyadic_grid.hpp"
+#include "core/numbers/fixed_integer.hpp"
+#include "core/numbers/int128.hpp"
+#include "core/numbers/sign.hpp"
+
+namespace vorotool::core::tetrahedral_alpha {
+
+using alpha::rounded_by;
+using alpha::SquaredRadius;
+using numbers::BigInteger;
+using numbers::DyadicGrid;
+using numbers::FixedInteger;
+using numbers::int128;
+
+namespace {
+
+constexpr double u = numbers::unit_roundoff;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double exact_limit = 0x1p52;  // integers that are sums of terms below it are doubles
+
+// ---- formulas, for numbers of any type; products of integers of fixed width are wider ----
+template <class Number>
+struct Vector {
+  Number x, y, z;
+};
+
+template <class Number>
+Vector<Number> minus(const Vector<Number>& p, const Vector<Number>& q) {
+  return {p.x - q.x, p.y - q.y, p.z - q.z};
+}
+
+template <class P, class Q>
+auto dot(const Vector<P>& p, const Vector<Q>& q) {
+  return p.x * q.x + p.y * q.y + p.z * q.z;
+}
+
+template <class Number>
+auto cross(const Vector<Number>& p, const Vector<Number>& q) {
+  using Product = decltype(p.x * q.x);
+  return Vector<Product>{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+
+template <class Factor, class Number>
+auto times(const Factor& factor, const Vector<Number>& p) {
+  using Product = decltype(factor * p.x);
+  return Vector<Product>{factor * p.x, factor * p.y, factor * p.z};
+}
+
+template <class Number>
+Vector<Number> sum_of(const Vector<Number>& p, const Vector<Number>& q, const Vector<Number>& r) {
+  return {p.x + q.x + r.x, p.y + q.y + r.y, p.z + q.z + r.z};
+}
+
+// Of a tetrahedron with a corner at 0: the normals of the facets there, the determinant, and its double times the
+// center of the sphere.
+template <class Number>
+struct Sphere {
+  using Second = decltype(Number{} * Number{});
+  using Third = decltype(Number{} * Second{});
+  using Fourth = decltype(Second{} * Second{});
+
+  std::array<Vector<Second>, 3> normal;
+  Third determinant;
+  Vector<Fourth> center;
+
+  Sphere(const Vector<Number>& b, const Vector<Number>& c, const Vector<Number>& d)
+      : normal{cross(c, d), cross(d, b), cross(b, c)},
+        determinant(dot(b, normal[0])),
+        center(
+            sum_of(times(dot(b, b), normal[0]), times(dot(c, c), normal[1]), times(dot(d, d), normal[2]))) {}
+
+  // The center on the inner side of each facet, opposite to 0, b, c and d: the barycentric coordinates of the center,
+  // times a positive number.
+  auto heights() const {
+    const auto first = dot(center, normal[0]), second = dot(center, normal[1]),
+               third = dot(center, normal[2]);
+    const auto square = determinant * determinant;
+    return std::array{square + square - (first + second + third), first, second, third};
+  }
+};
+
+template <class Number>
+auto four_times(const Number& value) {
+  const Number twice = value + value;
+  return twice + twice;
+}
+
+// ---- estimates ----
+//
+// To first order in u, with the errors of differences included, which are u each: squares of lengths carry 5 u, minors
+// 4 u of the sum of their absolute terms, determinants 8 u, centers 12 u, heights 20 u (24 u the first); "of the sum
+// of their absolute terms" each. The factors below leave room for what is of second order, and for that the sums of
+// absolute terms are rounded themselves.
+constexpr double determinant_error = 10 * u, center_error = 16 * u, height_error = 32 * u;
+constexpr double normal_error = 6 * u, few_roundings = 16 * u;
+
+// Sizes in this range let nothing overflow, and what underflows matter only where the guards below say so.
+constexpr double smallest = 0x1p-60, largest = 0x1p60;
+constexpr double least_determinant = 0x1p-300;
+constexpr double height_guard = 0x1p-700;
+
+// Within `error` of the radius, relative to it; not known where that is infinite.
+struct Estimate {
+  double radius, error;
+};
+constexpr Estimate unknown{0, infinity};
+constexpr double worst_error = 0x1p-41;
+
+Vector<double> from_to(const Point3& a, const Point3& b) { return {b.x - a.x, b.y - a.y, b.z - a.z}; }
+
+Vector<double> absolute(const Vector<double>& p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
+
+Vector<double> permanents(const Vector<double>& p, const Vector<double>& q) {
+  return {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x};
+}
+
+double extent(const Vector<double>& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+template <class... Vectors>
+bool are_in_range(const Vectors&... vectors) {
+  const double size = std::max({extent(vectors)...});
+  return size >= smallest && size <= largest;
+}
+
+Estimate estimate_edge(const Simplex& s) {
+  const Vector<double> way = from_to(*s.corner[0], *s.corner[1]);
+  if (!are_in_range(way)) return unknown;
+  return {std::sqrt(dot(way, way)) / 2, few_roundings};
+}
+
+// R^2 = |ab|^2 |ac|^2 |bc|^2 / (4 |ab x ac|^2).
+Estimate estimate_triangle(const Simplex& s) {
+  const Vector<double> b = from_to(*s.corner[0], *s.corner[1]), c = from_to(*s.corner[0], *s.corner[2]);
+  const Vector<double> third = from_to(*s.corner[1], *s.corner[2]);
+  if (!are_in_range(b, c)) return unknown;
+  const Vector<double> normal = cross(b, c), terms = permanents(absolute(b), absolute(c));
+  const double square = dot(normal, normal);
+  if (!(square >= least_determinant)) return unknown;
+  const double spread = std::sqrt(dot(terms, terms) / square);
+  return {std::sqrt(dot(b, b) * dot(c, c) * dot(third, third) / (4 * square)),
+          normal_error * spread + 2 * few_roundings};
+}
+
+struct TetrahedronEstimate {
+  Estimate radius;
+  Sphere<double> sphere;
+  std::array<double, 4> doubts;  // bounds of the errors of the heights; 0 where they are exact
+};
+
+TetrahedronEstimate estimate_tetrahedron(const Simplex& s, bool are_integers) {
+  const Vector<double> b = from_to(*s.corner[0], *s.corner[1]), c = from_to(*s.corner[0], *s.corner[2]),
+                       d = from_to(*s.corner[0], *s.corner[3]);
+  TetrahedronEstimate found{unknown, Sphere<double>(b, c, d), {infinity, infinity, infinity, infinity}};
+  const Sphere<double>& sphere = found.sphere;
+  const double determinant = std::abs(sphere.determinant);
+  if (!are_in_range(b, c, d) || !(determinant >= least_determinant)) return found;
+  const Vector<double> pb = absolute(b), pc = absolute(c), pd = absolute(d);
+  const std::array<Vector<double>, 3> terms{permanents(pc, pd), permanents(pd, pb), permanents(pb, pc)};
+  const double determinant_terms = dot(pb, terms[0]);
+  const Vector<double> center_terms =
+      sum_of(times(dot(b, b), terms[0]), times(dot(c, c), terms[1]), times(dot(d, d), terms[2]));
+  std::array<double, 4> height_terms{0, dot(center_terms, terms[0]), dot(center_terms, terms[1]),
+                                     dot(center_terms, terms[2])};
+  height_terms[0] =
+      2 * determinant_terms * determinant_terms + height_terms[1] + height_terms[2] + height_terms[3];
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool is_exact = are_integers && height_terms[0] < exact_limit;
+    found.doubts[k] = is_exact ? 0 : height_error * height_terms[k] + height_guard;
+  }
+  const double square = dot(sphere.center, sphere.center);
+  const double spread = std::sqrt(dot(center_terms, center_terms) / square);
+  found.radius = {
+      std::sqrt(square / (4 * determinant * determinant)),
+      center_error * spread + determinant_error * (determinant_terms / determinant) + few_roundings};
+  return found;
+}
+
+Estimate estimate(const Simplex& s, bool are_integers) {
+  if (s.size == 2) return estimate_edge(s);
+  return s.size == 3 ? estimate_triangle(s) : estimate_tetrahedron(s, are_integers).radius;
+}
+
+// ---- integers ----
+//
+// With differences below 2^m the numerators are below 2^(8 m + 10) and the denominators below 2^(6 m + 8): those of
+// tetrahedra, whose determinants are below 6 2^(3 m), and centers below 18 2^(4 m) in each coordinate.
+constexpr double most_short =
+    128;                       // 2^7: numerators below 2^66, denominators below 2^50, products below 2^116
+constexpr int word_bits = 61;  // of coordinates; their differences have 62, and 8 * 62 + 10 <= 8 * 64 - 2
+
+struct ShortSquare {
+  int128 numerator = 0, denominator = 0;
+
+  static ShortSquare of(const int128& n, const int128& d) { return {n, d}; }
+};
+
+struct WordSquare {
+  FixedInteger<8> numerator;
+  FixedInteger<6> denominator;
+
+  template <std::size_t n, std::size_t d>
+  static WordSquare of(const FixedInteger<n>& numerator, const FixedInteger<d>& denominator) {
+    WordSquare result;
+    std::copy(numerator.limb.begin(), numerator.limb.end(), result.numerator.limb.begin());
+    std::copy(denominator.limb.begin(), denominator.limb.end(), result.denominator.limb.begin());
+    return result;
+  }
+};
+
+struct WideSquare {
+  BigInteger numerator, denominator;
+
+  static WideSquare of(const BigInteger& n, const BigInteger& d) { return {n, d}; }
+};
+
+// The square of a radius, from the ways from the first corner to the others.
+template <class Result, class Number>
+Result square_of(std::size_t size, const std::array<Vector<Number>, 3>& ways, const Number& one) {
+  const auto& [b, c, d] = ways;
+  if (size == 2) return Result::of(dot(b, b), four_times(one));
+  if (size == 3) {
+    const auto normal = cross(b, c);
+    const Vector<Number> third = minus(c, b);
+    return Result::of(dot(b, b) * dot(c, c) * dot(third, third), four_times(dot(normal, normal)));
+  }
+  const Sphere<Number> sphere(b, c, d);
+  return Result::of(dot(sphere.center, sphere.center), four_times(sphere.determinant * sphere.determinant));
+}
+
+// The ways from the first corner, each coordinate less that of the first, both as `integer` makes them integers.
+template <class Number, class Integer>
+std::array<Vector<Number>, 3> integer_ways(const Simplex& s, const Integer& integer) {
+  std::array<Vector<Number>, 3> ways{};
+  const Point3& a = *s.corner[0];
+  for (std::size_t k = 1; k < s.size; ++k) {
+    const Point3& p = *s.corner[k];
+    ways[k - 1] = {integer(p.x) - integer(a.x), integer(p.y) - integer(a.y), integer(p.z) - integer(a.z)};
+  }
+  return ways;
+}
+
+std::optional<ShortSquare> short_square(const Simplex& s) {
+  std::array<Vector<int128>, 3> ways{};
+  for (std::size_t k = 1; k < s.size; ++k) {
+    const Vector<double> way = from_to(*s.corner[0], *s.corner[k]);
+    if (!(extent(way) < most_short)) return std::nullopt;
+    const auto integer = [](double value) { return int128{static_cast<std::int64_t>(value)}; };
+    ways[k - 1] = {integer(way.x), integer(way.y), integer(way.z)};
+  }
+  return square_of<ShortSquare>(s.size, ways, int128{1});
+}
+
+// The grid of all corners of two simplices, which may be one.
+DyadicGrid grid_of(const Simplex& p, const Simplex& q) {
+  std::array<double, 24> values{};
+  std::size_t next = 0;
+  for (const Simplex* s : {&p, &q}) {
+    for (std::size_t k = 0; k < s->size; ++k) {
+      const Point3& at = *s->corner[k];
+      for (const double value : {at.x, at.y, at.z}) values[next++] = value;
+    }
+  }
+  return DyadicGrid(values);
+}
+
+FixedInteger<1> word_of(const DyadicGrid& grid, double value) {
+  return {{static_cast<std::uint64_t>(grid.integer(value))}};
+}
+
+WordSquare word_square(const Simplex& s, const DyadicGrid& grid) {
+  const auto integer = [&](double value) { return word_of(grid, value); };
+  return square_of<WordSquare>(s.size, integer_ways<FixedInteger<1>>(s, integer), FixedInteger<1>{{1}});
+}
+
+BigInteger integer_of(const DyadicGrid& grid, double value) {
+  const numbers::OddMantissa parts(value);
+  if (parts.mantissa == 0) return {};
+  const BigInteger magnitude = BigInteger(parts.mantissa) << (parts.exponent - grid.exponent);
+  return parts.is_negative ? -magnitude : magnitude;
+}
+
+SquaredRadius wide_square(const Simplex& s) {
+  const DyadicGrid grid = grid_of(s, s);
+  const auto integer = [&](double value) { return integer_of(grid, value); };
+  WideSquare found = square_of<WideSquare>(s.size, integer_ways<BigInteger>(s, integer), BigInteger(1));
+  return {std::move(found.numerator), std::move(found.denominator), grid.exponent};
+}
+
+// The signs of the heights of the center.
+std::array<int, 4> exact_heights(const Simplex& s) {
+  const DyadicGrid grid = grid_of(s, s);
+  std::array<int, 4> signs;
+  const auto put = [&](const auto& ways) {
+    const auto heights = Sphere(ways[0], ways[1], ways[2]).heights();
+    std::transform(heights.begin(), heights.end(), signs.begin(),
+                   [](const auto& value) { return value.sign(); });
+  };
+  if (grid.bits <= word_bits) {
+    put(integer_ways<FixedInteger<1>>(s, [&](double value) { return word_of(grid, value); }));
+  } else {
+    put(integer_ways<BigInteger>(s, [&](double value) { return integer_of(grid, value); }));
+  }
+  return signs;
+}
+
+// ---- points ----
+bool move_to_integers(std::span<const Point3> given, ScaledPoints& out) {
+  Point3 least = given[0], most = given[0];
+  int exponent = 1024;
+  const auto look = [&](double value, double& smallest_value, double& largest_value) {
+    smallest_value = std::min(smallest_value, value), largest_value = std::max(largest_value, value);
+    const numbers::OddMantissa parts(value);
+    if (parts.mantissa != 0) exponent = std::min(exponent, parts.exponent);
+  };
+  for (const Point3& p : given) {
+    look(p.x, least.x, most.x), look(p.y, least.y, most.y), look(p.z, least.z, most.z);
+  }
+  if (exponent == 1024) return false;  // all are 0
+  const double size = std::max({most.x - least.x, most.y - least.y, most.z - least.z});
+  if (!(size < std::ldexp(1.0, exponent + 52))) return false;
+  // Differences of multiples of 2^exponent below 2^(exponent + 53) are doubles, and so is the scaling.
+  const auto moved = [&](double value, double from) { return std::ldexp(value - from, -exponent); };
+  std::transform(given.begin(), given.end(), out.points.begin(), [&](const Point3& p) {
+    return Point3{moved(p.x, least.x), moved(p.y, least.y), moved(p.z, least.z)};
+  });
+  out.exponent = exponent;
+  return true;
+}
+
+void scale(std::span<const Point3> given, ScaledPoints& out) {
+  double most = 0;
+  for (const Point3& p : given) most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const int exponent = most == 0 ? 0 : std::ilogb(most);
+  bool is_same = true;
+  const auto scaled = [&](double value) {
+    const double result = std::ldexp(value, -exponent);
+    is_same &= std::ldexp(result, exponent) == value;
+    return result;
+  };
+  std::transform(given.begin(), given.end(), out.points.begin(),
+                 [&](const Point3& p) { return Point3{scaled(p.x), scaled(p.y), scaled(p.z)}; });
+  if (is_same) {
+    out.exponent = exponent;
+  } else {
+    std::copy(given.begin(), given.end(), out.points.begin());
+  }
+}
+
+double settled_radius(const Estimate& found, const Simplex& s) {
+  if (found.error < worst_error) {
+    const double low = found.radius * (1 - found.error), high = found.radius * (1 + found.error);
+    if (rounded_by(open_bits, low) == rounded_by(open_bits, high)) return found.radius;
+  }
+  return alpha::rounded_root(wide_square(s));
+}
+
+}  // namespace
+
+ScaledPoints::ScaledPoints(std::span<const Point3> given) : points(given.size()) {
+  if (given.empty()) return;
+  are_integers = move_to_integers(given, *this);
+  if (!are_integers) scale(given, *this);
+}
+
+double ranked_radius(const Simplex& simplex, bool are_integers) {
+  return settled_radius(estimate(simplex, are_integers), simplex);
+}
+
+TetrahedronMeasure measure_tetrahedron(const Simplex& simplex, bool are_integers) {
+  const TetrahedronEstimate found = estimate_tetrahedron(simplex, are_integers);
+  TetrahedronMeasure result{settled_radius(found.radius, simplex), 0};
+  const std::array<double, 4> heights = found.sphere.heights();
+  std::array<int, 4> signs;
+  for (std::size_t k = 0; k < 4; ++k) {
+    signs[k] = numbers::sign_of(heights[k]);
+    if (!(std::abs(heights[k]) > found.doubts[k]) && found.doubts[k] != 0) {
+      signs = exact_heights(simplex);
+      break;
+    }
+  }
+  for (std::size_t k = 0; k < 4; ++k) result.cut |= static_cast<std::uint8_t>(signs[k] < 0 ? 1 << k : 0);
+  return result;
+}
+
+int compare_radii(const Simplex& p, const Simplex& q, bool are_integers) {
+  if (are_integers) {
+    const std::optional<ShortSquare> a = short_square(p), b = a ? short_square(q) : std::nullopt;
+    if (a && b) {
+      const int128 left = a->numerator * b->denominator, right = b->numerator * a->denominator;
+      return (left > right) - (left < right);
+    }
+  }
+  const Estimate e = estimate(p, are_integers), f = estimate(q, are_integers);
+  const double difference = e.radius - f.radius;
+  if (std::abs(difference) > 2 * (e.error * e.radius + f.error * f.radius))
+    return numbers::sign_of(difference);
+  const DyadicGrid grid = grid_of(p, q);
+  if (grid.bits <= word_bits) {
+    const WordSquare a = word_square(p, grid), b = word_square(q, grid);
+    return (a.numerator * b.denominator - b.numerator * a.denominator).sign();
+  }
+  return compare(wide_square(p), wide_square(q));
+}
+
+bool is_inside_diametral_sphere(const Point3& a, const Point3& b, const Point3& v, bool are_integers) {
+  const Vector<double> p = from_to(v, a), q = from_to(v, b);
+  const double value = dot(p, q), terms = dot(absolute(p), absolute(q));
+  if (are_integers && terms < exact_limit) return value < 0;
+  if (std::abs(value) > 8 * u * terms + 0x1p-1000 && terms < infinity) return value < 0;
+  const Simplex corners{{&v, &a, &b, nullptr}, 3};
+  const DyadicGrid grid = grid_of(corners, corners);
+  const auto [s, t, none] = integer_ways<BigInteger>(corners, [&](double x) { return integer_of(grid, x); });
+  return dot(s, t).sign() < 0;
+}
+
+}  // namespace vorotool::core::tetrahedral_alpha

@@ -1,0 +1,55 @@
+// Radii at which alpha shapes of points in space change: those of the smallest spheres through the corners of edges,
+// triangles and tetrahedra. They are square roots of rational numbers, estimated here with a bound of the error, and
+// compared exactly: numbers of 128 bits settle small integers, estimates most others, and integers what is left.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/tetrahedra/point3.hpp"
+
+namespace vorotool::core::tetrahedral_alpha {
+
+using tetrahedra::Point3;
+
+// Bits of a radius that need not be right for it to be ranked.
+inline constexpr int open_bits = 20;
+
+// The corners of an edge (2), a triangle (3) or a tetrahedron (4): points that are not on one line or in one plane.
+struct Simplex {
+  std::array<const Point3*, 4> corner{};
+  std::size_t size = 0;
+};
+
+// Points moved and scaled, which changes radii by a power of two: to integers below 2^53 where all are on a common
+// lattice that is fine enough, else, if nothing is lost by that, to coordinates below 2.
+struct ScaledPoints {
+  std::vector<Point3> points;
+  int exponent = 0;  // a radius is that of these points times 2^exponent
+  bool are_integers = false;
+
+  explicit ScaledPoints(std::span<const Point3> given);
+};
+
+// Radii, with a relative error of less than 2^-40: doubles that have the same bits but `open_bits` if rounded by these
+// as the exact radii have. Nearly all are within 2^-50.
+double ranked_radius(const Simplex& simplex, bool are_integers);
+
+// Sign of the difference of the exact radii.
+int compare_radii(const Simplex& p, const Simplex& q, bool are_integers);
+
+// The radius of a tetrahedron, and the facets whose smallest spheres hold the opposite corner inside: those that
+// divide it from the center of its sphere. Bit k is the facet opposite to corner k.
+struct TetrahedronMeasure {
+  double radius;
+  std::uint8_t cut;
+};
+TetrahedronMeasure measure_tetrahedron(const Simplex& simplex, bool are_integers);
+
+// Whether v is strictly inside the sphere with diameter a, b.
+bool is_inside_diametral_sphere(const Point3& a, const Point3& b, const Point3& v, bool are_integers);
+
+}  // namespace vorotool::core::tetrahedral_alpha
