@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from vorotool.errors import LimitError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.jobs.options import Options
-from vorotool.jobs.run_log import Run
+from vorotool.jobs.run_log import Made, Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, table_in_units
 from vorotool.numeric.parallel import Progress
@@ -89,6 +89,10 @@ class Results:
         raise NotImplementedError
 
     # ---- what is the same for all
+    def call(self, function: str, *sources: Any, phase: str | None = "", **more: Any) -> Made:  # type: ignore[type-var]
+        """Call a function of the library with the options: see `Run.call`."""
+        return self.run.call(self.options, function, *sources, phase=phase, **more)
+
     @property
     def wanted(self) -> Wanted:
         """What is wanted of pictures."""

@@ -6,23 +6,29 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
+from inspect import signature
 from types import TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool import __version__
 from vorotool.errors import Kind, Message, VorotoolWarning
 from vorotool.jobs.terminal import tell
 from vorotool.numeric.parallel import Progress, Report
+from vorotool.products.formats import resolved
 from vorotool.signals import end_by_exceptions
 
 if TYPE_CHECKING:
+    from vorotool.jobs.options import Options
     from vorotool.numeric.length_units import InputUnit
     from vorotool.types.pixels import PixelGrid
 
 PROGRESS_AFTER = 1.0
 """Seconds before a progress bar appears on a terminal."""
+OF_MANY = ("strict", "threads", "max_pixels", "max_sites")
+"""Options that many functions of the library take under the same name."""
 
+Made = TypeVar("Made")
 
 MakeBar = Callable[[str], AbstractContextManager[Report]]
 """Make a bar with a label."""
@@ -109,6 +115,19 @@ class Run:
             self.seconds[name] = self.seconds.get(name, 0.0) + elapsed - self._inner.pop()
             if self._inner:
                 self._inner[-1] += elapsed
+
+    def call(self, o: Options, function: str, *sources: Any, phase: str | None = "", **more: Any) -> Made:  # type: ignore[type-var]  # the caller says what is made
+        """Call a function with those options of many that it takes; its time is that of a phase, unless that is None.
+
+        `function` is ``module:function``; its name is the phase where no other one is given.
+        """
+        made = resolved(function)
+        takes = signature(made).parameters
+        known = {name: getattr(o, name) for name in OF_MANY} | {"note": self.note}
+        with nullcontext() if phase is None else self.phase(phase or made.__name__) as progress:
+            known = known | {"progress": progress} | more
+            result: Made = made(*sources, **{name: known[name] for name in known if name in takes or name in more})
+        return result
 
     def progress(self, label: str, *, after: float = PROGRESS_AFTER) -> Progress:
         """Return what shows a bar on a terminal, once the work has taken a second; a phase has its own."""

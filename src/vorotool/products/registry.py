@@ -17,7 +17,7 @@ class Made(NamedTuple):
     of: str = "skeleton"  # the source: `skeleton`, `whole` (before it is pruned) or `centerlines`
     check: str = ""  # `module:function` of `function(value, **options)`
     counted_as: str = ""  # what statistics call how many there are
-    job: str = "jobs.skeletons.derived:Derived"  # `module:class`, where one function does not make it
+    by: str = ""  # the method of the job that makes it, where one function does not
 
 
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
@@ -190,7 +190,7 @@ _DISC_PRODUCT = _product(
     f"{_TABLES} geojson wkt",
     _DISC_LAYERS,
     "polygons discs",
-    made_by=Made(check="engines.from_skeleton.verify_discs:verify_discs", job="jobs.skeletons.derived:InscribedDiscs"),
+    made_by=Made(check="engines.from_skeleton.verify_discs:verify_discs", by="inscribed_discs"),
     is_curved=True,
 )
 
@@ -206,7 +206,7 @@ _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels", "render.layers.skeleton:skeleton")
 _DIAGRAM = _ARCS._replace(drawn_by="render.layers.skeleton:diagram")
 _ALONG = _pictures("polygons skeleton transects points labels", "render.layers.skeleton:point")
-_STEPS = Made(job="jobs.skeletons.derived:Steps")
+_STEPS = Made(check="engines.from_skeleton.points_along:verify_sections", by="points_along")
 _SKELETONS = (
     _product("skeleton", "Skeleton", _CURVES, _ARCS, "polygons skeleton", own=_SKELETON, has_page=True, is_curved=True),
     _product("diagram", "", _CURVES, _DIAGRAM, "polygons elements points skeleton", own=_SKELETON, is_curved=True),
@@ -215,7 +215,7 @@ _SKELETONS = (
         _ARCS._replace(drawn_by="render.layers.skeleton:line"), "polygons skeleton", is_curved=True),
     _product("offset", "Offsets", _CURVES, _pictures("polygons offset labels", "render.layers.polygons:offset"),
         "polygons offset", own=_OFFSETS, is_curved=True, moves=True,
-        made_by=Made(job="jobs.skeletons.derived:OffsetCurves")),
+        made_by=Made(check="engines.offsets.verify_offsets:verify_offsets", by="offset_curves")),
     _product("shape", "PolygonSet", "json geojson wkt poly", _pictures("shape labels", "render.layers.polygons:shape"),
         "shape", own=_POLYGON_FILES, made_by=Made("engines.from_skeleton.reconstruction:rebuild")),
     _DISC_PRODUCT,
@@ -224,7 +224,8 @@ _SKELETONS = (
     _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _ALONG, "polygons skeleton transects",
         made_by=_STEPS),
     _product("thickness", "", "tiff npy", Pictures({"png": ("thickness",)}), "thickness",
-        own=dict.fromkeys(("tiff", "npy"), _THICKNESS), made_by=Made(job="jobs.skeletons.derived:Thickness")),
+        own=dict.fromkeys(("tiff", "npy"), _THICKNESS),
+        made_by=Made(check="engines.from_skeleton.thickness:verify_thickness", by="thickness")),
     _product("branches", "Skeleton", _TABLES),
     _product("table", "Skeleton", _TABLES),
 )
@@ -234,8 +235,8 @@ _OF_WHOLE_AXIS = (
         made_by=Made("engines.necks.necks:necks", "whole", "engines.necks.verify_necks:verify_necks", "necks")),
     _product("parts", "Parts", "geojson csv tsv npz json wkt poly",
         _pictures("parts skeleton cuts labels", "render.layers.skeleton:part"), "parts",
-        made_by=Made("engines.necks.parts:parts", "whole", "engines.necks.verify_necks:verify_parts",
-            job="jobs.skeletons.derived:CutParts"), own=_POLYGON_FILES),
+        made_by=Made("engines.necks.parts:parts", "whole", "engines.necks.verify_necks:verify_parts"),
+        own=_POLYGON_FILES),
 )
 """Only of exact skeletons."""
 _WITHOUT_SAMPLES = {"offset", "discs", "thickness"}

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.features.batches import together
 from vorotool.engines.sampled_skeleton.approximate import (
     MOST_SEEDS,
     SampledShapes,
@@ -27,9 +26,11 @@ from vorotool.jobs.skeletons.products import SkeletonProducts
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import table_in_units
 from vorotool.numeric.parallel import Progress
+from vorotool.products.formats import resolved
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import Skeleton
 
+_HAUSDORFF = "engines.sampled_skeleton.hausdorff"
 ALL_TOGETHER = {"diagram", "elements"}
 """What is of all features together, however they are taken."""
 
@@ -56,8 +57,8 @@ class ApproximateProducts(SkeletonProducts):
         o = self.options
         if o.features == "together":
             return self.shapes.graph
-        with self.run.phase("place") as progress, self.telling_once():
-            return together(self._polygons, strict=o.strict, threads=o.threads, progress=progress)
+        with self.telling_once():
+            return self.call("engines.features.batches:together", self._polygons, phase="place")
 
     @cached_property
     def shapes(self) -> SampledShapes:
@@ -88,12 +89,10 @@ class ApproximateProducts(SkeletonProducts):
     @cached_property
     def exact(self) -> Skeleton:
         """The exact skeleton of the same shapes."""
-        from vorotool.engines.skeleton_api import skeleton_exact
-
-        o = self.options
-        with self.run.phase("exact"), silent():
-            frame = self.found.skeleton.frame
-            return skeleton_exact(self._polygons, side=o.side, features=o.features, frame=frame, threads=o.threads)
+        o, frame = self.options, self.found.skeleton.frame
+        how = {"side": o.side, "features": o.features, "frame": frame, "strict": False}
+        with silent():
+            return self.call("engines.skeleton_api:skeleton_exact", self._polygons, phase="exact", **how)
 
     def written(self, what: str, fmt: str) -> Any:
         """Give a result in the units of files: elements are the samples."""
@@ -103,12 +102,9 @@ class ApproximateProducts(SkeletonProducts):
 
     def _verify_whole(self, progress: Progress) -> None:
         """Check the samples and the skeleton, from their arrays alone."""
-        from vorotool.engines.sampled_skeleton.verify_approximate import verify_samples
-        from vorotool.engines.skeleton.verify_skeleton import verify_skeleton
-
         for part in self.found.parts:
-            verify_samples(part, step=self.options.step)
-        verify_skeleton(self.whole, threads=self.options.threads, progress=progress)
+            resolved("engines.sampled_skeleton.verify_approximate:verify_samples")(part, step=self.options.step)
+        super()._verify_whole(progress)
 
     def _shape_stats(self) -> dict[str, Any]:
         inside = self.found.inside if self.options.side == "interior" else None
@@ -128,9 +124,7 @@ class ApproximateProducts(SkeletonProducts):
         }
         if o.stats is None and not o.compare:
             return found
-        from vorotool.engines.sampled_skeleton.hausdorff import error_summary
-
-        found["error"] = error_summary(self.found, step=o.step)
+        found["error"] = resolved(f"{_HAUSDORFF}:error_summary")(self.found, step=o.step)
         if o.compare:
             found["comparison"] = self._apart
         return found
@@ -143,10 +137,9 @@ class ApproximateProducts(SkeletonProducts):
 
     def _comparison(self) -> dict[str, Any]:
         """How far the exact skeleton is."""
-        from vorotool.engines.sampled_skeleton.hausdorff import compare_parts
-
-        with self.run.phase("compare"):
-            found = compare_parts(self.found, side=self.options.side, threads=self.options.threads)
+        found: dict[str, Any] = self.call(
+            f"{_HAUSDORFF}:compare_parts", self.found, phase="compare", side=self.options.side
+        )
         tolerance = self.options.tolerance
         for name, value in found.items():
             if value is None:

@@ -9,10 +9,8 @@ from vorotool.engines.skeleton.diagrams import (
     AnyDiagram,
     FeatureSkeleton,
     all_edges,
-    diagram_of_all,
     is_of_single_features,
     skeleton_in,
-    skeleton_inside,
 )
 from vorotool.engines.skeleton.exact import ShapeDiagram
 from vorotool.engines.skeleton.parts import outside_of
@@ -20,11 +18,14 @@ from vorotool.engines.skeleton.shortened_edges import ElementDiagram, exact_for,
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.skeletons.products import SkeletonProducts
+from vorotool.jobs.skeletons.products import DIAGRAMS, SkeletonProducts
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
+from vorotool.products.formats import resolved
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import Skeleton
+
+_VERIFY_DIAGRAM = "engines.segment_voronoi.segment_voronoi:verify_segment_voronoi"
 
 
 @plain
@@ -64,39 +65,22 @@ class ExactProducts(SkeletonProducts):
         """The diagram of all features."""
         o = self.options
         is_whole = self._is_looked_at or o.side != "interior" or bool({"diagram", "offset"} & set(o.what))
-        with self.run.phase("diagram") as progress, self.telling_once():
-            return diagram_of_all(
-                self._polygons,
-                o.gap,
-                features=o.features,
-                interior_only=not is_whole,
-                strict=o.strict,
-                threads=o.threads,
-                progress=progress,
-            )
+        how = {"features": o.features, "interior_only": not is_whole}
+        with self.telling_once():
+            return self.call(f"{DIAGRAMS}:diagram_of_all", self._polygons, o.gap, phase="diagram", **how)
 
     @cached_property
     def inside(self) -> FeatureSkeleton[Seen]:
         """What is inside each feature by itself, and what was seen of each diagram that is looked at."""
         o, look = self.options, self._look if self._is_looked_at else None
         border = self._polygons.frame if o.has_open_border else None
-        with self.run.phase("skeleton") as progress, self.telling_once():
-            return skeleton_inside(
-                self._polygons,
-                o.gap,
-                complete=o.complete is not False,
-                look=look,
-                border=None if border is None else border.extent,
-                strict=o.strict,
-                threads=o.threads,
-                progress=progress,
-            )
+        how = {"complete": o.complete is not False, "look": look, "border": border and border.extent}
+        with self.telling_once():
+            return self.call(f"{DIAGRAMS}:skeleton_inside", self._polygons, o.gap, phase="skeleton", **how)
 
     def _look(self, diagram: AnyDiagram, made: Skeleton) -> Seen:
         if self.options.verify:
-            from vorotool.engines.segment_voronoi.segment_voronoi import verify_segment_voronoi
-
-            verify_segment_voronoi(diagram.diagram, threads=1)
+            resolved(_VERIFY_DIAGRAM)(diagram.diagram, threads=1)
         deviation = 0.0
         if isinstance(diagram, ElementDiagram) and self.options.stats is not None:
             deviation = gap_deviation(made, exact_inside(diagram))
@@ -106,14 +90,8 @@ class ExactProducts(SkeletonProducts):
         o = self.options
         if is_of_single_features(o.side, o.features):
             return self.inside.skeleton
-        return skeleton_in(
-            self.of_all,
-            side=o.side,
-            features=o.features,
-            complete=o.complete is not False,
-            frame=o.frame,
-            threads=o.threads,
-        )
+        how = {"side": o.side, "features": o.features, "complete": o.complete is not False, "frame": o.frame}
+        return skeleton_in(self.of_all, **how, threads=o.threads)
 
     def _make_diagram(self) -> Skeleton:
         return all_edges(self.of_all, frame=self.options.frame, threads=self.options.threads)
@@ -128,14 +106,11 @@ class ExactProducts(SkeletonProducts):
 
     def _verify_whole(self, progress: Progress) -> None:
         """Check the diagram and the skeleton, from their arrays alone."""
-        from vorotool.engines.segment_voronoi.segment_voronoi import verify_segment_voronoi
-        from vorotool.engines.skeleton.verify_skeleton import verify_exterior, verify_skeleton
-
         if not self._is_inside_only:  # or else each batch was looked at
-            verify_segment_voronoi(self.of_all.diagram, threads=self.options.threads, progress=progress)
+            self.call(_VERIFY_DIAGRAM, self.of_all.diagram, phase=None, progress=progress)
         if self.options.side != "interior" and isinstance(self.of_all, ShapeDiagram):
-            verify_exterior(self.of_all, threads=self.options.threads)
-        verify_skeleton(self.whole, threads=self.options.threads, progress=progress)
+            self.call("engines.skeleton.verify_skeleton:verify_exterior", self.of_all, phase=None)
+        super()._verify_whole(progress)
 
     def _shape_stats(self) -> dict[str, Any]:
         return self.inside.shapes.counts() if self._is_inside_only else super()._shape_stats()
@@ -152,11 +127,11 @@ class ExactProducts(SkeletonProducts):
 
     def _more_stats(self) -> dict[str, Any]:
         """How far a skeleton with a gap is from the exact one: a second diagram, so only for whom it is written."""
-        if self.options.has_open_border:
-            return {"border": "open"}
-        if not self.options.gap:
-            return {}
         o = self.options
+        if o.has_open_border:
+            return {"border": "open"}
+        if not o.gap:
+            return {}
         found: dict[str, Any] = {"gap": o.gap, "complete": o.complete is not False}
         if o.stats is not None:
             found["gap_deviation"] = self._gap_deviation()

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
 from fractions import Fraction
 from functools import cached_property, partial
+from inspect import signature
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
@@ -17,28 +18,34 @@ from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options, Place
 from vorotool.jobs.picture_world import world_of_polygons
-from vorotool.jobs.pixel_sizes import placed_backdrop
+from vorotool.jobs.pixel_sizes import placed_backdrop, written_grid
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_input import read_polygons
-from vorotool.jobs.skeletons.derived import Derived, OffsetCurves
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, length_in_units, unit_text
+from vorotool.jobs.units import in_units, length_in_units, sides_of, unit_text
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
-from vorotool.products.registry import DERIVED, Made
+from vorotool.products.registry import DERIVED, Made, is_of
 from vorotool.render.drawing import Drawing, Plot, drawing_of
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import EXTERIOR, Skeleton
 
 if TYPE_CHECKING:
+    from vorotool.engines.skeleton.diagrams import FeatureSkeleton
     from vorotool.engines.skeleton.exact import ShapeDiagram
     from vorotool.types.polygons.polygon_set import PolygonSet
-    from vorotool.types.skeleton.extended_lines import Centerlines, ExtendedSkeleton, LedOn
+    from vorotool.types.skeleton.arc_measures import ThicknessImage
+    from vorotool.types.skeleton.discs import Discs
+    from vorotool.types.skeleton.extended_lines import Centerlines, LedOn
+    from vorotool.types.skeleton.offsets import Offsets
+    from vorotool.types.skeleton.points_along import SkeletonPoints
     from vorotool.types.skeleton.smooth_lines import SmoothLines
 
+_PRUNING = "engines.pruning"
+DIAGRAMS = "engines.skeleton.diagrams"
 LINES = ("skeleton", "centerline")
 """Results that are lines."""
 
@@ -59,7 +66,7 @@ class SkeletonProducts(Results, ABC):
         check_columns(options, self._polygons.properties)
         is_cut = options.side != "interior" or "diagram" in options.what
         self.world = world_of_polygons(run, options, self._polygons, size=options.pixel_size, is_cut=is_cut)
-        self._derived: dict[Made, Derived] = {}
+        self._derived: dict[Made, Any] = {}
         self._lines: dict[str, Skeleton | LedOn | SmoothLines] = {}
 
     @contextmanager
@@ -85,23 +92,14 @@ class SkeletonProducts(Results, ABC):
         """What is left of it."""
         if self.pruning.criterion is None:
             return self.whole
-        from vorotool.engines.pruning.pruning import prune
-
-        whole = self.whole
-        threshold: dict[str, Any] = {self.pruning.criterion: self.pruning.threshold}
-        with self.run.phase("prune") as progress:
-            return prune(whole, **threshold, threads=self.options.threads, progress=progress)
+        return self.call(f"{_PRUNING}.pruning:prune", self.whole, **{self.pruning.criterion: self.pruning.threshold})
 
     @cached_property
     def joined(self) -> Skeleton:
         """What is left, with near junctions made one: of what is drawn and counted, but not of what is measured."""
         if not self.options.join_junctions:
             return self.skeleton
-        from vorotool.engines.pruning.joining import join_junctions
-
-        skeleton = self.skeleton
-        with self.run.phase("join"):
-            return join_junctions(skeleton)
+        return self.call(f"{_PRUNING}.joining:join_junctions", self.skeleton, phase="join")
 
     @cached_property
     def centerlines(self) -> Centerlines:
@@ -117,17 +115,14 @@ class SkeletonProducts(Results, ABC):
             return self._made_centerlines(None, None)
 
     def _made_centerlines(self, start: Place | None, end: Place | None) -> Centerlines:
-        from vorotool.engines.centerlines.centerline import centerline
-
-        skeleton = self.skeleton
-        with self.run.phase("centerline") as progress:
-            try:
-                return centerline(skeleton, start=start, end=end, ends=self.options.ends or "middle", progress=progress)
-            except InputError as error:
-                size = self.options.pixel_size
-                if size is None or size.sides is None:
-                    raise
-                raise InputError(f"{error.marked} (coordinates in steps of {size.factor}{unit_text(size)})") from None
+        places: dict[str, Any] = {"start": start, "end": end, "ends": self.options.ends or "middle"}
+        try:
+            return self.call("engines.centerlines.centerline:centerline", self.skeleton, **places)
+        except InputError as error:
+            size = self.options.pixel_size
+            if size is None or size.sides is None:
+                raise
+            raise InputError(f"{error.marked} (coordinates in steps of {size.factor}{unit_text(size)})") from None
 
     @cached_property
     def diagram(self) -> Skeleton:
@@ -152,10 +147,7 @@ class SkeletonProducts(Results, ABC):
 
     def _shape_diagram(self) -> ShapeDiagram:
         """The exact diagram of the shapes."""
-        from vorotool.engines.skeleton.exact import diagram_of_graph
-
-        with self.run.phase("diagram") as progress:
-            return diagram_of_graph(self.graph, threads=self.options.threads, progress=progress)
+        return self.call("engines.skeleton.exact:diagram_of_graph", self.graph, phase="diagram")
 
     def _points(self, what: str) -> NDArray[np.float64] | None:
         """What pictures of a result show as points, if not the ends of edges."""
@@ -167,88 +159,158 @@ class SkeletonProducts(Results, ABC):
         return None
 
     # ---- what follows from it
-    def derived(self, what: str) -> Derived:
-        """Give what makes and checks one of `DERIVED`."""
+    def derived(self, what: str) -> Any:
+        """Give one of `DERIVED`, which is made when it is first asked for."""
         made = DERIVED[what]
         if made not in self._derived:
-            self._derived[made] = resolved(made.job)(self, made)
+            self._derived[made] = getattr(self, made.by)() if made.by else self._made_by_function(made)
         return self._derived[made]
 
-    def _all_derived(self) -> list[Derived]:
-        """What makes the results that are asked for, each once."""
-        return list({DERIVED[what]: self.derived(what) for what in DERIVED if what in self.options.what}.values())
+    def _made_by_function(self, made: Made) -> Any:
+        """Call the function that makes a result, with the options that its parameters name and the user gives."""
+        source, names = getattr(self, made.of), list(signature(resolved(made.make)).parameters)[1:]
+        given = {name: value for name, value in vars(self.options).items() if name in names and value is not None}
+        return self.call(made.make, source, phase=made.counted_as, **given)
 
+    def offset_curves(self) -> Offsets:
+        """Make offset curves of shapes, at all distances."""
+        distances = self.options.distance or ()
+        made = self._offset(self.exact_shapes(), distances, phase="offset")
+        empty = [f"{distance:g}" for distance in distances if distance not in made.distance]
+        if empty:
+            self.run.warn(Message(f"no shape remains at the distance {', '.join(empty)}", Kind.EMPTY_RESULT))
+        return made
+
+    def _offset(self, shapes: Any, distances: Any, phase: str | None = None) -> Offsets:
+        function, features = "engines.offsets.offsets:offset", self.options.features
+        return self.call(function, shapes, distances, phase=phase, features=features)
+
+    def inscribed_discs(self) -> Discs:
+        """Make discs of each feature, of its exact skeleton before it is pruned, whatever skeleton is asked for."""
+        o, function = self.options, "engines.from_skeleton.largest_discs:discs_of_skeleton"
+        return self.call(function, self._axis(), phase="discs", count=o.count, local=o.local)
+
+    def _axis(self) -> Skeleton:
+        o = self.options
+        if not o.gap and o.side != "exterior":
+            return self.whole
+        shapes = self.exact_shapes()
+        if is_of(shapes, "PolygonSet"):
+            inside: FeatureSkeleton[Any] = self.call(f"{DIAGRAMS}:skeleton_inside", shapes, phase="skeleton")
+            return inside.skeleton
+        return self.call(f"{DIAGRAMS}:skeleton_in", shapes, phase="skeleton", side="interior", features=o.features)
+
+    def points_along(self) -> SkeletonPoints:
+        """Make points at equal steps along skeletons or centerlines, and transects from foot to foot."""
+        lines = self.centerlines if self.options.along == "centerline" else self.skeleton
+        return self.call(
+            "engines.from_skeleton.points_along:points_along", lines, phase="points", every=self.options.every
+        )
+
+    def thickness(self) -> ThicknessImage:
+        """Make the largest disc over each pixel: discs of what pruning removes cover pixels, too."""
+        from vorotool.types.skeleton.arc_measures import ThicknessImage
+
+        assert self.frame is not None  # polygons are refused when they are read
+        function = "engines.from_skeleton.thickness:thickness_of_pixels"
+        values: Any = self.call(function, self.whole, self.frame.shape, phase="thickness", sides=self._sides)
+        return ThicknessImage(values, written_grid(self.options.pixel_size, self.grid))
+
+    @property
+    def _sides(self) -> tuple[float, float]:
+        sides = sides_of(self.options)
+        return float(sides.y), float(sides.x)
+
+    def _verify_derived(self, what: str, progress: Progress) -> None:
+        """Check a result by another way than it was made, where there is one."""
+        o, made, value = self.options, DERIVED[what], self.derived(what)
+        more: tuple[Any, ...] = ()
+        given: dict[str, Any] = {"progress": progress}
+        if what == "thickness":
+            value, more, given = value.values, (self.whole,), given | {"sides": self._sides}
+        elif what == "offset":
+            given["distances"] = o.distance or ()
+        elif made.by == "points_along":  # sections of branches end where discs of the skeleton, which is checked, touch
+            if o.along != "centerline":
+                return
+            more, given = (self.centerlines, o.every), {}
+        if made.check:
+            self.call(made.check, value, *more, phase=None, **given)
+
+    def _derived_stats(self, what: str) -> dict[str, Any]:
+        """Counts of a result that follows from the skeleton."""
+        o, made, value = self.options, DERIVED[what], self.derived(what)
+        if what == "offset":
+            counts = {"shapes": len(value), "rings": len(value.ring_kind), "pieces": len(value.site)}
+            return {"distances": list(o.distance or ()), **counts}
+        if what == "discs":
+            return {"discs": len(value), "largest_radius": float(value.radius.max()) if len(value) else None}
+        if made.by == "points_along":
+            return {"every": o.every, "along": o.along or "branches", "points": len(value)}
+        if what == "parts":
+            neck = resolved("engines.necks.parts:NARROWEST") if o.neck is None else float(o.neck)
+            return {"neck": neck, "pieces": len(value), "cuts": len(value.necks)}
+        if what == "thickness":
+            values = value.values[value.values > 0]
+            found = {"mean": values.mean(), "sd": values.std(), "largest": values.max()} if len(values) else {}
+            sizes = {f"thickness_{name}": length_in_units(o.pixel_size, float(each)) for name, each in found.items()}
+            return {"pixels": len(values), **sizes}
+        return {made.counted_as: len(value)} if made.counted_as else {}
+
+    def _all_derived(self) -> list[str]:
+        """Names of the results that are asked for, of those that are made together one."""
+        return list({DERIVED[what]: what for what in DERIVED if what in self.options.what}.values())
+
+    # ---- lines
     def lines(self, what: str) -> Skeleton | LedOn | SmoothLines:
         """Give the skeleton or the centerlines as they are, extended to their ends, or smooth."""
         if what not in self._lines:
-            made = self.centerlines if what == "centerline" else self._extended()
-            self._lines[what] = made if self.options.smooth is None else self._smooth(made)
+            made: Any = self.centerlines if what == "centerline" else self.joined
+            if what == "skeleton" and self.options.ends == "middle":
+                made = self.call("engines.centerlines.extended_ends:extend_ends", made, phase="ends")
+            if self.options.smooth is not None:
+                made = self.call("engines.smoothing.smooth:smooth", made, self.options.smooth)
+            self._lines[what] = made
         return self._lines[what]
 
-    def _extended(self) -> Skeleton | ExtendedSkeleton:
-        skeleton = self.joined
-        if self.options.ends != "middle":
-            return skeleton
-        from vorotool.engines.centerlines.extended_ends import extend_ends
-
-        with self.run.phase("ends") as progress:
-            return extend_ends(skeleton, threads=self.options.threads, progress=progress)
-
-    def _smooth(self, lines: Skeleton | LedOn) -> SmoothLines:
-        from vorotool.engines.smoothing.smooth import smooth
-
-        with self.run.phase("smooth") as progress:
-            return smooth(lines, self.options.smooth, progress=progress)
-
-    def _all_lines(self) -> list[Skeleton | LedOn | SmoothLines]:
+    def _all_lines(self) -> list[Any]:
         return [self.lines(what) for what in LINES if what in self.options.what]
 
     def value(self, what: str) -> Any:
         """Give a result in the coordinates of the input."""
         if what in DERIVED:
-            return self.derived(what).value
+            return self.derived(what)
         return self.lines(what) if what in LINES else self.diagram if what == "diagram" else self.joined
 
     # ---- what is checked, written and counted
     def verify(self, progress: Progress) -> None:
         """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
-        for each in self._all_derived():
-            each.verify(progress)
+        for what in self._all_derived():
+            self._verify_derived(what, progress)
         if not self.options.wants_skeleton:
             return
         self._verify_whole(progress)
-        self._verify_lines()
+        for value in self._all_lines():  # ends that skeletons are extended to, and smooth lines
+            is_smooth = is_of(value, "SmoothLines")
+            if is_smooth:
+                self.call("engines.smoothing.verify_smooth:verify_smooth", value, phase=None)
+            lines = value.lines if is_smooth else value
+            if is_of(lines, "ExtendedSkeleton"):
+                self.call("engines.centerlines.verify_extended:verify_extended", lines, self.joined, phase=None)
         if self.pruning.criterion is not None:
-            from vorotool.engines.pruning.verify_pruning import verify_pruning
-
-            verify_pruning(self.skeleton, self.whole)
+            self.call(f"{_PRUNING}.verify_pruning:verify_pruning", self.skeleton, self.whole, phase=None)
         if self.options.join_junctions:
-            from vorotool.engines.pruning.verify_pruning import verify_joining
+            self.call(f"{_PRUNING}.verify_joining:verify_joining", self.joined, self.skeleton, phase=None)
 
-            verify_joining(self.joined, self.skeleton)
-
-    @abstractmethod
-    def _verify_whole(self, progress: Progress) -> None: ...
-
-    def _verify_lines(self) -> None:
-        """Check ends that skeletons are extended to, and smooth lines."""
-        from vorotool.engines.centerlines.verify_extended import verify_extended
-        from vorotool.engines.smoothing.verify_smooth import verify_smooth
-        from vorotool.types.skeleton.extended_lines import ExtendedSkeleton
-        from vorotool.types.skeleton.smooth_lines import SmoothLines
-
-        for value in self._all_lines():
-            if isinstance(value, SmoothLines):
-                verify_smooth(value)
-            lines = value.lines if isinstance(value, SmoothLines) else value
-            if isinstance(lines, ExtendedSkeleton):
-                verify_extended(lines, self.joined)
+    def _verify_whole(self, progress: Progress) -> None:
+        """Check the skeleton, from its arrays alone."""
+        self.call("engines.skeleton.verify_skeleton:verify_skeleton", self.whole, phase=None, progress=progress)
 
     def check(self, target: Target) -> None:
         """Compute a result, and refuse what cannot be written, before anything is written."""
         what = target.what
         if what in DERIVED:
-            _ = self.derived(what).value
+            self.derived(what)
             super().check(target)
             return
         value = self.centerlines.path if what == "centerline" else self.diagram if what == "diagram" else self.joined
@@ -302,13 +364,12 @@ class SkeletonProducts(Results, ABC):
 
     def frames(self, what: str) -> Callable[[Fraction], NDArray[np.uint8]]:
         """Draw offset curves whose distances grow from nothing, on the page of the last ones."""
-        shapes, curves, whole = self.exact_shapes(), self.derived(what), self.drawing(what, "png")
-        assert isinstance(curves, OffsetCurves)
+        shapes, whole = self.exact_shapes(), self.drawing(what, "png")
         assert isinstance(whole, Drawing)  # which offset curves have
 
         def draw(part: Fraction) -> NDArray[np.uint8]:
             distances = [float(distance * part) for distance in map(Fraction, self.options.distance or ())]
-            return whole.of(curves.of(shapes, distances)).pixels()
+            return whole.of(self._offset(shapes, distances)).pixels()
 
         return draw
 
@@ -325,11 +386,11 @@ class SkeletonProducts(Results, ABC):
         if self.options.wants_skeleton:
             found |= self._skeleton_stats(self.joined)
         if self.options.smooth is not None:
-            made: list[Any] = self._all_lines()
+            made = self._all_lines()
             found |= {"smooth": self.options.smooth, "curves": sum(len(each.control) for each in made)}
             found["largest_error"] = max((float(each.error.max(initial=0.0)) for each in made), default=0.0)
-        for each in self._all_derived():
-            found |= each.stats()
+        for what in self._all_derived():
+            found |= self._derived_stats(what)
         return found
 
     def _shape_stats(self) -> dict[str, Any]:
