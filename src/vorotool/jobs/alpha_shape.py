@@ -20,8 +20,7 @@ from vorotool.engines.alpha.alpha_shape import (
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
-from vorotool.jobs.checked_columns import check_columns
-from vorotool.jobs.inputs import JobInput, frame_of, note_repeated_labels, read_sites, window_of
+from vorotool.jobs.inputs import JobInput, check_columns, frame_of, note_repeated_labels, read_sites, window_of
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_sites
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites

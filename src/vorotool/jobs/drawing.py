@@ -16,8 +16,7 @@ from vorotool.formats.opening import image_format, image_source, open_zarr, read
 from vorotool.formats.parsing.reader_options import ReadOptions, with_stated_axis
 from vorotool.formats.points.tables import is_table
 from vorotool.formats.text_recognition import has_no_rows
-from vorotool.jobs.checked_columns import check_column
-from vorotool.jobs.inputs import JobInput, note_other_size
+from vorotool.jobs.inputs import JobInput, check_column, note_other_size
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of, world_of_polygons
 from vorotool.jobs.pixel_sizes import size_of_file

@@ -17,8 +17,12 @@ from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import Measured, known_length, measured, unit_stats
 from vorotool.products.registry import is_of
+from vorotool.types.identity import check_plain, chosen_column
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from vorotool.engines.tessellation.seeding import SeedMode
     from vorotool.formats.opening import Opened
     from vorotool.render.canvas.layers import Backdrop
@@ -29,6 +33,7 @@ if TYPE_CHECKING:
     from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.values import Value
     from vorotool.types.volumes.volume import VolumeSeeds
+    from vorotool.types.volumes.volume_points import VolumePoints
 
 
 class JobInput(NamedTuple):
@@ -194,6 +199,13 @@ def read_sites(
     return o, seeds_of_image(run, o, value, None if o.seeds == "centroids" and not is_digital else o.seeds)
 
 
+def read_voxel_points(run: Run, o: Options, given: JobInput, *, properties: bool) -> VolumePoints:
+    """Read points in space, as the options say."""
+    how: dict[str, Any] = {"input_format": o.input_format, "columns": o.columns}
+    is_wanted = properties and not o.no_properties
+    return run.call(o, "formats.volumes.points:read_xyz", given.path, phase=None, properties=is_wanted, **how)
+
+
 def seeds_of_image(run: Run, o: Options, image: Raster, mode: SeedMode | None) -> SeedSet:
     """Find the seeds of an image, as the options say."""
     from vorotool.engines.tessellation.seeding import seeds_from_raster
@@ -320,3 +332,48 @@ def naming(given: JobInput) -> Iterator[None]:
         named = InputError(f"{given.name}: {error.marked}")
         named.source = given.path
         raise named from error
+
+
+# ---- columns, and sites that a result does not show ------------------------------------------------
+def check_column(label_by: str | None, columns: Mapping[str, Any], option: str = "--label-by") -> None:
+    """Refuse a column that the input does not have, or that holds objects."""
+    if label_by is not None:
+        check_plain(chosen_column(columns, label_by, option), option)
+
+
+def check_columns(o: Options, columns: Mapping[str, Any]) -> None:
+    """Refuse columns that options name and the input does not have."""
+    check_column(o.label_by, columns)
+    for name in o.with_columns or ():
+        chosen_column(columns, name, "--with")
+
+
+SHOWN = 10
+"""Labels of sites that are named."""
+
+
+def tell_empty_cells(run: Run, labels: NDArray[Any], is_empty: NDArray[np.bool_]) -> None:
+    """Name the sites whose cells are empty."""
+    if not is_empty.any():
+        return
+    run.stats["empty_sites"] = labels[is_empty][:SHOWN].tolist()
+    if is_empty.all():
+        many = f"all {len(labels)} cells are" if len(labels) > 1 else "the only cell is"
+        run.warn(Message(f"{many} empty: no site has points in the frame or the clip", Kind.EMPTY_RESULT))
+    else:
+        run.note(_text(labels, is_empty, "cells", "empty: {} of"))
+
+
+def tell_outside(run: Run, labels: NDArray[Any], is_outside: NDArray[np.bool_]) -> None:
+    """Name the seeds outside the frame, whose regions may reach into it."""
+    if is_outside.any():
+        run.stats["outside"] = int(is_outside.sum())
+        run.note(_text(labels, is_outside, "seeds", "outside the frame:"))
+
+
+def _text(labels: NDArray[Any], chosen: NDArray[np.bool_], noun: str, what: str) -> str:
+    named = labels[chosen]
+    shown = ", ".join(map(str, named[:SHOWN].tolist())) + (", …" if len(named) > SHOWN else "")
+    is_one = len(named) == 1
+    said = what.format("that" if is_one else "those")
+    return f"{len(named)} of {len(labels)} {noun} {'is' if is_one else 'are'} {said} site{'s' * (not is_one)} {shown}"

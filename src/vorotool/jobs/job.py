@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _IN_SPACE = {
     "tessellate": (VOLUME_PRODUCTS, "jobs.volumes:products"),
-    "delaunay": (SPACE_PRODUCTS, "jobs.tetrahedralization:TetrahedraProducts"),
+    "delaunay": (SPACE_PRODUCTS, "jobs.triangulation:TetrahedraProducts"),
 }
 """Results, and the job, of commands whose inputs may have three axes."""
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vorotool.jobs.checked_columns import check_column
+from vorotool.jobs.inputs import check_column
 from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.length_units import InputUnit, ratio, unit_name, unit_of_crs
 from vorotool.products.registry import is_of

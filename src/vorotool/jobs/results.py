@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.errors import LimitError
+from vorotool.errors import Kind, LimitError, Message
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Made, Run
@@ -77,6 +77,13 @@ class Results:
         """Write a page of HTML."""
         raise NotImplementedError
 
+    def check_page(self) -> None:
+        """Refuse a page that is too large."""
+
+    def emptiness(self, what: str) -> str:
+        """Say why a result is empty; nothing of one that is not, or whose emptiness surprises nobody."""
+        return ""
+
     def frames(self, what: str) -> Callable[[Fraction], NDArray[np.uint8]]:
         """Give what draws a result that has grown to a part of the whole."""
         raise NotImplementedError
@@ -103,15 +110,18 @@ class Results:
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, before anything is."""
-        if picture_format(target.fmt) != "png":
-            return
-        drawing = self.drawing(target.what, "png")
-        drawing.check(self.options.max_pixels)
-        if target.fmt in ANIMATIONS:
-            from vorotool.render.drawing import Drawing
+        if picture_format(target.fmt) == "png":
+            drawing = self.drawing(target.what, "png")
+            drawing.check(self.options.max_pixels)
+            if target.fmt in ANIMATIONS:
+                from vorotool.render.drawing import Drawing
 
-            assert isinstance(drawing, Drawing)
-            self.check_frames(drawing.shape)
+                assert isinstance(drawing, Drawing)
+                self.check_frames(drawing.shape)
+        if target.fmt == "html":
+            self.check_page()
+        if reason := self.emptiness(target.what):
+            self.run.warn(Message(f"the result has no {target.what}: {reason}", Kind.EMPTY_RESULT))
 
     def check_frames(self, shape: tuple[int, int]) -> None:
         """Refuse an animation of more pixels than can be shown."""

@@ -17,8 +17,7 @@ from vorotool.engines.tessellation.frames import band_limits, label_dtype, requi
 from vorotool.engines.tessellation.tessellate import labeled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Band, SeedBands, Tessellator, with_neighbors
 from vorotool.errors import LimitError
-from vorotool.jobs.checked_columns import check_columns
-from vorotool.jobs.inputs import JobInput, frame_of
+from vorotool.jobs.inputs import JobInput, check_columns, frame_of
 from vorotool.jobs.options import AUTO_LEVELS, Options
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run

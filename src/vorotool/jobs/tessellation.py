@@ -20,8 +20,16 @@ from vorotool.engines.tessellation.streamed_image import StreamedImage
 from vorotool.engines.tessellation.tessellate import PropagatedRows
 from vorotool.engines.tessellation.tessellator import Band, Tessellator
 from vorotool.errors import LimitError, UsageError
-from vorotool.jobs.checked_columns import tell_outside
-from vorotool.jobs.inputs import JobInput, asked_frame, frame_of, no_seeds, opened_input, read_opened, seeds_of_image
+from vorotool.jobs.inputs import (
+    JobInput,
+    asked_frame,
+    frame_of,
+    no_seeds,
+    opened_input,
+    read_opened,
+    seeds_of_image,
+    tell_outside,
+)
 from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import lengths_of_image, with_pixel_size, written_grid

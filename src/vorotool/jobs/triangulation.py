@@ -1,119 +1,139 @@
-"""The job of ``vorotool delaunay``: triangulations of points, and of label images."""
+"""The job of ``vorotool delaunay``: triangulations of points, in space, too, and of images, exact or digital."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, replace
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
-from vorotool.errors import Kind, Message
-from vorotool.jobs.checked_columns import check_columns, tell_empty_cells
-from vorotool.jobs.inputs import JobInput, note_repeated_labels, read_sites
+from vorotool.errors import Message
+from vorotool.jobs.inputs import (
+    JobInput,
+    check_columns,
+    frame_of,
+    note_repeated_labels,
+    read_sites,
+    read_voxel_points,
+    report_no_geometry,
+    tell_empty_cells,
+    window_of,
+)
 from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import in_steps, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, table_in_units, unit_columns
+from vorotool.jobs.units import in_units, sides_of, table_in_units, unit_columns
 from vorotool.numeric.parallel import Progress
-from vorotool.types.mesh.triangulation import AnyTriangulation
+from vorotool.products.registry import SPACE_PRODUCTS, Product
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
 
 if TYPE_CHECKING:
     from vorotool.render.drawing import Drawing
     from vorotool.render.looks import World
-    from vorotool.types.box import Box, Extent
     from vorotool.types.mesh.cells import CellSet
     from vorotool.types.mesh.tables import CellStatistics
+    from vorotool.types.mesh.triangulation import DigitalComparison
 
-
-class ReadPoints(NamedTuple):
-    """What is triangulated, and what its cells are clipped to."""
-
-    points: PointSet | SeedSet
-    clip: Sequence[Any] | None = None  # the polygons of `--clip`
+TRIANGULATE, VERIFY = "engines.delaunay.delaunay:delaunay", "engines.delaunay.delaunay:verify_triangulation"
 
 
 def products(run: Run, o: Options, given: JobInput) -> MeshProducts:
     """Read points, or find those of an image, and triangulate them."""
-    is_digital = o.triangulated_by != "exact"
-    with run.phase("read"):
-        properties = bool({"table", "cells", "measures"} & set(o.what)) or o.names_columns
-        o, points = read_sites(run, o, given, properties=properties, is_digital=is_digital)
-        o, points = placed_sites(run, o, given, points)
-    read = ReadPoints(points) if o.clip is None else _clipped(run, o, given, points)
-    if not is_digital:
-        return MeshProducts(run, o, given, read)
-    from vorotool.jobs.digital_triangulation import DigitalProducts, RepairedProducts
-
-    return (RepairedProducts if o.triangulated_by == "digital-valid" else DigitalProducts)(run, o, given, read)
+    kinds = {"exact": MeshProducts, "digital": DigitalProducts, "digital-valid": RepairedProducts}
+    return kinds[o.triangulated_by](run, o, given)
 
 
-def _clipped(run: Run, o: Options, given: JobInput, points: PointSet | SeedSet) -> ReadPoints:
-    """Read the polygons of ``--clip``."""
-    from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
-    from vorotool.types.points.seed_set import SeedSet
-    from vorotool.types.polygons.shapely_geometry import to_shapely
-
+def seeds_of(run: Run, o: Options, points: PointSet | SeedSet) -> SeedSet:
+    """Give the seeds of an image, or points in their frame."""
     if isinstance(points, SeedSet):
-        grid = points.grid
-        first = First(given.name, points, unit_of_image(o, grid), is_image=True, crs=None if grid is None else grid.crs)
+        return points
+    place, frame = "engines.tessellation.seeding:seeds_in_frame", partial(frame_of, o)
+    return run.call(o, place, points, frame, phase=None, sides=sides_of(o))
+
+
+def digital_mesh(run: Run, o: Options, points: PointSet | SeedSet, seeds: SeedSet) -> tuple[Any, Any]:
+    """Triangulate by the digital rule, or by its certified repair, which is told of as well."""
+    where: dict[str, Any] = {"window": window_of(o, seeds), "spacing": sides_of(o).units}
+    mesh: Any
+    repair: Any = None
+    if o.triangulated_by == "digital":
+        mesh = run.call(o, "engines.digital.triangulation:digital_triangulation", seeds, phase="triangulate", **where)
     else:
-        first = First(given.name, points, unit_of_vectors(o, points))
-    with run.phase("read polygons"):
-        points, clip = read_cut(run, o, "--clip", o.clip, first)
-    return ReadPoints(points, list(to_shapely(clip)))
+        mesh, repair = run.call(o, "engines.digital.triangulation:repair_digital", seeds, phase="triangulate", **where)
+    if isinstance(points, PointSet):
+        numbers = {} if repair is None else {"first_number": points.first_number}
+        mesh = replace(mesh, y_axis=points.y_axis, crs=points.crs, **numbers)
+    return mesh, repair
 
 
 class MeshProducts(Results):
     """Results of one triangulation."""
 
-    def __init__(self, run: Run, options: Options, given: JobInput, read: ReadPoints) -> None:
-        super().__init__(run, options)
-        self.backdrop, self.clip = placed_backdrop(run, options, given.backdrop), read.clip
-        points = read.points
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
+        with run.phase("read"):
+            properties = bool({"table", "cells", "measures"} & set(options.what)) or options.names_columns
+            is_digital = options.triangulated_by != "exact"
+            o, points = read_sites(run, options, given, properties=properties, is_digital=is_digital)
+            o, points = placed_sites(run, o, given, points)
+        super().__init__(run, o)
+        self.clip: Sequence[Any] | None = None
+        if o.clip is not None:
+            points, self.clip = self._clipped(given, points)
+        self._points = points
+        self._prepare()
+        self.backdrop = placed_backdrop(run, o, given.backdrop)
         if self.wants_mesh:
-            with run.phase("triangulate") as progress:
-                self.mesh: Any = placed_mesh(options.pixel_size, self._triangulate(points, progress))
-            check_columns(options, self.mesh.properties)
-            self._points = points
+            self.mesh: Any = placed_mesh(o.pixel_size, self._triangulate())
+            check_columns(o, self.mesh.properties)
         self.edged: Any = self._with_graph() if self.wants_mesh else None
+
+    def _clipped(self, given: JobInput, points: PointSet | SeedSet) -> tuple[Any, Sequence[Any]]:
+        """Read the polygons of ``--clip``."""
+        from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
+        from vorotool.types.polygons.shapely_geometry import to_shapely
+
+        o = self.options
+        if isinstance(points, SeedSet):
+            crs = None if points.grid is None else points.grid.crs
+            first = First(given.name, points, unit_of_image(o, points.grid), is_image=True, crs=crs)
+        else:
+            first = First(given.name, points, unit_of_vectors(o, points))
+        with self.run.phase("read polygons"):
+            points, clip = read_cut(self.run, o, "--clip", o.clip, first)
+        return points, list(to_shapely(clip))
+
+    def _prepare(self) -> None:
+        """Prepare what is triangulated."""
+
+    def _triangulate(self) -> Any:
+        mesh: Any = self.call(TRIANGULATE, in_steps(self.options, self._points), phase="triangulate")
+        note_repeated_labels(self.run, self._points, mesh)
+        return mesh
 
     def _with_graph(self) -> Any:
         """What has the edges that are written and drawn: the triangulation, or a graph that is a part of it."""
-        o = self.options
-        if o.graph == "delaunay":
+        graph = self.options.graph
+        if graph == "delaunay":
             return self.mesh
-        from vorotool.engines.delaunay.proximity import proximity_graph
-
-        with self.run.phase("graph") as progress:
-            return proximity_graph(self.mesh, o.graph, threads=o.threads, progress=progress)
+        return self.call("engines.delaunay.proximity:proximity_graph", self.mesh, graph, phase="graph")
 
     @property
     def wants_mesh(self) -> bool:
         """Whether a result shows the triangulation itself."""
         return self.options.what != ("compare",)
 
-    def _triangulate(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation:
-        o = self.options
-        mesh = delaunay(in_steps(o, points), strict=o.strict, threads=o.threads, progress=progress)
-        note_repeated_labels(self.run, points, mesh)
-        return mesh
+    def check_page(self) -> None:
+        """Refuse a page of too many cells."""
+        from vorotool.render.pages.html import check_cells_size
 
-    def check(self, target: Target) -> None:
-        """Refuse what cannot be written, and say what will be empty, before anything is written."""
-        super().check(target)
-        if target.fmt == "html":
-            from vorotool.render.pages.html import check_cells_size
+        check_cells_size(len(self.mesh.points))
 
-            check_cells_size(len(self.mesh.points))
-        if target.what in ("edges", "triangles") and not len(getattr(self.edged, target.what)):
-            self.run.warn(Message(f"the result has no {target.what}: {self._shape()}", Kind.EMPTY_RESULT))
-
-    def _shape(self) -> str:
+    def emptiness(self, what: str) -> str:
+        """Say why there are no edges or triangles."""
+        if what not in ("edges", "triangles") or len(getattr(self.edged, what)):
+            return ""
         count = len(self.mesh.points) - self.mesh.duplicates
         if count < 3:
             return f"{count} distinct point{'s' * (count != 1)}"
@@ -122,7 +142,7 @@ class MeshProducts(Results):
     def value(self, what: str) -> Any:
         """Give the triangulation, its graph, its cells, or measures of these, which are in the units of files."""
         if what in ("statistics", "measures"):
-            found = self._statistics_in_units()
+            found = self._statistics_in_units
             return found.measures if what == "measures" else found.summary
         return self.cells if what == "cells" else self.edged if what == "edges" else self.mesh
 
@@ -132,44 +152,31 @@ class MeshProducts(Results):
             return self.value(what)
         if what != "table" or fmt == "node":
             return super().written(what, fmt)
-        from vorotool.engines.delaunay.site_table import site_table
-
-        table = site_table(self.mesh, self.cells, threads=self.options.threads)
+        table: Any = self.call("engines.delaunay.site_table:site_table", self.mesh, self.cells, phase=None)
         return table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
 
+    @cached_property
     def _statistics_in_units(self) -> CellStatistics:
         """Measures of cells, decided in the units of the input, in those of files."""
-        from vorotool.engines.delaunay.site_table import statistics_of
-
-        o, has_region = self.options, self.options.frame is not None or self.options.clip is not None
-        with self.run.phase("statistics") as progress:
-            found = statistics_of(self.mesh, self.cells, has_region=has_region, threads=o.threads, progress=progress)
+        o, function = self.options, "engines.delaunay.site_table:statistics_of"
+        has_region = o.frame is not None or o.clip is not None
+        cells = self.cells
+        found: CellStatistics = self.call(function, self.mesh, cells, phase="statistics", has_region=has_region)
         if o.pixel_size is None:
             return found
         side = float(o.pixel_size.factor)
-        cells = table_in_units(o.pixel_size, found.cells)
-        return replace(found, cells=cells, tree_lengths=found.tree_lengths * side, area=found.area * side * side)
+        measured = table_in_units(o.pixel_size, found.cells)
+        return replace(found, cells=measured, tree_lengths=found.tree_lengths * side, area=found.area * side * side)
 
     @cached_property
     def cells(self) -> CellSet:
         """The Voronoi cells of the points, clipped."""
-        with self.run.phase("cells") as progress:
-            made = self._cells_in(self.options.frame, progress, clip=self.clip)
+        made = self._cells_in(self.options.frame, phase="cells", clip=self.clip)
         tell_empty_cells(self.run, made.label_array, made.is_empty)
         return made
 
-    def _cells_in(
-        self, frame: Box | Extent | None, progress: Progress, *, clip: Sequence[Any] | None = None
-    ) -> CellSet:
-        from vorotool.engines.delaunay.cells import voronoi_cells
-
-        return voronoi_cells(
-            self.mesh,
-            frame=frame,
-            clip=clip,
-            threads=self.options.threads,
-            progress=progress,
-        )
+    def _cells_in(self, frame: Any, *, phase: str | None = None, **more: Any) -> CellSet:
+        return self.call("engines.delaunay.cells:voronoi_cells", self.mesh, phase=phase, frame=frame, **more)
 
     @cached_property
     def world(self) -> World:
@@ -202,40 +209,139 @@ class MeshProducts(Results):
         measures = {"area": cells.areas, "perimeter": cells.perimeters, "x": x, "y": y}
         columns: dict[str, Any] = {name: values.tolist() for name, values in measures.items()}
         columns |= unit_columns(self.options.pixel_size, len(cells))
-        shapes = shapes_of_cells(cells)
-        write_cells_html(out, shapes, cell_colors(self.mesh), columns | cells.properties)
+        write_cells_html(out, shapes_of_cells(cells), cell_colors(self.mesh), columns | cells.properties)
 
     def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""
-        from vorotool.engines.delaunay.cells import verify_cells
-        from vorotool.engines.delaunay.proximity import verify_proximity_graph
-
-        verify_triangulation(self.mesh, threads=self.options.threads, progress=progress)
+        self.call(VERIFY, self.mesh, phase=None, progress=progress)
         if self.edged is not self.mesh:
-            verify_proximity_graph(self.edged)
+            self.call("engines.delaunay.proximity:verify_proximity_graph", self.edged, phase=None)
         if {"cells", "table", "statistics", "measures"} & set(self.options.what):
-            cells = self.cells if self.clip is None else self._cells_in(self.cells.frame, progress)
-            verify_cells(cells, threads=self.options.threads, progress=progress)
+            cells = self.cells if self.clip is None else self._cells_in(self.cells.frame, progress=progress)
+            self.call("engines.delaunay.cells:verify_cells", cells, phase=None, progress=progress)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        mesh = self.mesh
-        cells: dict[str, Any] = {}
+        mesh, o = self.mesh, self.options
+        found: dict[str, Any] = {}
         if "cells" in vars(self):  # a result shows them
-            cells = {"frame": self.cells.frame.extent, "empty_cells": int(self.cells.is_empty.sum())}
-        return {
-            **cells,
-            "points": len(mesh.points),
-            "duplicates": mesh.duplicates,
-            "edges": len(mesh.edges),
-            "triangles": len(mesh.triangles),
-            "hull": len(mesh.hull),
-            "collinear": len(mesh.triangles) == 0,
-            **(
-                {}
-                if self.options.graph == "delaunay"
-                else {"graph": self.options.graph, "graph_edges": len(self.edged)}
-            ),
-            "method": self.options.method,
-            "threads": self.options.threads,
+            found = {"frame": self.cells.frame.extent, "empty_cells": int(self.cells.is_empty.sum())}
+        found |= {"points": len(mesh.points), "duplicates": mesh.duplicates}
+        found |= {name: len(getattr(mesh, name)) for name in ("edges", "triangles", "hull")}
+        found["collinear"] = len(mesh.triangles) == 0
+        if o.graph != "delaunay":
+            found |= {"graph": o.graph, "graph_edges": len(self.edged)}
+        return {**found, "method": o.method, "threads": o.threads}
+
+
+# ---- digital triangulations ----------------------------------------------------------------------
+class DigitalProducts(MeshProducts):
+    """Results of the paper's rule (``--method digital``), and of its comparison with the exact triangulation."""
+
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
+        super().__init__(run, options, given)
+        if "compare" in options.what:
+            with run.phase("compare"):
+                run.note(self.comparison.summary())
+            if self.comparison.suggestion:
+                run.note(self.comparison.suggestion)
+
+    def _prepare(self) -> None:
+        self.seeds = seeds_of(self.run, self.options, self._points)
+
+    def _triangulate(self) -> Any:
+        mesh, self.repair = digital_mesh(self.run, self.options, self._points, self.seeds)
+        return mesh
+
+    @cached_property
+    def comparison(self) -> DigitalComparison:
+        """Differences from the exact triangulation."""
+        window = window_of(self.options, self.seeds)  # the command refuses a spacing
+        return self.call(
+            "engines.digital.comparison:compare_digital", self.seeds, phase=None, window=window, strict=False
+        )
+
+    def value(self, what: str) -> Any:
+        """Give what the digital rule finds, or how it differs."""
+        return self.comparison.differences if what == "compare" else super().value(what)
+
+    def emptiness(self, what: str) -> str:
+        """Say why there are no edges or triangles."""
+        return super().emptiness(what) and f"of {len(self.mesh.points)} regions too few touch"
+
+    def verify(self, progress: Progress) -> None:
+        """Check labels, edges and triangles by another way."""
+        where: dict[str, Any] = {"window": window_of(self.options, self.seeds), "spacing": sides_of(self.options).units}
+        function = "engines.digital.triangulation:digital_triangulation"
+        found: Any = self.call(function, self.seeds, phase=None, progress=progress, **where)
+        function = "engines.digital.triangulation:verify_digital_triangulation"
+        self.call(function, found, self.seeds, phase=None, **where)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts, and how good they are."""
+        counts: dict[str, Any] = {"points": len(self.seeds.sites) if self.seeds.sites is not None else 0}
+        if self.wants_mesh:
+            mesh = self.mesh
+            counts |= {"edges": len(mesh.edges), "triangles": len(mesh.triangles)}
+            counts |= {name: getattr(mesh, name) for name in ("three_label_corners", "four_label_corners")}
+        if "compare" in self.options.what:
+            found = self.comparison
+            names = ("edge_precision", "edge_recall", "triangle_precision", "triangle_recall")
+            counts["compare"] = {name: getattr(found, name) for name in names} | {
+                "differences": found.counts,
+                "suggestion": Message.of(found.suggestion).typed,
+            }
+        return {**counts, "method": "digital", "threads": self.options.threads}
+
+
+class RepairedProducts(DigitalProducts):
+    """Results of the certified repair (``--method digital-valid``): those of the exact triangulation."""
+
+    emptiness, verify = MeshProducts.emptiness, MeshProducts.verify
+
+    def stats(self) -> dict[str, Any]:
+        """Counts, and what each step of the repair did."""
+        return {**MeshProducts.stats(self), "repair": asdict(self.repair)}
+
+
+# ---- points in space -----------------------------------------------------------------------------
+_SHAPES = {-1: "there are no points", 0: "there is one place", 1: "all points lie on a line", 2: "all lie in a plane"}
+
+
+class TetrahedraProducts(Results):
+    """Results of one triangulation in space."""
+
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
+        super().__init__(run, options)
+        with run.phase("read"):
+            points = read_voxel_points(run, options, given, properties="table" in options.what)
+            if not len(points):
+                report_no_geometry(run, options)
+        self.mesh: Any = self.call(TRIANGULATE, points, phase="triangulate")
+        note_repeated_labels(run, points, self.mesh)
+
+    @cached_property
+    def products(self) -> Mapping[str, Product]:
+        """All results of points in space."""
+        return SPACE_PRODUCTS
+
+    def value(self, what: str) -> Any:
+        """Give the triangulation, which has all results."""
+        return self.mesh
+
+    def emptiness(self, what: str) -> str:
+        """Say why there are no parts of a kind."""
+        return "" if what == "table" or len(getattr(self.mesh, what)) else _SHAPES[self.mesh.dimension]
+
+    def verify(self, progress: Progress) -> None:
+        """Check the triangulation exactly, from its arrays alone."""
+        self.call(VERIFY, self.mesh, phase=None, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts."""
+        mesh = self.mesh
+        counts = {"points": len(mesh.points), "duplicates": mesh.duplicates, "dimension": mesh.dimension}
+        counts |= {"tetrahedra": len(mesh)} | {
+            name: len(getattr(mesh, name)) for name in ("triangles", "edges", "hull")
         }
+        return counts | {"threads": self.options.threads}

@@ -11,8 +11,14 @@ import numpy as np
 
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
-from vorotool.jobs.checked_columns import check_columns, tell_empty_cells
-from vorotool.jobs.inputs import JobInput, opened_input, read_opened, report_no_geometry
+from vorotool.jobs.inputs import (
+    JobInput,
+    check_columns,
+    opened_input,
+    read_opened,
+    report_no_geometry,
+    tell_empty_cells,
+)
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop

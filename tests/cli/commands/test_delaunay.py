@@ -65,7 +65,7 @@ def test_verify_notices_a_wrong_triangulation(run, monkeypatch):
     from dataclasses import replace
 
     monkeypatch.setattr(
-        "vorotool.jobs.triangulation.delaunay", lambda *_, **__: replace(MESH, triangles=MESH.triangles[:, ::-1])
+        "vorotool.engines.delaunay.delaunay.delaunay", lambda *_, **__: replace(MESH, triangles=MESH.triangles[:, ::-1])
     )
     assert run("delaunay", DOTS).code == 0
     done = run("delaunay", DOTS, "--verify")

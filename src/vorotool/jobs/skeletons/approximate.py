@@ -30,7 +30,6 @@ from vorotool.products.formats import resolved
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import Skeleton
 
-_HAUSDORFF = "engines.sampled_skeleton.hausdorff"
 ALL_TOGETHER = {"diagram", "elements"}
 """What is of all features together, however they are taken."""
 
@@ -124,7 +123,7 @@ class ApproximateProducts(SkeletonProducts):
         }
         if o.stats is None and not o.compare:
             return found
-        found["error"] = resolved(f"{_HAUSDORFF}:error_summary")(self.found, step=o.step)
+        found["error"] = resolved("engines.sampled_skeleton.hausdorff:error_summary")(self.found, step=o.step)
         if o.compare:
             found["comparison"] = self._apart
         return found
@@ -138,7 +137,7 @@ class ApproximateProducts(SkeletonProducts):
     def _comparison(self) -> dict[str, Any]:
         """How far the exact skeleton is."""
         found: dict[str, Any] = self.call(
-            f"{_HAUSDORFF}:compare_parts", self.found, phase="compare", side=self.options.side
+            "engines.sampled_skeleton.hausdorff:compare_parts", self.found, phase="compare", side=self.options.side
         )
         tolerance = self.options.tolerance
         for name, value in found.items():

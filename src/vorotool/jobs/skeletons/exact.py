@@ -18,7 +18,7 @@ from vorotool.engines.skeleton.shortened_edges import ElementDiagram, exact_for,
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.skeletons.products import DIAGRAMS, SkeletonProducts
+from vorotool.jobs.skeletons.products import SKELETON_INSIDE, SkeletonProducts
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
@@ -67,7 +67,7 @@ class ExactProducts(SkeletonProducts):
         is_whole = self._is_looked_at or o.side != "interior" or bool({"diagram", "offset"} & set(o.what))
         how = {"features": o.features, "interior_only": not is_whole}
         with self.telling_once():
-            return self.call(f"{DIAGRAMS}:diagram_of_all", self._polygons, o.gap, phase="diagram", **how)
+            return self.call("engines.skeleton.diagrams:diagram_of_all", self._polygons, o.gap, phase="diagram", **how)
 
     @cached_property
     def inside(self) -> FeatureSkeleton[Seen]:
@@ -76,7 +76,7 @@ class ExactProducts(SkeletonProducts):
         border = self._polygons.frame if o.has_open_border else None
         how = {"complete": o.complete is not False, "look": look, "border": border and border.extent}
         with self.telling_once():
-            return self.call(f"{DIAGRAMS}:skeleton_inside", self._polygons, o.gap, phase="skeleton", **how)
+            return self.call(SKELETON_INSIDE, self._polygons, o.gap, phase="skeleton", **how)
 
     def _look(self, diagram: AnyDiagram, made: Skeleton) -> Seen:
         if self.options.verify:

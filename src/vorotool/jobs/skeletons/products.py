@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, Message, RepairWarning, silent
-from vorotool.jobs.checked_columns import check_columns
-from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.inputs import JobInput, check_columns
 from vorotool.jobs.options import Options, Place
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop, written_grid
@@ -44,8 +43,7 @@ if TYPE_CHECKING:
     from vorotool.types.skeleton.points_along import SkeletonPoints
     from vorotool.types.skeleton.smooth_lines import SmoothLines
 
-_PRUNING = "engines.pruning"
-DIAGRAMS = "engines.skeleton.diagrams"
+SKELETON_INSIDE = "engines.skeleton.diagrams:skeleton_inside"
 LINES = ("skeleton", "centerline")
 """Results that are lines."""
 
@@ -92,14 +90,16 @@ class SkeletonProducts(Results, ABC):
         """What is left of it."""
         if self.pruning.criterion is None:
             return self.whole
-        return self.call(f"{_PRUNING}.pruning:prune", self.whole, **{self.pruning.criterion: self.pruning.threshold})
+        return self.call(
+            "engines.pruning.pruning:prune", self.whole, **{self.pruning.criterion: self.pruning.threshold}
+        )
 
     @cached_property
     def joined(self) -> Skeleton:
         """What is left, with near junctions made one: of what is drawn and counted, but not of what is measured."""
         if not self.options.join_junctions:
             return self.skeleton
-        return self.call(f"{_PRUNING}.joining:join_junctions", self.skeleton, phase="join")
+        return self.call("engines.pruning.joining:join_junctions", self.skeleton, phase="join")
 
     @cached_property
     def centerlines(self) -> Centerlines:
@@ -196,9 +196,13 @@ class SkeletonProducts(Results, ABC):
             return self.whole
         shapes = self.exact_shapes()
         if is_of(shapes, "PolygonSet"):
-            inside: FeatureSkeleton[Any] = self.call(f"{DIAGRAMS}:skeleton_inside", shapes, phase="skeleton")
+            inside: FeatureSkeleton[Any] = self.call(
+                "engines.skeleton.diagrams:skeleton_inside", shapes, phase="skeleton"
+            )
             return inside.skeleton
-        return self.call(f"{DIAGRAMS}:skeleton_in", shapes, phase="skeleton", side="interior", features=o.features)
+        return self.call(
+            "engines.skeleton.diagrams:skeleton_in", shapes, phase="skeleton", side="interior", features=o.features
+        )
 
     def points_along(self) -> SkeletonPoints:
         """Make points at equal steps along skeletons or centerlines, and transects from foot to foot."""
@@ -298,9 +302,9 @@ class SkeletonProducts(Results, ABC):
             if is_of(lines, "ExtendedSkeleton"):
                 self.call("engines.centerlines.verify_extended:verify_extended", lines, self.joined, phase=None)
         if self.pruning.criterion is not None:
-            self.call(f"{_PRUNING}.verify_pruning:verify_pruning", self.skeleton, self.whole, phase=None)
+            self.call("engines.pruning.verify_pruning:verify_pruning", self.skeleton, self.whole, phase=None)
         if self.options.join_junctions:
-            self.call(f"{_PRUNING}.verify_joining:verify_joining", self.joined, self.skeleton, phase=None)
+            self.call("engines.pruning.verify_pruning:verify_joining", self.joined, self.skeleton, phase=None)
 
     def _verify_whole(self, progress: Progress) -> None:
         """Check the skeleton, from its arrays alone."""
