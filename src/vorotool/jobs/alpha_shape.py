@@ -209,8 +209,7 @@ class ShapeProducts(Results):
 
     def drawing(self, what: str, fmt: str) -> Drawing | Plot:
         """Prepare a picture of the shape, or a plot over the radius."""
-        from vorotool.render.pages.alpha_plot import write_curves_svg
-        from vorotool.render.pages.persistence_plot import write_persistence_svg
+        from vorotool.render.pages.plots import write_curves_svg, write_persistence_svg
 
         product, wanted = self.products[what], self.wanted
         if what in PLOTS:

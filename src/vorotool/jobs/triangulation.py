@@ -188,13 +188,14 @@ class MeshProducts(Results):
     def drawing(self, what: str, fmt: str) -> Drawing:
         """Prepare a picture: of the frame of cells, where it has any."""
         from vorotool.render.drawing import drawing_of
-        from vorotool.render.layers.mesh import OF_CELLS, mesh_page
+        from vorotool.render.layers.mesh import OF_CELLS
+        from vorotool.render.layers.pages import page_of
 
         product, wanted, cells, page = self.products[what], self.wanted, None, None
         if set(OF_CELLS) & set(wanted.shown(product.usual_layers)):
             cells, world = self.cells, self.world
             if self.backdrop is None:
-                page = mesh_page(self.mesh, width=wanted.width, bounds=cells.frame.sides)
+                page = page_of(self.mesh, width=wanted.width, bounds=cells.frame.sides)
             if cells.frame.sides != world.frame or self.options.frame is not None:
                 wanted = wanted._replace(world=world._replace(frame=None))
         return drawing_of(self.edged, product, wanted, fmt, page=page, cells=cells)

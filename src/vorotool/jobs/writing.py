@@ -302,7 +302,7 @@ class _Value(Results):
             y_up = is_up(value) if o.y_up is None else o.y_up
             return label_picture(value, colors, self.products[what], self.wanted, y_up=y_up)
         if is_of(value, "RegionPersistence"):
-            from vorotool.render.pages.persistence_plot import write_persistence_svg
+            from vorotool.render.pages.plots import write_persistence_svg
 
             shown: Any = {"regions": value.table(), "suggested": value.suggested, "width": o.width or 1000}
             return Plot(partial(write_persistence_svg, **shown))

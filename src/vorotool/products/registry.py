@@ -35,7 +35,7 @@ class Product(NamedTuple):
     # layers of its pictures, from below, by the format of the picture
     layers: Mapping[str, Sequence[str]] = _NOTHING
     usual_layers: tuple[str, ...] = ()  # those that a picture has where none are chosen
-    # `module:name`: `name_page(value, width=…)` and `name_layers(value, page, layers)` draw values of its types
+    # `module:name`: `name_layers(value, page, layers)` makes the layers of values of its types
     drawn_by: str = ""
     made_by: Made | None = None  # of results that follow from a skeleton or its diagram
     has_page: bool = False  # the command line writes it as a page of HTML, too

@@ -152,7 +152,7 @@ def drawing_of(
     if page is None and wanted.backdrop is not None:
         page = ImagePage(wanted.backdrop)
     elif page is None:
-        page = resolved(f"{place}_page")(value, width=wanted.width)
+        page = resolved("render.layers.pages:page_of")(value, width=wanted.width)
     page = styled_page(page, wanted.looks, wanted.world, fmt)
     layers_of = partial(resolved(f"{place}_layers"), page=page, layers=wanted.shown(product.usual_layers), **more)
     return Drawing(page, value, layers_of, wanted.threads)

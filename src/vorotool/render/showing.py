@@ -57,7 +57,7 @@ def _drawn(value: Any, what: str | None, layers: Sequence[str] | None, width: in
         return drawing_of(value, drawn_part(value, what), Wanted(layers=layers, width=width))
     if what is not None or layers is not None:
         raise UsageError(f"a picture of a {type(value).__name__} has one layer: leave what and layers out")
-    page = Page(bounds_of([Points("points", places)]), width=width, y_up=y_up)
+    page = Page(bounds_of(places), width=width, y_up=y_up)
     made.append(Points("points", places, radius=min(max(page.spacing(len(places)) / 12, 0.3), 4.0)))
     return Drawing(page, value, lambda _: made)
 

@@ -42,12 +42,14 @@ HOLED = Polygons(
 
 def svg(*layers, width=600, y_up=False, bounds=None):
     out = io.BytesIO()
-    write_layers_svg(out, layers, Page(bounds or bounds_of(layers), width=width, y_up=y_up))
+    write_layers_svg(
+        out, layers, Page(bounds or bounds_of(*(layer.points for layer in layers)), width=width, y_up=y_up)
+    )
     return ET.fromstring(out.getvalue())
 
 
 def picture(*layers, width=160, y_up=False, bounds=None):
-    page = Page(bounds or bounds_of(layers), width=width, y_up=y_up)
+    page = Page(bounds or bounds_of(*(layer.points for layer in layers)), width=width, y_up=y_up)
     rows = np.concatenate(list(layer_bands(layers, page)))
     assert rows.dtype == np.uint8
     return rows.reshape(page.height, page.width, 3)
@@ -68,7 +70,7 @@ finite = st.floats(allow_nan=False, allow_infinity=False)
 @example([(0.0, np.nextafter(1.0, 2.0)), (0.0, 1.0 + 2.0**-51)], True, 1030)
 def test_the_page_holds_all_points_whatever_their_size(points, y_up, width):
     array = np.array(points)
-    page = Page(bounds_of([Points("p", array)]), width=width, y_up=y_up)
+    page = Page(bounds_of(array), width=width, y_up=y_up)
     assert page.width == width
     assert 1 <= page.height <= 4 * width + 1
     placed = page.place(array)
@@ -80,7 +82,7 @@ def test_polygons_in_svg():
     root = svg(HOLED, width=1000)
     (group,) = root.iter(f"{NS}g")
     assert (group.attrib["id"], group.attrib["fill-rule"], group.attrib["stroke-width"]) == ("cells", "evenodd", "3")
-    page = Page(bounds_of([HOLED]), width=1000, y_up=False)
+    page = Page(bounds_of(HOLED.points), width=1000, y_up=False)
     for path, name, fill, corners in zip(
         group, HOLED.ids, HOLED.colors, ([range(4), range(4, 8)], [range(8, 11)]), strict=True
     ):
@@ -97,7 +99,7 @@ def test_lines_and_points_and_texts_in_svg(monkeypatch):
     root = svg(*layers)
     groups = {group.attrib["id"]: group for group in root.iter(f"{NS}g")}
     assert list(groups) == ["edges", "sites", "labels"]
-    placed = np.round(Page(bounds_of(layers), width=600, y_up=False).place(SQUARES), 2)
+    placed = np.round(Page(bounds_of(*(layer.points for layer in layers)), width=600, y_up=False).place(SQUARES), 2)
     (path,) = groups["edges"]
     lines = [re.split("[L ]", part) for part in path.attrib["d"].split("M")[1:]]
     np.testing.assert_allclose(np.array(lines, float).reshape(-1, 2, 2), placed[pairs])

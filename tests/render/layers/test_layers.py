@@ -31,20 +31,20 @@ from vorotool.render.canvas.layers import Arcs, Curves, Lines, Page, Polygons
 from vorotool.render.canvas.png import layer_bands
 from vorotool.render.canvas.svg import write_layers_svg
 from vorotool.render.layers.mesh import (
-    ALPHA_LAYERS,
     alpha_layers,
     cell_lines,
-    cell_page,
     cell_polygons,
     mesh_layers,
-    mesh_page,
 )
-from vorotool.render.layers.skeleton import LAYERS as SKELETON_LAYERS
-from vorotool.render.layers.skeleton import diagram_layers, skeleton_layers, skeleton_page
-from vorotool.render.pages.alpha_plot import CURVES, write_curves_svg
+from vorotool.render.layers.pages import page_of
+from vorotool.render.layers.skeleton import diagram_layers, skeleton_layers
+from vorotool.render.pages.plots import CURVES, write_curves_svg
 from vorotool.types.fields import with_y_axis
 from vorotool.types.table import Table
 
+ALPHA_LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
+MESH_LAYERS = ("triangles", "edges", "points", "labels")
+SKELETON_LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
 NS = "{http://www.w3.org/2000/svg}"
 
 
@@ -52,7 +52,7 @@ def test_every_edge_is_in_the_layer_of_its_class():
     family = alpha_complex(draw("uniform", 80, 0))
     shape = alpha_shape(family, r=float(family.spectrum[len(family.spectrum) // 2]))
     hull = alpha_hull(shape)
-    layers = alpha_layers(shape, mesh_page(family.mesh), ALPHA_LAYERS, hull=hull)
+    layers = alpha_layers(shape, page_of(family.mesh), ALPHA_LAYERS, hull=hull)
     assert [layer.name for layer in layers] == list(ALPHA_LAYERS)
     counts = {layer.name: len(layer.pairs) for layer in layers if isinstance(layer, Lines)}
     found = np.bincount(shape.edge_classes, minlength=4).tolist()
@@ -62,7 +62,7 @@ def test_every_edge_is_in_the_layer_of_its_class():
     assert isinstance(regions, Polygons)
     assert len(regions.ring_limits) - 1 == shape.region_count
     with pytest.raises(UsageError, match="cells"):
-        alpha_layers(shape, mesh_page(family.mesh), ["cells"])
+        alpha_layers(shape, page_of(family.mesh), ["cells"])
 
 
 def bulge(path, sweep):
@@ -146,19 +146,17 @@ def test_neighboring_cells_never_share_a_color(name):
 
 def test_no_cells_draw_nothing():
     cells = voronoi_cells(np.empty((0, 2)))
-    page = cell_page(cells)
+    page = page_of(cells)
     assert len(cell_lines(cells, page).pairs) == 0
     assert len(cell_polygons(cells, np.empty(0, np.uint32), page).corners) == 0
 
-
-MESH_LAYERS = ("triangles", "edges", "points", "labels")
 
 pytestmark = pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
 
 
 def test_layers_come_from_below_in_one_order():
     mesh = delaunay([[0, 0], [4, 0], [0, 3], [9, 9]])
-    page = mesh_page(mesh)
+    page = page_of(mesh)
     assert [layer.name for layer in mesh_layers(mesh, page, reversed(MESH_LAYERS))] == list(MESH_LAYERS)
     triangles, edges, points, labels = mesh_layers(mesh, page, MESH_LAYERS)
     assert triangles.corners.reshape(-1, 3).tolist() == mesh.triangles.tolist()
@@ -172,7 +170,7 @@ def test_layers_come_from_below_in_one_order():
 def test_crowded_points_have_fine_lines():
     few, many = (delaunay(draw("uniform", n, 1)) for n in (50, 50_000))
     for before, after in zip(
-        *(mesh_layers(mesh, mesh_page(mesh), ["edges", "points"]) for mesh in (few, many)), strict=True
+        *(mesh_layers(mesh, page_of(mesh), ["edges", "points"]) for mesh in (few, many)), strict=True
     ):
         assert getattr(before, "width", 0) > getattr(after, "width", 0) or before.radius > after.radius
 
@@ -180,7 +178,7 @@ def test_crowded_points_have_fine_lines():
 @pytest.mark.parametrize("name", few(FAMILIES, 5))
 def test_every_family_can_be_drawn(name):
     mesh = delaunay(draw(name, 60, 2))
-    page = mesh_page(with_y_axis(mesh, "up"), width=200)
+    page = page_of(with_y_axis(mesh, "up"), width=200)
     image = np.concatenate(list(layer_bands(mesh_layers(mesh, page, MESH_LAYERS), page)))
     assert image.shape == (page.height, 600)
     assert (image < 200).any()
@@ -188,7 +186,7 @@ def test_every_family_can_be_drawn(name):
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
 MADE = vorotool.skeleton_exact(SHAPES)
-PAGE = skeleton_page(MADE)
+PAGE = page_of(MADE)
 
 
 def svg_of(layers, page=PAGE):

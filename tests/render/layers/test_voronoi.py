@@ -20,9 +20,12 @@ from vorotool.errors import RepairWarning
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Texts
 from vorotool.render.canvas.styles import cell_color
 from vorotool.render.canvas.svg import write_layers_svg
-from vorotool.render.layers.voronoi import LAYERS, map_colors, voronoi_layers, voronoi_page
+from vorotool.render.layers.pages import page_of
+from vorotool.render.layers.voronoi import map_colors, voronoi_layers
 
 SVG = "{http://www.w3.org/2000/svg}"
+
+LAYERS = ("cells", "edges", "objects", "labels")
 
 
 def quietly(sites, **options):
@@ -31,7 +34,7 @@ def quietly(sites, **options):
 
 
 def drawn(cells, *layers, width=1000):
-    page = voronoi_page(cells, width=width)
+    page = page_of(cells, width=width)
     return voronoi_layers(cells, page, layers), page
 
 
@@ -83,7 +86,7 @@ def test_pixels_have_the_colors_of_their_cells(tmp_path, limit):
     cells = quietly(mixed_sites(np.random.default_rng(2), 12), max_distance=limit)
     vorotool.write(cells, tmp_path / "a.png", layers=["cells"], background="#000000", width=500)
     pixels = iio.imread(tmp_path / "a.png")
-    page = voronoi_page(cells, width=500)
+    page = page_of(cells, width=500)
     x, y, w, h = cells.frame
     places = np.array([x, y]) + np.random.default_rng(0).random((800, 2)) * [w, h]
     shapes = cells.to_shapely()

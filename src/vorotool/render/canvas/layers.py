@@ -9,6 +9,7 @@ from dataclasses import field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.errors import UsageError
 from vorotool.numeric.arrays import following, owners, starts_of, within
 from vorotool.numeric.curves.flatten import chords_of, cubic_polylines, polylines
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
@@ -33,6 +34,11 @@ class Lines:
     pairs: NDArray[np.int32]  # (m, 2) int32 array: ends of each line, indices of points
     color: str = INK
     width: float = 1.5  # in px, whatever the scale
+
+    @classmethod
+    def between(cls, name: str, ends: NDArray[np.float64], color: str = INK, width: float = 1.5) -> Lines:
+        """Make a line between each pair of (m, 2, 2) ends."""
+        return cls(name, ends.reshape(-1, 2), np.arange(2 * len(ends), dtype=np.int32).reshape(-1, 2), color, width)
 
 
 @plain(eq=False)
@@ -221,11 +227,28 @@ def name_size(page: Page, count: int) -> float:
 
 
 Layer = Lines | Curves | Polygons | Points | Texts | Arcs
+Makers = dict[str, Callable[[], list[Layer]]]
+"""What makes the layers of each name, from below."""
 
 
-def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:
-    """Smallest box that holds the points of layers: least x, least y, largest x, largest y."""
-    used = [bounds(layer.points) for layer in layers if len(layer.points)]
+def checked_layers(layers: Iterable[str], known: Sequence[str]) -> frozenset[str]:
+    """Return the layers as a set."""
+    wanted = tuple(layers)
+    for layer in wanted:
+        if layer not in known:
+            raise UsageError(f"the layer {layer!r} does not exist: use {', '.join(known)}")
+    return frozenset(wanted)
+
+
+def made_layers(layers: Iterable[str], make: Makers) -> list[Layer]:
+    """Make the layers that are wanted."""
+    wanted = checked_layers(layers, tuple(make))
+    return [layer for name, own in make.items() if name in wanted for layer in own()]
+
+
+def bounds_of(*places: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    """Smallest box that holds places: least x, least y, largest x, largest y."""
+    used = [bounds(each) for each in places if len(each)]
     if not used:
         return (0.0, 0.0, 1.0, 1.0)
     low, high = np.min([low for low, _ in used], axis=0), np.max([high for _, high in used], axis=0)

@@ -9,10 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
 from vorotool.numeric.arrays import ranges
 from vorotool.render.canvas.glyphs import text_cells
-from vorotool.render.canvas.layers import Backdrop
+from vorotool.render.canvas.layers import Backdrop, checked_layers
 from vorotool.render.canvas.styles import PicturePalette
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
@@ -108,15 +107,6 @@ def widened(lines: NDArray[np.bool_], width: float) -> NDArray[np.bool_]:
             made = grown.copy()
             made[:, 1:] |= grown[:, :-1]
     return made
-
-
-def checked_layers(layers: Iterable[str], known: tuple[str, ...]) -> frozenset[str]:
-    """Return the layers as a set."""
-    wanted = tuple(layers)
-    for layer in wanted:
-        if layer not in known:
-            raise UsageError(f"the layer {layer!r} does not exist: use {', '.join(known)}")
-    return frozenset(wanted)
 
 
 def disc_radius(shape: tuple[int, int], count: int) -> float:

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from vorotool.errors import LimitError
 from vorotool.products.formats import AS_PNG
 from vorotool.render.canvas.insets import PixelPage
-from vorotool.render.canvas.layers import Backdrop, Layer, Page, halo_width
+from vorotool.render.canvas.layers import Backdrop, Layer, Page, checked_layers, halo_width
 from vorotool.render.canvas.styles import EDGE, FAINT, INK, SEED, PictureStyle, cell_color, edge_color
 from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element, layer_parts
-from vorotool.render.label_images.png import Names, checked_layers, disc_radius
+from vorotool.render.label_images.png import Names, disc_radius
 from vorotool.types.images import LabelImage
 
 LAYERS = ("cells", "labels", "objects", "seeds")

@@ -14,30 +14,21 @@ from vorotool.render.canvas.layers import (
     Arcs,
     Layer,
     Lines,
+    Makers,
     Page,
     Points,
     Polygons,
     Texts,
-    bounds_of,
     circles,
+    made_layers,
     name_size,
 )
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.styles import FAINT, LIGHT, RESULT, SEED, WHITE
-from vorotool.render.label_images.png import checked_layers
 from vorotool.types.distances.distances import Distances
-from vorotool.types.fields import is_up
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.discs import Discs
 from vorotool.types.skeleton.offsets import Offsets
-
-SHAPE_LAYERS = ("shape", "labels")
-DISC_LAYERS = ("polygons", "discs", "feet", "labels")
-OFFSET_LAYERS = ("polygons", "offset", "labels")
-DISTANCE_LAYERS = ("first", "second", "distances")
-
-_FINE = 2.0**-10
-"""Of the extent: chords of arcs whose bounds are shown."""
 
 
 def polygon_layers(
@@ -88,10 +79,12 @@ def covered(polygons: PolygonSet) -> NDArray[np.bool_] | None:
 
 def shape_layers(polygons: PolygonSet, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Polygons and lines as what is shown: filled, with outlines, which get finer where there are many vertices."""
-    wanted = checked_layers(layers, SHAPE_LAYERS)
-    width = min(max(page.spacing(max(len(polygons.xy), 1)) / 16, 0.2), 1.5)
-    made = polygon_layers(polygons, width, name="shape", edge=RESULT) if "shape" in wanted else []
-    return [*made, names_of_features(polygons, page)] if "labels" in wanted else made
+    width = min(max(page.spacing(len(polygons.xy)) / 16, 0.2), 1.5)
+    make: Makers = {
+        "shape": lambda: polygon_layers(polygons, width, name="shape", edge=RESULT),
+        "labels": lambda: [names_of_features(polygons, page)],
+    }
+    return made_layers(layers, make)
 
 
 def feature_names(polygons: PolygonSet, page: Page) -> list[str]:
@@ -128,29 +121,18 @@ def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
     return without_empty(Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centered=True))
 
 
-def polygon_page(polygons: PolygonSet, *, width: int = 1000) -> Page:
-    """The page of a picture, as of `mesh_page`: with all polygons and lines."""
-    up = is_up(polygons)
-    return Page(bounds_of([Points("shown", polygons.xy)]), width=width, y_up=up)
-
-
-shape_page = polygon_page
-
-
 # ---- what is drawn with the polygons that it is of: discs, offset curves, distances
 def disc_layers(discs: Discs, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of discs: the polygons light gray, circles, and where they touch."""
-    wanted = checked_layers(layers, DISC_LAYERS)
-    spacing = page.spacing(max(len(discs), 1))
+    spacing = page.spacing(len(discs))
     width = min(max(spacing / 16, 0.2), 1.5)
-    made: dict[str, list[Layer]] = {
-        "polygons": [*polygon_layers(discs.polygons, width), *_points(discs, spacing)],
-        "discs": [circles("discs", discs.xy, discs.radius, RESULT, width)],
-        "feet": [Points("feet", discs.feet, SEED, min(max(spacing / 16, 0.3), 3.0))],
+    make: Makers = {
+        "polygons": lambda: [*polygon_layers(discs.polygons, width), *_points(discs, spacing)],
+        "discs": lambda: [circles("discs", discs.xy, discs.radius, RESULT, width)],
+        "feet": lambda: [Points("feet", discs.feet, SEED, min(max(spacing / 16, 0.3), 3.0))],
+        "labels": lambda: [names_of_features(discs.polygons, page)],
     }
-    if "labels" in wanted:
-        made["labels"] = [names_of_features(discs.polygons, page)]
-    return [layer for name in DISC_LAYERS if name in wanted for layer in made[name]]
+    return made_layers(layers, make)
 
 
 def _points(discs: Discs, spacing: float) -> list[Layer]:
@@ -160,59 +142,33 @@ def _points(discs: Discs, spacing: float) -> list[Layer]:
     return [Points("points", polygons.xy[alone], SEED, min(max(spacing / 16, 0.3), 3.0))] if len(alone) else []
 
 
-def disc_page(discs: Discs, *, width: int = 1000) -> Page:
-    """The page of a picture, as of `mesh_page`: with all polygons and discs."""
-    across = discs.radius[:, None]
-    shown = [Points("shown", places) for places in (discs.polygons.xy, discs.xy - across, discs.xy + across)]
-    return Page(bounds_of(shown), width=width, y_up=is_up(discs))
-
-
 def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of offset curves; lines get finer where there are many."""
-    wanted = checked_layers(layers, OFFSET_LAYERS)
-    width = min(max(page.spacing(max(len(offsets.site), 1)) / 16, 0.2), 1.5)
-    curves = Arcs(
-        "offset",
-        offsets.start,
-        offsets.end,
-        offsets.center,
-        offsets.ring_starts,
-        None,
-        RESULT,
-        width,
-        offsets.piece_distance > 0,
-    )
-    made: dict[str, list[Layer]] = {"polygons": polygon_layers(offsets.polygons, width), "offset": [curves]}
-    if "labels" in wanted:
-        made["labels"] = [names_of_features(offsets.polygons, page)]
-    return [layer for name in OFFSET_LAYERS if name in wanted for layer in made[name]]
-
-
-def offset_page(offsets: Offsets, *, width: int = 1000) -> Page:
-    """The page of a picture, as of `mesh_page`: with all polygons and curves."""
-    corners = np.concatenate([offsets.polygons.xy, offsets.start])
-    tolerance = _FINE * (float(np.ptp(corners, axis=0).max()) or 1.0) if len(corners) else 1.0
-    shown = [Points("shown", offsets.polygons.xy), Points("shown", offsets.flattened(tolerance).xy)]
-    return Page(bounds_of(shown), width=width, y_up=is_up(offsets))
+    width = min(max(page.spacing(len(offsets.site)) / 16, 0.2), 1.5)
+    pieces, is_left = (offsets.start, offsets.end, offsets.center), offsets.piece_distance > 0
+    make: Makers = {
+        "polygons": lambda: polygon_layers(offsets.polygons, width),
+        "offset": lambda: [Arcs("offset", *pieces, offsets.ring_starts, None, RESULT, width, is_left)],
+        "labels": lambda: [names_of_features(offsets.polygons, page)],
+    }
+    return made_layers(layers, make)
 
 
 def distance_layers(found: Distances, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of two shapes, and of the lines between the places that are as far apart as they are."""
-    wanted = checked_layers(layers, DISTANCE_LAYERS)
-    made: list[Layer] = []
-    for name, polygons, color in zip(DISTANCE_LAYERS, found.shapes, (FAINT, SEED), strict=False):
-        if name in wanted:
-            made += _shape(name, polygons, page, color)
-    if "distances" in wanted:
-        places = found.places.reshape(-1, 2)
-        pairs = np.arange(len(places), dtype=np.int32).reshape(-1, 2)
-        made += [Lines("distances", places, pairs, RESULT, 2.0), Points("places", places, RESULT, 3.0)]
-    return made
+    first, second = found.shapes
+    lines = Lines.between("distances", found.places, RESULT, 2.0)
+    make: Makers = {
+        "first": lambda: _shape("first", first, page, FAINT),
+        "second": lambda: _shape("second", second, page, SEED),
+        "distances": lambda: [lines, Points("places", lines.points, RESULT, 3.0)],
+    }
+    return made_layers(layers, make)
 
 
 def _shape(name: str, polygons: PolygonSet, page: Page, color: str) -> list[Layer]:
     """Polygons with their outlines, lines, and points as discs; of more than one kind, all but the first by theirs."""
-    width = min(max(page.spacing(max(len(polygons.xy), 1)) / 16, 0.2), 1.5)
+    width = min(max(page.spacing(len(polygons.xy)) / 16, 0.2), 1.5)
     filled, *lines = polygon_layers(polygons, width, name=name, edge=color)
     drawn: list[tuple[str, Layer]] = [] if polygons.is_line.all() else [("polygons", filled)]
     drawn += [("lines", layer) for layer in lines]
@@ -221,9 +177,3 @@ def _shape(name: str, polygons: PolygonSet, page: Page, color: str) -> list[Laye
         places = polygons.xy[polygons.ring_starts[:-1][is_lone]]
         drawn.append(("points", Points(name, places, color, 2 * width + 0.5)))
     return [replace(layer, name=f"{name}-{kind}" if i else name) for i, (kind, layer) in enumerate(drawn)]
-
-
-def distance_page(found: Distances, *, width: int = 1000) -> Page:
-    """The page of a picture, as of `polygon_page`: with both shapes."""
-    shown = [Points("shown", polygons.xy) for polygons in found.shapes]
-    return Page(bounds_of(shown), width=width, y_up=is_up(found))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -15,19 +15,18 @@ from vorotool.render.canvas.layers import (
     Curves,
     Layer,
     Lines,
+    Makers,
     Page,
     Points,
     Polygons,
     Texts,
-    bounds_of,
+    made_layers,
     name_size,
 )
 from vorotool.render.canvas.names import without_empty
 from vorotool.render.canvas.styles import EDGE as CELL_EDGE
 from vorotool.render.canvas.styles import FAINT, INK, RESULT, SEED, WHITE, cell_color
-from vorotool.render.label_images.png import checked_layers
-from vorotool.render.layers.polygons import feature_names, names_of_features, polygon_layers, polygon_page
-from vorotool.types.fields import is_up
+from vorotool.render.layers.polygons import feature_names, names_of_features, polygon_layers
 from vorotool.types.skeleton.extended_lines import Centerlines, LedOn
 from vorotool.types.skeleton.necks import Necks
 from vorotool.types.skeleton.parts import Parts
@@ -35,12 +34,6 @@ from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 from vorotool.types.skeleton.smooth_lines import SmoothLines
 from vorotool.types.skeleton.tables import site_labels
-
-LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
-"""From below."""
-ALONG_LAYERS = ("polygons", "skeleton", "transects", "points", "labels")
-NECK_LAYERS = ("polygons", "skeleton", "necks", "labels")
-PART_LAYERS = ("parts", "skeleton", "cuts", "labels")
 
 _WIDEST_CUT = 2.0
 """Px."""
@@ -59,23 +52,25 @@ def skeleton_layers(
     exact: Skeleton | None = None,
 ) -> list[Layer]:
     """Make layers of a skeleton; lines get finer where there are many."""
-    wanted = checked_layers(layers, LAYERS)
-    places = _site_places(skeleton) if points is None else points
-    spacing = page.spacing(max(len(skeleton.site_table), len(places), 1))
+    names = list(layers)
+    places = skeleton.site_ends[skeleton.site_table.kind != EDGE, 0] if points is None else points
+    spacing = page.spacing(max(len(skeleton.site_table), len(places)))
     width = min(max(spacing / 16, 0.2), WIDEST)
     radius = min(max(spacing / 16, 0.3), 3.0)
-    make: dict[str, Callable[[], list[Layer]]] = {
+    make: Makers = {
         "polygons": lambda: polygon_layers(skeleton.polygons, width),
-        "elements": lambda: [_edges(skeleton, width)],
+        "elements": lambda: [
+            Lines.between("elements", skeleton.site_ends[skeleton.site_table.kind == EDGE], INK, width)
+        ],
         "points": lambda: [Points("points", places, radius=radius)],
         "skeleton": lambda: [_arcs(skeleton, name, color, max(width, _room(skeleton, page)))],
         "exact": lambda: [] if exact is None else [replace(_arcs(exact, "exact", INK, width), is_broken=True)],
         "nodes": lambda: [Points("nodes", skeleton.vertices, color=color, radius=radius)],
         "labels": lambda: [
-            _labels(skeleton, min(max(spacing / 6, 2.0), 16.0)) if "elements" in wanted else _names(skeleton, page)
+            _labels(skeleton, min(max(spacing / 6, 2.0), 16.0)) if "elements" in names else _names(skeleton, page)
         ],
     }
-    return [layer for layer_name in LAYERS if layer_name in wanted for layer in make[layer_name]()]
+    return made_layers(names, make)
 
 
 def diagram_layers(skeleton: Skeleton, page: Page, layers: Iterable[str], **more: Any) -> list[Layer]:
@@ -83,39 +78,10 @@ def diagram_layers(skeleton: Skeleton, page: Page, layers: Iterable[str], **more
     return skeleton_layers(skeleton, page, layers, name="diagram", color=SEED, **more)
 
 
-def skeleton_page(
-    skeleton: Skeleton,
-    *,
-    width: int = 1000,
-    bounds: tuple[float, float, float, float] | None = None,
-) -> Page:
-    """The page of a picture, as of `mesh_page`: with all polygons and the frame, if arcs are cut by one."""
-    shown = [skeleton.polygons.xy]
-    if skeleton.frame is not None:
-        x, y, w, h = skeleton.frame
-        shown.append(np.array([[x, y], [x + w, y + h]]))
-    up = is_up(skeleton)
-    return Page(bounds or bounds_of([Points("shown", np.concatenate(shown))]), width=width, y_up=up)
-
-
-diagram_page = skeleton_page
-
-
 def _room(skeleton: Skeleton, page: Page) -> float:
     """How wide arcs may be that were pruned: they cover a fortieth of the page at most."""
     covered = 40 * page.length(float(skeleton.length.sum()))
     return min(page.width * page.height / covered, WIDEST) if covered > 0 else WIDEST
-
-
-def _edges(skeleton: Skeleton, width: float) -> Lines:
-    ends = skeleton.site_ends[skeleton.site_table.kind == EDGE]
-    pairs = np.arange(2 * len(ends), dtype=np.int32).reshape(-1, 2)
-    return Lines("elements", ends.reshape(-1, 2), pairs, INK, width)
-
-
-def _site_places(skeleton: Skeleton) -> NDArray[np.float64]:
-    places: NDArray[np.float64] = skeleton.site_ends[skeleton.site_table.kind != EDGE, 0]
-    return places
 
 
 def _labels(skeleton: Skeleton, size: float) -> Texts:
@@ -172,11 +138,6 @@ def line_layers(
     return [shown(layer) for layer in made]
 
 
-def line_page(lines: LedOn | SmoothLines, *, width: int = 1000) -> Page:
-    """The page of a picture: that of the skeleton."""
-    return skeleton_page(lines.path, width=width)
-
-
 def _led_on(curves: Curves, lines: LedOn) -> Curves:
     """With the straight lines that lead to the boundary."""
     first, last = lines.extended
@@ -206,67 +167,50 @@ def _smooth(layer: Curves, smoothed: SmoothLines) -> CubicCurves:
 # ---- places along skeletons, necks, and the parts between them
 def point_layers(points: SkeletonPoints, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of places along a skeleton; discs and lines get finer where there are many."""
-    wanted = checked_layers(layers, ALONG_LAYERS)
-    spacing = page.spacing(max(len(points), 1))
-    below = [name for name in ("polygons", "skeleton") if name in wanted]
-    made = skeleton_layers(points.skeleton, page, below, color=FAINT)
-    if "transects" in wanted:
-        ends = points.transects().feet.reshape(-1, 2)
-        pairs = np.arange(len(ends), dtype=np.int32).reshape(-1, 2)
-        made.append(Lines("transects", ends, pairs, RESULT, min(max(spacing / 24, 0.2), 1.5)))
-    if "points" in wanted:
-        made.append(Points("points", points.xy, SEED, min(max(spacing / 16, 0.3), 3.0)))
-    if "labels" in wanted:
-        made += skeleton_layers(points.skeleton, page, ["labels"])
-    return made
+    spacing = page.spacing(len(points))
+    make: Makers = {
+        "transects": lambda: [
+            Lines.between("transects", points.transects().feet, RESULT, min(max(spacing / 24, 0.2), 1.5))
+        ],
+        "points": lambda: [Points("points", points.xy, SEED, min(max(spacing / 16, 0.3), 3.0))],
+    }
+    return made_layers(layers, _around(make, points.skeleton, page))
 
 
-def point_page(points: SkeletonPoints, *, width: int = 1000) -> Page:
-    """The page of a picture: that of the skeleton."""
-    return skeleton_page(points.skeleton, width=width)
+def _around(make: Makers, skeleton: Skeleton, page: Page) -> Makers:
+    """Put a skeleton and its polygons beneath layers, and names over them."""
+    return {
+        "polygons": lambda: skeleton_layers(skeleton, page, ["polygons"]),
+        "skeleton": lambda: skeleton_layers(skeleton, page, ["skeleton"], color=FAINT),
+        **make,
+        "labels": lambda: skeleton_layers(skeleton, page, ["labels"]),
+    }
 
 
 def neck_layers(necks: Necks, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of necks: lines from foot to foot, which get finer where there are many."""
-    wanted = checked_layers(layers, NECK_LAYERS)
-    made = skeleton_layers(necks.skeleton, page, [n for n in ("polygons", "skeleton") if n in wanted], color=FAINT)
-    if "necks" in wanted:
-        made.append(_cuts(necks, page, "necks", RESULT))
-    return [*made, *skeleton_layers(necks.skeleton, page, ["labels"])] if "labels" in wanted else made
+    return made_layers(layers, _around({"necks": lambda: _cuts(necks, page, "necks", RESULT)}, necks.skeleton, page))
 
 
 def part_layers(parts: Parts, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of parts, in colors that differ on both sides of a cut."""
-    wanted = checked_layers(layers, PART_LAYERS)
-    made: list[Layer] = []
-    if "parts" in wanted:
-        a, b = np.ascontiguousarray(parts.between.T).astype(np.uint32)
-        colors = _core.graphs.color_graph(len(parts), a, b, None).astype(np.int64)
-        palette = [cell_color(c) for c in range(int(colors.max(initial=0)) + 1)]
-        width = min(max(page.spacing(max(len(parts.polygons.xy), 1)) / 16, 0.2), 1.0)
-        made += [
-            replace(layer, colors=palette, color_of=colors)
-            for layer in polygon_layers(parts.polygons, width, name="parts", edge=CELL_EDGE)
-            if isinstance(layer, Polygons)
-        ]
-    if "skeleton" in wanted:
-        made += skeleton_layers(parts.necks.skeleton, page, ["skeleton"], color=FAINT)
-    if "cuts" in wanted:
-        made.append(_cuts(parts.necks, page, "cuts", INK))
-    return [*made, names_of_features(parts.polygons, page)] if "labels" in wanted else made
+    make: Makers = {
+        "parts": lambda: _colored(parts, page),
+        "skeleton": lambda: skeleton_layers(parts.necks.skeleton, page, ["skeleton"], color=FAINT),
+        "cuts": lambda: _cuts(parts.necks, page, "cuts", INK),
+        "labels": lambda: [names_of_features(parts.polygons, page)],
+    }
+    return made_layers(layers, make)
 
 
-def _cuts(necks: Necks, page: Page, name: str, color: str) -> Lines:
-    pairs = np.arange(2 * len(necks), dtype=np.int32).reshape(-1, 2)
-    width = min(max(page.spacing(max(len(necks), 1)) / 16, 0.3), _WIDEST_CUT)
-    return Lines(name, necks.feet.reshape(-1, 2), pairs, color, width)
+def _colored(parts: Parts, page: Page) -> list[Layer]:
+    a, b = np.ascontiguousarray(parts.between.T).astype(np.uint32)
+    colors = _core.graphs.color_graph(len(parts), a, b, None).astype(np.int64)
+    palette = [cell_color(c) for c in range(int(colors.max(initial=0)) + 1)]
+    width = min(max(page.spacing(len(parts.polygons.xy)) / 16, 0.2), 1.0)
+    made = polygon_layers(parts.polygons, width, name="parts", edge=CELL_EDGE)
+    return [replace(layer, colors=palette, color_of=colors) for layer in made if isinstance(layer, Polygons)]
 
 
-def neck_page(necks: Necks, *, width: int = 1000) -> Page:
-    """The page of a picture: that of the skeleton."""
-    return skeleton_page(necks.skeleton, width=width)
-
-
-def part_page(parts: Parts, *, width: int = 1000) -> Page:
-    """The page of a picture: that of the pieces."""
-    return polygon_page(parts.polygons, width=width)
+def _cuts(necks: Necks, page: Page, name: str, color: str) -> list[Layer]:
+    return [Lines.between(name, necks.feet, color, min(max(page.spacing(len(necks)) / 16, 0.3), _WIDEST_CUT))]

@@ -4,48 +4,46 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.numeric.arrays import Indices
-from vorotool.render.canvas.layers import CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts, name_size
+from vorotool.render.canvas.layers import (
+    CurvedPolygons,
+    Curves,
+    Layer,
+    Lines,
+    Makers,
+    Page,
+    Points,
+    Polygons,
+    Texts,
+    made_layers,
+    name_size,
+)
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.styles import EDGE, INK, WHITE, cell_color
-from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.mesh import cell_ids
 from vorotool.render.layers.polygons import polygon_layers
-from vorotool.types.box import extent_sides
-from vorotool.types.fields import is_up
 from vorotool.types.voronoi.tables import neighbor_pairs, site_shapes
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
-LAYERS = ("cells", "edges", "objects", "labels")
-"""From below: filled cells, all that bounds them as lines, the sites, and their names."""
-
 
 def voronoi_layers(cells: VoronoiMap, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of a Voronoi map; lines and discs get finer where cells are small."""
-    wanted = checked_layers(layers, LAYERS)
-    spacing = page.spacing(max(len(cells), 1))
+    """Make filled cells, all that bounds them, sites and names; lines and discs get finer where cells are small."""
+    spacing = page.spacing(len(cells))
     width = min(max(spacing / 24, 0.1), 1.5)
-    made: dict[str, list[Layer]] = {}
-    if wanted & {"cells", "edges"}:
-        curves = replace(_curves(cells), width=width)
-        made["edges"] = [curves]
-        if "cells" in wanted:
-            made["cells"] = [_filled(cells, curves, width)]
-    if "objects" in wanted:
-        made["objects"] = _objects(cells, width, min(max(spacing / 12, 0.3), 4.0))
-    if "labels" in wanted:
-        made["labels"] = [_names(cells, page)]
-    return [layer for name in LAYERS if name in wanted for layer in made[name]]
-
-
-def voronoi_page(cells: VoronoiMap, *, width: int = 1000) -> Page:
-    """The page that shows the frame of a map; y upwards where the input says so."""
-    return Page(extent_sides(cells.frame), width=width, y_up=is_up(cells.polygons))
+    curves = cache(lambda: replace(_curves(cells), width=width))
+    make: Makers = {
+        "cells": lambda: [_filled(cells, curves(), width)],
+        "edges": lambda: [curves()],
+        "objects": lambda: _objects(cells, width, min(max(spacing / 12, 0.3), 4.0)),
+        "labels": lambda: [_names(cells, page)],
+    }
+    return made_layers(layers, make)
 
 
 def map_colors(cells: VoronoiMap) -> NDArray[np.uint32]:
