@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 Products = Mapping[str, Product]
 
 _KINDS = {
-    ".picture": "pictures (-f svg, png)",
-    ".page": "pictures (-f svg, png)",
+    ".picture": "pictures (-f {})",
+    ".page": "pictures (-f {})",
     ".amounts": "pictures of thickness",
     ".sized": "pictures (-f svg)",
     ".animation": "animations (-f gif, apng, webp)",
@@ -39,7 +39,7 @@ _KINDS = {
     "?may_be_drawn": "inputs that are drawings",
     ".ome-zarr": "OME-Zarr (-o NAME.ome.zarr)",
 }
-"""Words for kinds of outputs."""
+"""Words for kinds of outputs, with a place for the formats of pictures."""
 
 
 def check_options(o: Options, targets: Sequence[Target], products: Products) -> None:
@@ -189,7 +189,7 @@ def _where(o: Options, row: Option) -> str:
         if word.startswith(".") and word[1:] in FORMATS:
             others.append(f"{FORMATS[word[1:]].title} (-f {word[1:]})")
         elif word.startswith((".", "?")):
-            others.append(_KINDS[word])
+            others.append(_KINDS[word].format(", ".join(_picture_formats(o))))
         elif "=" in word or ":" in word:
             others.append(_words(o, word))
         else:
@@ -200,6 +200,12 @@ def _where(o: Options, row: Option) -> str:
     said += [f"--what {what} as {', '.join(formats)}" for what, formats in results.items() if formats]
     *first, last = dict.fromkeys([*said, *others])
     return f"{', '.join(first)} or {last}" if first else last
+
+
+def _picture_formats(o: Options) -> Sequence[str]:
+    """Give the formats in which the results are drawn; if none is, all that draw others."""
+    products = [PRODUCTS[o.command][what] for what in o.what if what in PRODUCTS[o.command]]
+    return [fmt for fmt in PICTURES if any(each.layers.get(fmt) for each in products)] or PICTURES
 
 
 # ---- values --------------------------------------------------------------------------------------
