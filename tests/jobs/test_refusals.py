@@ -44,7 +44,7 @@ def check(command, *conditions, **values):
             values.setdefault(part, (0.5, 0.5))
     what = what or [next(iter(PRODUCTS[command]))]
     targets = [Target(name, "a", FORMATS.get(fmt, fmt) or PRODUCTS[command][name].formats[0]) for name in what]
-    check_options(Options(command, what=tuple(what), **values), targets, PRODUCTS[command])
+    check_options(Options(command, what=tuple(what), **values), targets)
 
 
 def is_known(command, condition):

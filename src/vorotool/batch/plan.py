@@ -19,11 +19,12 @@ from vorotool.batch.tasks import Task, digest_of
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.sources import file_of, without_gz
-from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import ALL_PAGES, Options, changed
+from vorotool.jobs.refusals import check_options
 from vorotool.jobs.targets import Target, check_cluster, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels
 from vorotool.plain import plain
+from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import EXTENSIONS
 from vorotool.products.options import GROUPS
 
@@ -51,25 +52,23 @@ class Plan:
     notes: list[str]  # what is said before the work begins
 
 
-def plan_batch(recipe: Recipe, o: Options, several: str) -> Plan:
+def plan_batch(o: Options, several: str) -> Plan:
     """Lay out a batch; `several` says why there are several inputs, nothing of one that is processed here and now."""
     _check_options(o, several)
     is_alone = not several
     o, notes = _named_for_shard(o)
-    table = _joint_table(recipe, o)
+    table = _joint_table(o)
     if o.out_dir is None and o.output is None and table is not None:
         o, targets = changed(o, what=()), []
     else:
         source = o.inputs[0] if is_alone else "input"
-        targets = plan_targets(
-            recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source
-        )  # fmt: skip
+        targets = plan_targets(o, source)
     if is_alone:
         check_cluster(o, targets)
-    tasks = _tasks(recipe, o, targets, notes, is_alone=is_alone)
-    manifest = None if o.out_dir is None or is_alone else _manifest(recipe, o, targets)
+    tasks = _tasks(o, targets, notes, is_alone=is_alone)
+    manifest = None if o.out_dir is None or is_alone else _manifest(o, targets)
     if manifest is not None and o.resume:
-        history = read_history(sorted(manifest.folder.glob(f"{recipe.name}*{RECORD_ENDING}")))
+        history = read_history(sorted(manifest.folder.glob(f"{o.command}*{RECORD_ENDING}")))
         tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
     if table is not None:
         o = changed(o, what=tuple(dict.fromkeys((*o.what, table.what))))
@@ -79,7 +78,7 @@ def plan_batch(recipe: Recipe, o: Options, several: str) -> Plan:
         notes += [f"--fields does not match {number}, such as {each}: their fields are empty" for each in left[:1]]
     check_units(o, targets)
     o = lengths_in_pixels(o, o.unit)
-    recipe.check(o, targets)
+    check_options(o, targets)
     return Plan(o, tasks, targets, table, manifest, notes)
 
 
@@ -102,13 +101,13 @@ def _check_options(o: Options, several: str) -> None:
 
 
 # ---- the inputs and their outputs --------------------------------------------------------------------------------
-def _tasks(recipe: Recipe, o: Options, targets: list[Target], notes: list[str], *, is_alone: bool) -> list[Task]:
+def _tasks(o: Options, targets: list[Target], notes: list[str], *, is_alone: bool) -> list[Task]:
     """Return the tasks of the shard, after a check of all."""
     if is_alone:
         inputs = [Input(o.inputs[0], Path(o.inputs[0]).name)]
         tasks = [Task(o.inputs[0], tuple(target.path for target in targets))]
     else:
-        inputs = _inputs(recipe, o, notes.append)
+        inputs = _inputs(o, notes.append)
         folder = o.out_dir or ""  # without one there are no targets
         endings = [target.path.removeprefix(str(Path(folder) / "input")) for target in targets]
         tasks = [Task(each.source, output_paths(each.name, endings, folder), each.path, each.page) for each in inputs]
@@ -123,10 +122,10 @@ def _tasks(recipe: Recipe, o: Options, targets: list[Target], notes: list[str], 
     return [task for task in tasks if task.source in chosen]
 
 
-def _inputs(recipe: Recipe, o: Options, note: Callable[[str], None]) -> list[Input]:
+def _inputs(o: Options, note: Callable[[str], None]) -> list[Input]:
     from vorotool.products.inputs import NAMES_WITH, TABLE_NAMES
 
-    geometry = recipe.geometry or "polygons"
+    geometry = COMMANDS[o.command].reads or "polygons"
     known = NAMES_WITH[geometry].keys() - (TABLE_NAMES if geometry == "polygons" else set())
     names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
     if not names:
@@ -161,14 +160,14 @@ def _name_of_part(path: str, part: int, parts: int) -> str:
 
 
 # ---- the joint table and the record ------------------------------------------------------------------------------
-def _joint_table(recipe: Recipe, o: Options) -> JointTable | None:
+def _joint_table(o: Options) -> JointTable | None:
     """Return the table of all inputs; -f is its format where there is no other output."""
     if o.table is None and o.table_inputs is None:
         return None
     inputs = None if o.table_inputs is None else (o.table_inputs, _table_format("--table-inputs", o.table_inputs))
     has_outputs = o.out_dir is not None or o.output is not None
     fmt = "csv" if o.table is None else _table_format("--table", o.table, None if has_outputs else o.format)
-    what = _collected(recipe, o, fmt)
+    what = _collected(o, fmt)
     return JointTable(o.table, fmt, what, name_fields(o.fields), inputs, o.safe_csv)
 
 
@@ -181,13 +180,14 @@ def _table_format(option: str, path: str, fmt: str | None = None) -> str:
     return fmt
 
 
-def _collected(recipe: Recipe, o: Options, fmt: str) -> str:
+def _collected(o: Options, fmt: str) -> str:
     """Return the result whose rows are collected: one of --what, if that is a table, else `table`."""
+    formats = {what: each.formats for what, each in o.products.items()}
     has_what, has_outputs = "what" in o.sources, o.out_dir is not None or o.output is not None
     if not has_what or "table" in o.what:
         results = ["table"]
     elif has_outputs:  # results with geometry are written by themselves
-        tables = [what for what in o.what if "csv" in recipe.formats[what] and "geojson" not in recipe.formats[what]]
+        tables = [what for what in o.what if "csv" in formats[what] and "geojson" not in formats[what]]
         results = tables or ["table"]
     else:
         results = list(o.what)
@@ -197,13 +197,13 @@ def _collected(recipe: Recipe, o: Options, fmt: str) -> str:
             "--out-dir DIR"
         )
     (what,) = results
-    if fmt not in recipe.formats.get(what, ()) or (fmt == "json" and what in _NO_ROWS):
-        possible = [name for name, formats in recipe.formats.items() if "csv" in formats]
+    if fmt not in formats.get(what, ()) or (fmt == "json" and what in _NO_ROWS):
+        possible = [name for name, each in formats.items() if "csv" in each]
         raise UsageError(f"--table cannot collect {what} as {fmt.upper()}: use --what {', '.join(possible)} as CSV")
     return what
 
 
-def _manifest(recipe: Recipe, o: Options, targets: list[Target]) -> Manifest:
+def _manifest(o: Options, targets: list[Target]) -> Manifest:
     """Return the record of this batch, or of this part of it."""
     digest = digest_of_values(
         {
@@ -214,7 +214,7 @@ def _manifest(recipe: Recipe, o: Options, targets: list[Target]) -> Manifest:
         }
     )
     shard = "" if o.shard is None else ".{}-of-{}".format(*o.shard)
-    return Manifest(o.out_dir, recipe.name, digest, shard)
+    return Manifest(o.out_dir, o.command, digest, shard)
 
 
 def _digest(name: str, path: str) -> str:

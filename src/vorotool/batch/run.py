@@ -23,7 +23,7 @@ from vorotool.errors import BatchError, Message
 from vorotool.formats.io import atomic_output
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.temporaries import committed_together, new_folder, remove_dead, remove_tagged, temporary_beside
-from vorotool.jobs.job import Recipe, process_input
+from vorotool.jobs.job import process_input
 from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.run_log import MakeBar, Run
 from vorotool.jobs.targets import Target
@@ -36,9 +36,9 @@ NO_COUNTS = frozenset({"threads", "passes", "steps_per_pixel", "largest_label"})
 """Whole numbers in statistics that mean nothing when they are added."""
 
 
-def run_batch(recipe: Recipe, o: Options, several: str, bar: MakeBar) -> None:
+def run_batch(o: Options, several: str, bar: MakeBar) -> None:
     """Process several inputs, or one that is alone, in this process and with the exit code that it gives on its own."""
-    plan, is_alone = plan_batch(recipe, o, several), not several
+    plan, is_alone = plan_batch(o, several), not several
     o, tasks = plan.options, plan.tasks
     if o.dry_run or (is_alone and not tasks):
         _print_plan(plan)
@@ -54,17 +54,17 @@ def run_batch(recipe: Recipe, o: Options, several: str, bar: MakeBar) -> None:
             parts = [task.outputs[-1] for task in tasks] if plan.table is not None else []
             check_inside([plan.manifest.path, *parts], plan.manifest.folder)
         run = stack.enter_context(
-            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=no_clobber, bar=bar)
+            Run(o.command, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=no_clobber, bar=bar)
         )
         for text in plan.notes:
             run.note(text)
         report = None
         if is_alone:
-            process_input(recipe, run, o, tasks[0].file, _of_task(plan.targets, tasks[0]))
+            process_input(run, o, tasks[0].file, _of_task(plan.targets, tasks[0]))
             outcomes: list[Outcome | None] = [Outcome(stats=run.stats)]
         else:
             report = _Report(run, len(tasks), quiet=o.quiet)
-            results = _results(recipe, plan)
+            results = _results(plan)
             outcomes = run_tasks(tasks, results, plan.manifest, keep_going=o.keep_going, finish=report.finish)
         done = [(task, outcome) for task, outcome in zip(tasks, outcomes, strict=True) if outcome is not None]
         if plan.table is not None and len(done) == len(tasks):
@@ -107,13 +107,13 @@ def _folder_of_parts(plan: Plan, stack: ExitStack) -> str:
 
 
 # ---- the work ----------------------------------------------------------------------------------------------------
-def process_one(recipe: Recipe, o: Options, targets: Sequence[Target], task: Task) -> Outcome:
+def process_one(o: Options, targets: Sequence[Target], task: Task) -> Outcome:
     """Process one input, and say nothing but in the outcome."""
     message, code = "", 0
-    with Run(recipe.name, quiet=True, verbose=False, stats=None) as run:
+    with Run(o.command, quiet=True, verbose=False, stats=None) as run:
         try:
             page = task.page if o.page == ALL_PAGES else o.page
-            process_input(recipe, run, changed(o, page=page), task.file, _of_task(targets, task))
+            process_input(run, changed(o, page=page), task.file, _of_task(targets, task))
         except Exception as error:
             message, code = explained(error)
     notes = tuple(run.notes)
@@ -133,7 +133,7 @@ def _of_task(targets: Sequence[Target], task: Task) -> list[Target]:
     return [Target(target.what, path, target.fmt) for target, path in zip(targets, task.outputs, strict=True)]
 
 
-def _results(recipe: Recipe, plan: Plan) -> Results:
+def _results(plan: Plan) -> Results:
     """Return what does the work: processes of this machine, or a cluster."""
     o = plan.options
     jobs = (os.cpu_count() or 1) if o.jobs == 0 else o.jobs
@@ -144,7 +144,7 @@ def _results(recipe: Recipe, plan: Plan) -> Results:
         stats=None if o.stats is None else os.devnull,  # statistics are made, and sent to this process
         **files,
     )
-    process = partial(process_one, recipe, options, plan.targets)
+    process = partial(process_one, options, plan.targets)
     if o.cluster is None:
         return partial(workers.local_results, process, jobs=min(jobs or 1, len(plan.tasks)))
     from vorotool.batch.cluster import cluster_results

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from vorotool.cli.help_page import GroupedCommand
+from vorotool.cli.help_page import GroupedCommand, short_help_option
 from vorotool.cli.values import UnexpectedError
 from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import EXTENSIONS, FORMATS
@@ -98,22 +98,21 @@ def _joined(_ctx: click.Context, _param: click.Parameter, value: tuple[tuple[Any
 
 
 def _help_of(command: str, row: Option) -> str:
-    text = row.help
-    if "{" in text:
-        own = PRODUCTS[command]
-        names = {
-            "results": lambda: ", ".join(own),
-            "formats": lambda: ", ".join(dict.fromkeys(fmt for each in own.values() for fmt in each.formats)),
-            "layers": lambda: ", ".join(all_layers(command)),
-            "of_polygons": lambda: ", ".join(own["polygons"].usual_for),
-            "flattened": lambda: ", ".join(each.title for each in FORMATS.values() if each.flattens),
-        }
-        text = re.sub(r"\{(\w+)\}", lambda match: names[match[1]](), text)
-    return text
+    if "{" not in row.help:
+        return row.help
+    own = PRODUCTS[command]
+    names = {
+        "results": lambda: ", ".join(own),
+        "formats": lambda: ", ".join(dict.fromkeys(fmt for each in own.values() for fmt in each.formats)),
+        "layers": lambda: ", ".join(all_layers(command)),
+        "of_polygons": lambda: ", ".join(own["polygons"].usual_for),
+        "flattened": lambda: ", ".join(each.title for each in FORMATS.values() if each.flattens),
+    }
+    return re.sub(r"\{(\w+)\}", lambda match: names[match[1]](), row.help)
 
 
-def option(command: str, row: Option) -> click.Option:
-    """Make an option of a command."""
+def option(command: str, row: Option, *, is_shown: bool = True) -> click.Option:
+    """Make an option of a command: with help, and what shells offer, if these are asked for."""
     kind = _type_of(command, row)
     more: dict[str, Any] = {}
     if row.is_flag:
@@ -125,66 +124,64 @@ def option(command: str, row: Option) -> click.Option:
         more = {"type": kind, "metavar": row.metavar if is_named else None, "multiple": bool(row.repeats)}
     if row.repeats == "joined":
         more["callback"] = _joined
-    if row.complete:
-        more["shell_complete"] = candidates(command, row.complete)
+    if is_shown:
+        more["help"] = _help_of(command, row)
+        more["shell_complete"] = candidates(command, row.complete) if row.complete else None
     if row.env:
         more |= {"envvar": f"VOROTOOL_{row.env}", "show_envvar": True}
     if row.parameter == "what" and command != "alphashape":
         more |= {"default": (next(iter(PRODUCTS[command])),), "show_default": True}
     elif row.default is not None and not row.repeats:
         more |= {"default": row.default, "show_default": row.default not in (False, 0.0) or row.env != ""}
-    return click.Option([*row.spellings, row.parameter], help=_help_of(command, row), **more)
+    return click.Option([*row.spellings, row.parameter], **more)
 
 
-def _argument(name: str, metavar: str, complete: Candidates, **more: Any) -> click.Argument:
-    return click.Argument([name], metavar=metavar, shell_complete=complete, **more)
+EPILOG = "Manual page: man vorotool-{}. Documents: vorotool --help says where they are."
 
 
 def computing_command(name: str, given: Sequence[str] | None = None) -> click.Command:
     """Make a command that reads inputs and writes results: with all options, or those that arguments can mean."""
-    about = COMMANDS[name]
-    names = DRAWN_NAMES if about.reads is None else NAMES_WITH[about.reads]
-    files = candidates(name, f"files:{' '.join(names)}")
-    if name == "distance":
-        arguments = [_argument("a", "A", files), _argument("b", "B", files)]
-    else:
-        arguments = [_argument("inputs", "INPUT...", files, nargs=-1)]
-    rows = options_of(name).values() if given is None else _meant(options_of(name).values(), given)
-    params: list[click.Parameter] = [*arguments, *(option(name, row) for row in rows)]
-    return GroupedCommand(name, params=params, callback=_runner(name), help=about.text, instead=dict(about.instead))
-
-
-def _meant(rows: Collection[Option], given: Sequence[str]) -> Collection[Option]:
-    """Return the options that arguments or the environment can mean; all where help is asked for."""
-    words = {argument.partition("=")[0] for argument in given}
-    words |= {f"-{letter}" for argument in given if argument[:1] == "-" != argument[1:2] for letter in argument[1:]}
-    if words & {"-h", "--help"}:
-        return rows
-    return [
-        row
+    words = {argument.partition("=")[0] for argument in given or ()}
+    words |= {f"-{letter}" for word in words if word[:1] == "-" != word[1:2] for letter in word[1:]}
+    is_shown = given is None or bool(words & {"-h", "--help"})
+    about, rows, files = COMMANDS[name], options_of(name).values(), None
+    if is_shown:
+        read = DRAWN_NAMES if about.reads is None else NAMES_WITH[about.reads]
+        files = candidates(name, f"files:{' '.join(read)}")
+    params: list[click.Parameter] = [
+        click.Argument([each], metavar=metavar, nargs=count, required=count == 1, shell_complete=files)
+        for each, metavar, count in _ARGUMENTS.get(name, (("inputs", "INPUT...", -1),))
+    ]
+    params += [
+        option(name, row, is_shown=is_shown)
         for row in rows
-        if (row.env and f"VOROTOOL_{row.env}" in os.environ)
+        if is_shown
+        or (row.env and f"VOROTOOL_{row.env}" in os.environ)
         or any(flag in words for pair in row.spellings for flag in pair.split("/"))
     ]
+    if is_shown:
+        params.append(short_help_option())
 
-
-def _runner(name: str) -> Callable[..., None]:
-    def run(**given: Any) -> None:
+    def run(**values: Any) -> None:
         from vorotool.cli.run import run_command
-        from vorotool.jobs.job import prepared
 
-        run_command(*prepared(name, given, _sources()))
+        context = click.get_current_context()
+        origins = ((each, context.get_parameter_source(each)) for each in context.params)
+        run_command(name, values, {each: _SOURCES[origin] for each, origin in origins if origin in _SOURCES})
 
-    return run
+    return GroupedCommand(
+        name,
+        context_settings={"help_option_names": ["--help"]},
+        params=params,
+        callback=run,
+        help=about.text,
+        epilog=EPILOG.format(name),
+    )
 
 
-def _sources() -> dict[str, str]:
-    """Return where options that are not at their defaults come from: ``typed`` or ``environment``, by parameter."""
-    context = click.get_current_context()
-    words = {ParameterSource.COMMANDLINE: "typed", ParameterSource.ENVIRONMENT: "environment"}
-    found = {name: context.get_parameter_source(name) for name in context.params}
-    return {name: words[source] for name, source in found.items() if source in words}
-
+_ARGUMENTS = {"distance": (("a", "A", 1), ("b", "B", 1))}
+_SOURCES = {ParameterSource.COMMANDLINE: "typed", ParameterSource.ENVIRONMENT: "environment"}
+"""Where options that are not at their defaults come from."""
 
 Candidates = Callable[[click.Context, click.Parameter, str], "list[CompletionItem[str]]"]
 

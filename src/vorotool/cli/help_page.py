@@ -27,20 +27,6 @@ CLOSE = 0.75
 class GroupedCommand(click.Command):
     """A command whose ``--help`` has groups, and whose ``-h`` is a short page."""
 
-    def __init__(self, *arguments: Any, instead: dict[str, str] | None = None, **options: Any) -> None:
-        super().__init__(*arguments, **options)
-        self._instead = instead or {}
-        self.context_settings = {"help_option_names": ["--help"]}
-        short = click.Option(
-            ["-h", "short_help_page"],
-            is_flag=True,
-            is_eager=True,
-            expose_value=False,
-            help="Show the most common options and exit.",
-            callback=self._show_short,
-        )
-        self.params.append(short)
-
     def make_parser(self, ctx: click.Context) -> Any:
         """Let short options be found at first: click looks for long ones, and for others like them, before."""
         parser = super().make_parser(ctx)
@@ -60,8 +46,9 @@ class GroupedCommand(click.Command):
             return super().parse_args(ctx, args)
         except click.NoSuchOption as error:
             name = error.option_name
-            if name in self._instead:
-                raise click.UsageError(f"{self.name} has no {name}: {self._instead[name]}", ctx) from None
+            instead = dict(COMMANDS[self.name or ""].instead)
+            if name in instead:
+                raise click.UsageError(f"{self.name} has no {name}: {instead[name]}", ctx) from None
             if re.match(r"-[.\d]", name):
                 number = next(each for each in typed if each.startswith(name))
                 said = f"{number} is a number, not an option: separate the values of a list by commas, as in -d -1,-2"
@@ -101,9 +88,8 @@ class GroupedCommand(click.Command):
             return record
         return record[0], f"What to write: {', '.join(own[:MOST_NAMES])}, and {len(own) - MOST_NAMES} more."
 
-    def _show_short(self, ctx: click.Context, _param: click.Parameter, value: bool) -> None:
-        if not value or ctx.resilient_parsing:
-            return
+    def show_short(self, ctx: click.Context) -> None:
+        """Print the short page."""
         formatter = ctx.make_formatter()
         self.format_usage(ctx, formatter)
         first, example, *_ = inspect.cleandoc(self.help or "").split("\n\n")
@@ -118,3 +104,20 @@ class GroupedCommand(click.Command):
         formatter.write_text(f"All options: {ctx.command_path} --help")
         print_text(formatter.getvalue().rstrip("\n") + "\n")
         ctx.exit()
+
+
+def short_help_option() -> click.Option:
+    """Make ``-h``."""
+
+    def show(ctx: click.Context, _param: click.Parameter, value: bool) -> None:
+        if value and not ctx.resilient_parsing and isinstance(ctx.command, GroupedCommand):
+            ctx.command.show_short(ctx)
+
+    return click.Option(
+        ["-h", "short_help_page"],
+        is_flag=True,
+        is_eager=True,
+        expose_value=False,
+        help="Show the most common options and exit.",
+        callback=show,
+    )

@@ -5,12 +5,12 @@ from __future__ import annotations
 import io
 import os
 import sys
-from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NoReturn, TextIO
+from typing import TYPE_CHECKING, NoReturn, TextIO
 
 import click
+from click.utils import _expand_args
 
 from vorotool import __version__
 from vorotool.errors import VorotoolError
@@ -29,44 +29,8 @@ COMMANDS = {**{name: each.summary for name, each in commands.COMMANDS.items()}, 
 EXIT_OUTPUT, EXIT_INTERRUPTED, EXIT_BROKEN_PIPE = 4, 130, 141
 
 
-class SignalledError(Exception):
-    """A run that a signal or a closed pipe ended; carries the exit code."""
-
-    def __init__(self, code: int) -> None:
-        super().__init__(code)
-        self.code = code
-
-
-_EPILOG = "Manual page: man vorotool-{}. Documents: vorotool --help says where they are."
-
-
-def _computing(name: str, arguments: Sequence[str] | None) -> click.Command:
-    """Make a command that computes, with the options that some arguments name, or with all."""
-    from vorotool.cli.command import computing_command
-
-    command = computing_command(name, arguments)
-    command.epilog = _EPILOG.format(name)
-    return command
-
-
 class LazyGroup(click.Group):
     """A group whose commands are imported only when they are used."""
-
-    def invoke(self, ctx: click.Context) -> Any:
-        """Run a command; what ends it from outside is kept from click, which would print or exit itself."""
-        try:
-            return super().invoke(ctx)
-        except KeyboardInterrupt:
-            raise SignalledError(EXIT_INTERRUPTED) from None
-        except BrokenPipeError:
-            raise SignalledError(EXIT_BROKEN_PIPE) from None
-
-    def make_context(self, *arguments: Any, **options: Any) -> click.Context:
-        """Parse the arguments, which may print the help."""
-        try:
-            return super().make_context(*arguments, **options)
-        except BrokenPipeError:
-            raise SignalledError(EXIT_BROKEN_PIPE) from None
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -81,7 +45,9 @@ class LazyGroup(click.Group):
             raise click.UsageError(f"unknown command {name!r}: {advice}", ctx)
         if name not in commands.COMMANDS or ctx.resilient_parsing:
             return super().resolve_command(ctx, args)
-        return name, _computing(name, args[1:]), args[1:]
+        from vorotool.cli.command import computing_command
+
+        return name, computing_command(name, args[1:]), args[1:]
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names in the order of the registry."""
@@ -91,10 +57,12 @@ class LazyGroup(click.Group):
         """Make or import a command."""
         if cmd_name not in COMMANDS:
             return None
+        from vorotool.cli.command import EPILOG, computing_command
+
         if cmd_name in commands.COMMANDS:
-            return _computing(cmd_name, None)
+            return computing_command(cmd_name)
         command: click.Command = import_module(f"vorotool.cli.commands.{cmd_name}").command
-        command.epilog = _EPILOG.format(cmd_name)
+        command.epilog = EPILOG.format(cmd_name)
         return command
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem[str]]:
@@ -117,16 +85,17 @@ class LazyGroup(click.Group):
                 formatter.write(f"  {name}\n      {where}\n")
 
 
-@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(__version__, prog_name="vorotool")
-def vorotool() -> None:
-    """Exact Voronoi diagrams of images, points and polygons.
+vorotool = LazyGroup(
+    "vorotool",
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help="""Exact Voronoi diagrams of images, points and polygons.
 
-    \b
-    Example:
-      vorotool sample dots.csv -o dots.csv
-      vorotool tessellate dots.csv --size 512x512 --what color -o picture.png
-    """
+\b
+Example:
+  vorotool sample dots.csv -o dots.csv
+  vorotool tessellate dots.csv --size 512x512 --what color -o picture.png""",
+)
+click.version_option(__version__, prog_name="vorotool")(vorotool)
 
 
 def main(arguments: list[str] | None = None) -> NoReturn:
@@ -175,27 +144,37 @@ def _replace_closed_streams() -> None:
 
 
 def _run(arguments: list[str] | None) -> int:
-    if "_VOROTOOL_COMPLETE" in os.environ:  # a shell asks what an argument can be
-        from vorotool.cli.commands.completion import register
+    if arguments is None:
+        arguments = _expand_args(sys.argv[1:]) if os.name == "nt" else sys.argv[1:]
+    try:  # without `click.Command.main`, which prints something, or exits, where a signal or a closed pipe ends the run
+        if os.environ.get("_VOROTOOL_COMPLETE"):  # a shell asks what an argument can be
+            from vorotool.cli.commands.completion import complete
 
-        register()
-    try:
-        result: Any = vorotool.main(args=arguments, prog_name="vorotool", standalone_mode=False)
-        return result if isinstance(result, int) else 0
-    except click.ClickException as error:
+            return complete(vorotool)
+        with vorotool.make_context("vorotool", [*arguments]) as context:
+            vorotool.invoke(context)
+        return 0
+    except (Exception, KeyboardInterrupt) as error:
+        return _told(error)
+
+
+def _told(error: Exception | KeyboardInterrupt) -> int:
+    """Say what is wrong; the exit code."""
+    if isinstance(error, click.exceptions.Exit):
+        return error.exit_code
+    if isinstance(error, KeyboardInterrupt | BrokenPipeError):
+        return EXIT_INTERRUPTED if isinstance(error, KeyboardInterrupt) else EXIT_BROKEN_PIPE
+    if isinstance(error, click.ClickException):
         shown = io.StringIO()
         error.show(shown)
         with suppress(OSError):  # the exit code remains
             print_text(_lines_of(shown.getvalue()), sys.stderr)
         return error.exit_code
-    except SignalledError as error:
-        return error.code
-    except Exception as error:
-        if received():  # an interrupt that a library turned into an error of its own
-            return received()
-        if isinstance(error, OSError) and not isinstance(error, VorotoolError):
-            return _fail(_of_streams(error), EXIT_OUTPUT)
-        return _fail(*explained(error))
+    if received():  # an interrupt that a library turned into an error of its own
+        return received()
+    if isinstance(error, OSError) and not isinstance(error, VorotoolError):
+        return _fail(_of_streams(error), EXIT_OUTPUT)
+    return _fail(*explained(error))
 
 
 def _lines_of(text: str) -> str:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
+from typing import Any
 
 import click
 
@@ -12,8 +13,9 @@ from vorotool.errors import UsageError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.temporaries import committed_together
 from vorotool.jobs.inputs import check_streams, is_several
-from vorotool.jobs.job import Recipe, process_input
+from vorotool.jobs.job import options_of_line, process_input
 from vorotool.jobs.options import ALL_PAGES, Options, changed
+from vorotool.jobs.refusals import check_options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import check_cluster, check_stats, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels, with_spacing
@@ -23,33 +25,34 @@ STEPS = 1000
 """Steps of a progress bar."""
 
 
-def run_command(recipe: Recipe, o: Options) -> None:
-    """Do what a command line asks for."""
-    from_environment = [name for name in ("jobs", "cluster") if o.sources.get(name) == "environment"]
+def run_command(command: str, values: Mapping[str, Any], sources: Mapping[str, str]) -> None:
+    """Do what a command line asks for: the values of options, and whether each is typed or of the environment."""
+    o = options_of_line(command, values, sources)
     check_streams([*(("the input", name) for name in o.inputs), *o.files_read().items()])
-    o = with_spacing(_workers_chosen(o, from_environment))
+    from_environment = [name for name in ("jobs", "cluster") if o.sources.get(name) == "environment"]
+    if from_environment:
+        o = _workers_chosen(o, from_environment)
+    o = with_spacing(o)
     several = _several(o)
     if not o.inputs and not several:
         raise UsageError("no input given: name a file, a folder, or - for standard input")
     if several or o.is_shared:
         from vorotool.batch.run import run_batch
 
-        run_batch(recipe, o, several, progress_bar)
+        run_batch(o, several, progress_bar)
         return
     (path,) = o.inputs
-    targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=path)
+    targets = plan_targets(o, path)
     check_stats(o, targets, path)
     check_cluster(o, targets)
     check_units(o, targets)
     o = lengths_in_pixels(o, o.unit)
-    recipe.check(o, targets)
+    check_options(o, targets)
     with (
         committed_together(),  # the statistics, too
-        Run(
-            recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar
-        ) as run,
+        Run(command, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar) as run,
     ):
-        process_input(recipe, run, o, path, targets)
+        process_input(run, o, path, targets)
 
 
 @contextmanager

@@ -3,70 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import spoken
+from vorotool.formats.io.sources import suffix_of
 from vorotool.jobs.inputs import JobInput, naming, read_backdrop, refuse_several
 from vorotool.jobs.options import Options, changed
-from vorotool.jobs.refusals import check_options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets
 from vorotool.jobs.units import shows_units, unit_stats
-from vorotool.plain import plain
-from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import FORMATS, format_named, resolved
-from vorotool.products.registry import PRODUCTS, SPACE_PRODUCTS, VOLUME_PRODUCTS, Product
 from vorotool.signals import end_by_exceptions
 
 if TYPE_CHECKING:
     from vorotool.jobs.results import Results
 
 
-_IN_SPACE = {
-    "tessellate": (VOLUME_PRODUCTS, "jobs.volumes:products"),
-    "delaunay": (SPACE_PRODUCTS, "jobs.triangulation:TetrahedraProducts"),
-}
-"""Results, and the job, of commands whose inputs may have three axes."""
-
-
-@plain
-class Recipe:
-    """A command, as far as it is about one input: its rows in the tables of commands and of results."""
-
-    name: str  # of the command
-    is_of_space: bool = False
-
-    @property
-    def products(self) -> Mapping[str, Product]:
-        """Results by name."""
-        return _IN_SPACE[self.name][0] if self.is_of_space else PRODUCTS[self.name]
-
-    @property
-    def formats(self) -> dict[str, tuple[str, ...]]:
-        """Formats of each result; the first is its default."""
-        return {what: each.formats for what, each in self.products.items()}
-
-    @property
-    def geometry(self) -> str | None:
-        """What it reads beside images."""
-        return COMMANDS[self.name].reads
-
-    def make(self, run: Run, o: Options, given: JobInput) -> Results:
-        """Read an input, and return what makes its results."""
-        place = _IN_SPACE[self.name][1] if self.is_of_space else COMMANDS[self.name].job
-        made: Results = resolved(place)(run, o, given)
-        return made
-
-    def check(self, o: Options, targets: Sequence[Target]) -> None:
-        """Refuse options that do not go together, or that no output would show."""
-        check_options(o, targets, self.products)
-        if COMMANDS[self.name].check:
-            resolved(COMMANDS[self.name].check)(o, targets)
-
-
-def prepared(command: str, given: Mapping[str, Any], sources: Mapping[str, str]) -> tuple[Recipe, Options]:
+def options_of_line(command: str, given: Mapping[str, Any], sources: Mapping[str, str]) -> Options:
     """Return what a command line asks for, with what follows where options are left out."""
     values = dict(given)
     if command == "distance":
@@ -74,22 +28,21 @@ def prepared(command: str, given: Mapping[str, Any], sources: Mapping[str, str])
         refuse_several({"A": a, "B": b})
         values |= {"inputs": (a,), "other": b}
         sources = {name: source for name, source in sources.items() if name in values}
-    ending = Path(values.get("output") or "").suffix
+    ending = suffix_of(values.get("output") or "")
     if values.get("animate") and values.get("format") is None:
-        values["format"] = {"": "gif", ".png": "apng"}.get(ending.lower())
+        values["format"] = {"": "gif", ".png": "apng"}.get(ending)
     o = Options(command, sources=sources, **values)
-    recipe = Recipe(command, command in _IN_SPACE and o.is_of_space)
-    other = next((what for what in o.what or () if what not in recipe.products), None)
-    if other is not None:
-        raise UsageError(f"--what {other} is of points in the plane: with --space use {', '.join(recipe.products)}")
+    own = o.products
     if "what" not in sources:
-        fmt, own = format_named(o.format or ending), recipe.products
+        fmt = format_named(o.format or ending)
         usual = (what for what, each in own.items() if fmt in each.usual_for)
-        o = changed(o, what=(next(usual, next(iter(own))),))
-    return recipe, o
+        return changed(o, what=(next(usual, next(iter(own))),))
+    for what in (what for what in o.what if what not in own):
+        raise UsageError(f"--what {what} is of points in the plane: with --space use {', '.join(own)}")
+    return o
 
 
-def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:
+def process_input(run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:
     """Read one input, compute, check and write its results, which take their places together."""
     from vorotool.formats.io.atomic_output import make_folder
     from vorotool.formats.io.temporaries import committed_together
@@ -103,7 +56,7 @@ def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets
         has_units, has_page = shows_units(targets) or options.scale_bar, any(each.fmt == "html" for each in targets)
         given = JobInput(path, read_backdrop(options), has_units, has_page)
     with naming(given):
-        products = recipe.make(run, options, given)
+        products: Results = resolved(options.job)(run, options, given)
     check_system(run, products.options, targets)
     for target in targets:
         products.check(target)
@@ -121,6 +74,8 @@ def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets
     with committed_together(), texts, unit_column(unit), unit_member(stated), columns:
         for target in targets:
             if options.out_dir is not None:
+                from pathlib import Path
+
                 make_folder(Path(target.path).parent)
             with run.phase(f"write {target.what}"), coordinates_written(**digits) as written:
                 products.write(target, inputs=(path,))

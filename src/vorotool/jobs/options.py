@@ -7,12 +7,13 @@ each option means.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from vorotool.formats.io.sources import suffix_of
+from vorotool.products.commands import COMMANDS
 from vorotool.products.inputs import DRAWINGS
 from vorotool.products.options import DEFAULTS, options_of
-from vorotool.products.registry import OF_ONE_SHAPE
+from vorotool.products.registry import OF_ONE_SHAPE, OF_SPACE, PRODUCTS, Product
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -57,6 +58,17 @@ class Options:
         raise AttributeError(f"options are not changed: {name}")
 
     __delattr__ = __setattr__  # type: ignore[assignment]
+
+    @property
+    def products(self) -> Mapping[str, Product]:
+        """All results of the command, by name."""
+        return OF_SPACE[self.command] if self.command in OF_SPACE and self.is_of_space else PRODUCTS[self.command]
+
+    @property
+    def job(self) -> str:
+        """``module:function`` that reads an input, and gives its results."""
+        command = COMMANDS[self.command]
+        return command.job_in_space if command.job_in_space and self.is_of_space else command.job
 
     # ---- the input
     @property
@@ -166,7 +178,7 @@ class Options:
     def may_be_drawn(self) -> bool:
         """Whether an input may be a drawing with curves, as far as its name tells."""
         said = self.input_format and self.input_format.lower()
-        endings = {Path(path).suffix.lower().removeprefix(".") for path in self.inputs}
+        endings = {suffix_of(path).removeprefix(".") for path in self.inputs}
         return said in DRAWINGS if said else self.files_from is not None or bool(endings & {*DRAWINGS, ""})
 
     @property

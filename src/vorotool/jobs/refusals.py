@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from fractions import Fraction
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, UsageError
@@ -11,20 +10,21 @@ from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import unit_of_grid
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import Measured, check_frame
-from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, picture_format
+from vorotool.products.commands import COMMANDS
+from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, picture_format, resolved
 from vorotool.products.options import flag, options_of
 from vorotool.products.options.row import Option
-from vorotool.products.options.rules import EXCLUDING, NEEDING, Rule
-from vorotool.products.registry import NAMING_FEATURES, PRODUCTS, Product
+from vorotool.products.options.rules import EXCLUDING, NEEDING
+from vorotool.products.registry import NAMING_FEATURES, PRODUCTS
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from vorotool.jobs.run_log import Run
     from vorotool.jobs.units import PixelSize
     from vorotool.numeric.length_units import InputUnit
     from vorotool.types.pixels import PixelGrid
     from vorotool.types.volumes.voxel_frame import VoxelGrid
-
-Products = Mapping[str, Product]
 
 _KINDS = {
     ".picture": "pictures (-f {})",
@@ -42,37 +42,43 @@ _KINDS = {
 """Words for kinds of outputs, with a place for the formats of pictures."""
 
 
-def check_options(o: Options, targets: Sequence[Target], products: Products) -> None:
-    """Refuse what the table of options and its rules exclude."""
-    kinds = [_kinds_of(o, target, products[target.what]) for target in targets]
-    holding = _Holding(o, targets, kinds)
+def check_options(o: Options, targets: Sequence[Target]) -> None:
+    """Refuse what the table of options and its rules exclude, and what no output shows."""
+    rows = options_of(o.command)
+    given = {name: row for name, row in rows.items() if getattr(o, name) is not None and getattr(o, name) != row.unset}
+    held = {"inputs", *given, *(f"what:{what}" for what in o.what), *(f"layer:{layer}" for layer in o.layers or ())}
+    held |= {f"{name}={value}" for name, value in vars(o).items() if isinstance(value, str)}
+    for target in targets:
+        held |= {form for kind in _kinds_of(o, target) for form in (f".{kind}", f"{target.what}.{kind}")}
+
+    def holds(condition: str) -> bool:  # see `vorotool.products.options.rules`
+        return all(
+            part in held
+            or (part.startswith("?") and getattr(o, part[1:]))
+            or (part.startswith("only:") and set(o.what) <= set(part[5:].split(",")))
+            for part in condition.split("+")
+        )
+
     for rule in (each for each in EXCLUDING if o.command in each.commands.split()):
-        for one in filter(holding.holds, rule.these.split()):
-            for other in filter(holding.holds, rule.others.split()):
+        for other in filter(holds, rule.others.split()):
+            for one in filter(holds, rule.these.split()):
                 first, second = _words(o, one), _words(o, other)
                 raise UsageError(f"{second} cannot be combined with {first}: {rule.why}; {rule.instead}")
     for rule in (each for each in NEEDING if o.command in each.commands.split()):
-        _check_need(o, rule, holding)
-    for row in options_of(o.command).values():
-        if row.acts_on and is_given(o, row) and not any(map(holding.holds, _conditions(row))):
-            name = flag(o.command, row.parameter, getattr(o, row.parameter))
-            raise UsageError(f"{name} applies only to {_where(o, row)}")
+        for one in filter(holds, rule.these.split()):
+            if not any(map(holds, rule.others.split())):
+                needed = " or ".join(_needed(o, each) for each in rule.others.split() if not each.startswith("?"))
+                what = o.command if one == "inputs" else _words(o, one)
+                raise UsageError(f"{what} needs {needed}" + (f": {rule.why}" if rule.why else ""))
+    for name, row in given.items():
+        shown_by = (word if any(sign in word for sign in "=:.?") else f"what:{word}" for word in row.acts_on.split())
+        if row.acts_on and not any(map(holds, shown_by)):
+            raise UsageError(f"{flag(o.command, name, getattr(o, name))} applies only to {_where(o, row)}")
     _check_values(o)
-    _check_layers(o, targets, products)
-
-
-def is_given(o: Options, row: Option) -> bool:
-    """Tell whether an option has another value than its default."""
-    value = getattr(o, row.parameter)
-    return value is not None and value != row.unset
-
-
-def _check_need(o: Options, rule: Rule, holding: _Holding) -> None:
-    for one in filter(holding.holds, rule.these.split()):
-        if not any(map(holding.holds, rule.others.split())):
-            needed = " or ".join(_needed(o, each) for each in rule.others.split() if not each.startswith("?"))
-            what = o.command if one == "inputs" else _words(o, one)
-            raise UsageError(f"{what} needs {needed}" + (f": {rule.why}" if rule.why else ""))
+    if o.layers or o.colors or o.line_widths:
+        _check_layers(o, targets)
+    if COMMANDS[o.command].check:
+        resolved(COMMANDS[o.command].check)(o, targets)
 
 
 def _needed(o: Options, condition: str) -> str:
@@ -81,51 +87,9 @@ def _needed(o: Options, condition: str) -> str:
     return f"{_words(o, condition)} {'' if row is None else row.metavar}".rstrip()
 
 
-# ---- conditions ----------------------------------------------------------------------------------
-class _Holding:
-    """Which conditions hold for options and outputs."""
-
-    def __init__(self, o: Options, targets: Sequence[Target], kinds: Sequence[set[str]]) -> None:
-        self.o, self.rows = o, options_of(o.command)
-        self.outputs = {(target.what, kind) for target, own in zip(targets, kinds, strict=True) for kind in own}
-        self.kinds = {kind for _, kind in self.outputs}
-
-    def holds(self, condition: str) -> bool:
-        """Tell whether a condition holds; see `vorotool.products.options.rules`."""
-        return all(map(self._holds, condition.split("+")))
-
-    def _holds(self, condition: str) -> bool:
-        for sign, test in self._tests.items():
-            before, found, rest = condition.partition(sign)
-            if found:
-                return bool(test(before, rest))
-        return condition == "inputs" or (condition in self.rows and is_given(self.o, self.rows[condition]))
-
-    @property
-    def _tests(self) -> dict[str, Callable[[str, str], Any]]:
-        """What is tested of a condition with a sign, by what stands before and behind it."""
-        return {
-            ":": self._holds_names,
-            "?": lambda _, name: getattr(self.o, name),
-            "=": lambda name, value: getattr(self.o, name) == value,
-            ".": lambda what, kind: (what, kind) in self.outputs or (not what and kind in self.kinds),
-        }
-
-    def _holds_names(self, kind: str, names: str) -> bool:
-        if kind == "only":
-            return set(self.o.what) <= set(names.split(","))
-        return names in (self.o.what if kind == "what" else self.o.layers or ())
-
-
-def _conditions(row: Option) -> Iterator[str]:
-    """Give the conditions of which one is needed for an option to show."""
-    for word in row.acts_on.split():
-        is_result = not any(sign in word for sign in "=:.?")
-        yield f"what:{word}" if is_result else word
-
-
-def _kinds_of(o: Options, target: Target, product: Product) -> set[str]:
+def _kinds_of(o: Options, target: Target) -> set[str]:
     """Give what an output is, as conditions name it."""
+    product = o.products[target.what]
     fmt, shown = FORMATS[target.fmt], picture_format(target.fmt)
     layers = product.layers.get(shown) if shown in PICTURES else None
     is_drawn = target.what != "diagram" or o.command != "tessellate" or o.draws_diagram
@@ -218,11 +182,11 @@ def _check_values(o: Options) -> None:
         check_frame(o.frame)
 
 
-def _check_layers(o: Options, targets: Sequence[Target], products: Products) -> None:
+def _check_layers(o: Options, targets: Sequence[Target]) -> None:
     """Refuse layers, and colors and widths of layers, that a picture has not."""
     known: list[str] = []
     for target in targets:
-        layers = products[target.what].layers.get(picture_format(target.fmt), ())
+        layers = o.products[target.what].layers.get(picture_format(target.fmt), ())
         known += layers
         if layers:
             _check_chosen(o, target.fmt, target.what, layers)
@@ -262,8 +226,8 @@ def refuse(options: Mapping[str, Any], reason: str) -> None:
 _WITH_SYSTEM = frozenset({"geojson", "jsonl", "json", "npz", "gpkg", "fgb", "shp", "parquet"})
 """Formats that hold a coordinate reference system."""
 
-ALIKE = Fraction(1, 100)
-"""Sides that differ by no more of their length are one: users round them."""
+ALIKE = 100
+"""Sides that differ by no more than this part of their length are one: users round them."""
 
 
 def check_image_size(run: Run, o: Options, name: str, grid: PixelGrid | None) -> None:
@@ -322,7 +286,7 @@ def _check(run: Run, o: Options, name: str, has: str, stated: tuple[str, tuple[F
 
 
 def _are_alike(sides: tuple[Fraction, ...], own: tuple[Fraction, ...]) -> bool:
-    return all(abs(one - other) <= ALIKE * other for one, other in zip(sides, own, strict=True))
+    return all(ALIKE * abs(one - other) <= other for one, other in zip(sides, own, strict=True))
 
 
 def _text(size: PixelSize) -> str:

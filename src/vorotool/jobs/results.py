@@ -15,7 +15,7 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, table_in_units
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import ANIMATIONS, PICTURES, picture_format
-from vorotool.products.registry import PRODUCTS, Product, is_of
+from vorotool.products.registry import Product, is_of
 from vorotool.products.writing import write_product
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ class Results:
     @cached_property
     def products(self) -> Mapping[str, Product]:
         """All results of the command."""
-        return PRODUCTS[self.options.command]
+        return self.options.products
 
     # ---- what commands give
     def value(self, what: str) -> Any:

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import combinations
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import OUTPUT, UsageError
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
-from vorotool.formats.io.sources import output_name, without_gz
+from vorotool.formats.io.sources import output_name, suffix_of, without_gz
 from vorotool.plain import plain
 from vorotool.products.formats import EXTENSIONS, FORMATS, format_named
 from vorotool.products.inputs import NAMES_WITH
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from vorotool.jobs.options import Options
+    from vorotool.products.registry import Product
 
 
 @plain
@@ -33,33 +35,31 @@ class Target:
         return not FORMATS[self.fmt].is_text
 
 
-def plan_targets(
-    formats: Mapping[str, Sequence[str]],
-    what: Sequence[str],
-    *,
-    output: str | None,
-    fmt: str | None,
-    out_dir: str | None,
-    source: str,
-) -> list[Target]:
+def plan_targets(o: Options, source: str) -> list[Target]:
     """Lay out the outputs of one input."""
+    what, output, fmt, out_dir = o.what, o.output, o.format, o.out_dir
+    products = o.products
     if output is not None and out_dir is not None:
         raise UsageError("give -o or --out-dir, not both")
     several = len(what) > 1
-    wanted = _formats_of_results(formats, what, fmt)
+    wanted = dict.fromkeys(what) if fmt is None else _formats_of_results(products, what, fmt)
     if out_dir is not None:
+        from pathlib import Path
+
         stem = Path(out_dir) / ("stdin" if source == "-" else Path(without_gz(output_name(source))).stem)
         choose = _several_format if several else _chosen
-        chosen = {name: choose(formats, name, wanted[name], None) for name in what}
+        chosen = {name: choose(products, name, wanted[name], None) for name in what}
         return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
     if several:
         if output is None or stream_kind(output) is not None:
             raise UsageError(
                 "several results need -o STEM (files STEM.<what>.<ext>, or layers of STEM.gpkg) or --out-dir DIR"
             )
-        given = EXTENSIONS.get(Path(output).suffix.lower())
+        from pathlib import Path
+
+        given = EXTENSIONS.get(suffix_of(output))
         stem = Path(output).with_suffix("") if given else Path(output)
-        chosen = {name: _several_format(formats, name, wanted[name], given) for name in what}
+        chosen = {name: _several_format(products, name, wanted[name], given) for name in what}
         # one GeoPackage holds all results that it can, as layers
         held = {name for name in what if given == chosen[name] == "gpkg"}
         return [
@@ -67,11 +67,11 @@ def plan_targets(
         ]
     name = what[0]
     path = "-" if output is None else output
-    chosen_format = _chosen(formats, name, wanted[name], None if path == "-" else Path(path).suffix.lower())
+    chosen_format = _chosen(products, name, wanted[name], None if path == "-" else suffix_of(path))
     target = Target(name, path, chosen_format)
     if output is None and fmt is None and target.is_binary:
         raise UsageError(
-            f"{name} output is binary: name a file with -o, or a text format with -f {_text(formats[name])}"
+            f"{name} output is binary: name a file with -o, or a text format with -f {_text(products[name].formats)}"
         )
     return [target]
 
@@ -83,7 +83,7 @@ def check_stats(options: Options, targets: Sequence[Target], source: str) -> Non
         return
     is_open = stats == STANDARD or descriptor_of(stats) is not None
     for role, path in () if is_open else (("the input", source), *options.files_read().items()):
-        if is_same_file(Path(stats), path):
+        if is_same_file(stats, path):
             raise UsageError(f"--stats {stats} is also {role}, which is never replaced: choose another name")
     for target in targets:
         if not is_same_output(stats, target.path):
@@ -133,16 +133,20 @@ def check_targets(options: Options, targets: Sequence[Target], source: str) -> N
                 replaced = Rules(options.no_clobber, rules["inputs"], named_by)
                 check_parts(target.path, replaced, makes_folder=rules["makes_folder"])
     if options.stats is not None:
-        in_out_dir = options.out_dir is not None and Path(options.stats).parent == Path(options.out_dir)
+        in_out_dir = options.out_dir is not None and _is_in(options.stats, options.out_dir)
         check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir, option="--stats")
 
 
-def _formats_of_results(
-    formats: Mapping[str, Sequence[str]], what: Sequence[str], listed: str | None
-) -> dict[str, str | None]:
+def _is_in(name: str, folder: str) -> bool:
+    from pathlib import Path
+
+    return Path(name).parent == Path(folder)
+
+
+def _formats_of_results(products: Mapping[str, Product], what: Sequence[str], listed: str) -> dict[str, str | None]:
     """Give each result the format of a list, as of ``-f tiff,csv``, that is the most usual one for it."""
-    wanted = [] if listed is None else [_known_format(name.strip(), formats) for name in listed.split(",")]
-    fitting = {name: _most_usual(formats[name], wanted) for name in what}
+    wanted = [_known_format(name.strip(), products) for name in listed.split(",")]
+    fitting = {name: _most_usual(products[name].formats, wanted) for name in what}
     unused = [fmt for fmt in wanted if fmt not in fitting.values()]
     if len(wanted) > 1 and unused:
         taken = ", ".join(f"{fmt or 'nothing'} to {name}" for name, fmt in fitting.items())
@@ -157,17 +161,17 @@ def _most_usual(possible: Sequence[str], wanted: Sequence[str]) -> str | None:
     return own or next((fmt for fmt in wanted if FORMATS[fmt].family in families), None)
 
 
-def _known_format(fmt: str, formats: Mapping[str, Sequence[str]]) -> str:
+def _known_format(fmt: str, products: Mapping[str, Product]) -> str:
     """Return the format that a name stands for; one of another command is refused where its result is known."""
     found = format_named(fmt)
     if found is None:
-        possible = dict.fromkeys(each for those in formats.values() for each in those)
+        possible = dict.fromkeys(each for own in products.values() for each in own.formats)
         raise UsageError(f"invalid -f {fmt!r}: expected one of {', '.join(possible)}")
     return found
 
 
-def _chosen(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, extension: str | None) -> str:
-    possible, chosen = formats[what], fmt
+def _chosen(products: Mapping[str, Product], what: str, fmt: str | None, extension: str | None) -> str:
+    possible, chosen = products[what].formats, fmt
     if chosen is None and extension:
         chosen = EXTENSIONS.get(extension)
         if chosen is None:
@@ -181,21 +185,21 @@ def _chosen(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, ex
             f"write {chosen} with the command that computes the result"
         )
     if chosen not in possible:
-        others = [name for name, those in formats.items() if chosen in those]
+        others = [name for name, each in products.items() if chosen in each.formats]
         instead = f"use --what {' or '.join(others)}, or " if others else "use "
         raise UsageError(f"{what} cannot be written as {chosen}: {instead}one of {', '.join(possible)}")
     return chosen
 
 
-def _several_format(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, given: str | None) -> str:
+def _several_format(products: Mapping[str, Product], what: str, fmt: str | None, given: str | None) -> str:
     """With several results the extension of -o holds for those that can be written so, or in a format of its family."""
     wanted = fmt or given
-    family = FORMATS[wanted].family if wanted else ""
-    if family and wanted not in formats[what]:
-        fmt = next((own for own in formats[what] if FORMATS[own].family == family), fmt)
-    if fmt is None and given in formats[what]:
+    family, possible = FORMATS[wanted].family if wanted else "", products[what].formats
+    if family and wanted not in possible:
+        fmt = next((own for own in possible if FORMATS[own].family == family), fmt)
+    if fmt is None and given in possible:
         return str(given)
-    return _chosen(formats, what, fmt, None)
+    return _chosen(products, what, fmt, None)
 
 
 def _named(stem: Path, what: str | None, fmt: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -25,7 +25,6 @@ from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import in_units, sides_of, table_in_units, unit_columns
 from vorotool.numeric.parallel import Progress
-from vorotool.products.registry import SPACE_PRODUCTS, Product
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
 
@@ -320,11 +319,6 @@ class TetrahedraProducts(Results):
                 report_no_geometry(run, options)
         self.mesh: Any = self.call(TRIANGULATE, points, phase="triangulate")
         note_repeated_labels(run, points, self.mesh)
-
-    @cached_property
-    def products(self) -> Mapping[str, Product]:
-        """All results of points in space."""
-        return SPACE_PRODUCTS
 
     def value(self, what: str) -> Any:
         """Give the triangulation, which has all results."""

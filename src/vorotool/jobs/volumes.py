@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -36,7 +36,6 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize, sides_of, unit_columns, unit_stats
 from vorotool.numeric.length_units import unit_name
 from vorotool.products.inputs import VOLUME_NAMES
-from vorotool.products.registry import VOLUME_PRODUCTS, Product
 from vorotool.render.label_images.slices import SlicePicture
 from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.volumes.volume import VolumeSeeds
@@ -66,11 +65,6 @@ class VolumeProducts(Tessellated):
         sides = sides_of(options, 3)
         super().__init__(run, options, given, sweep, sides, _written_grid(options.pixel_size, sides, sweep.seeds.grid))
         self.is_held = given.has_page or "color" in options.what
-
-    @cached_property
-    def products(self) -> Mapping[str, Product]:
-        """All results of volumes."""
-        return VOLUME_PRODUCTS
 
     @cached_property
     def _views(self) -> SlicePicture:

@@ -14,6 +14,7 @@ class Command(NamedTuple):
     job: str  # `module:function` of `function(run, options, given)`, which reads an input and gives its results
     reads: Holds | None  # the geometry that it reads beside images; what is drawn again may be any
     text: str  # what `--help` says; the second paragraph is an example
+    job_in_space: str = ""  # the job where the input has three axes
     check: str = ""  # `module:function` of `function(options, targets)`, which refuses what no table says
     instead: tuple[tuple[str, str], ...] = ()  # options that it lacks, and what to do instead
 
@@ -34,6 +35,7 @@ Example:
 INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG, NPY,
 Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept. With --volume it is a volume: a
 stack (TIFF, NPY, Zarr), or points with a z.""",
+        job_in_space="jobs.volumes:products",
         check="jobs.tessellation:check",
     ),
     "delaunay": Command(
@@ -54,6 +56,7 @@ kept. OBJ and files for Triangle (.edge, .ele, .node) number the points instead.
 --what statistics summarizes area, perimeter, roundness, neighbors and distances of whole cells.
 
 --what compare lists where the digital rule differs from the exact triangulation, each with its cause.""",
+        job_in_space="jobs.triangulation:TetrahedraProducts",
     ),
     "alphashape": Command(
         "Alpha shapes of points, of one radius or of all.",

@@ -305,6 +305,8 @@ VOLUME_PRODUCTS = {each.what: each for each in _VOLUMES}
 """Those of `tessellate` where the input is a volume."""
 SPACE_PRODUCTS = {each.what: each for each in _SPACE}
 """Those of `delaunay` where the points lie in space."""
+OF_SPACE = {"tessellate": VOLUME_PRODUCTS, "delaunay": SPACE_PRODUCTS}
+"""Those of commands whose inputs may have three axes, where they do."""
 
 
 _OF_PARTS = "skeleton diagram elements branches points transects necks offset centerline"

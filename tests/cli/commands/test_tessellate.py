@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 
 from support.oracles.oracles import nearest_labels, nearest_squares
+from vorotool.jobs.options import Options
 from vorotool.jobs.targets import plan_targets
-from vorotool.products.registry import formats_of
 
 X, Y = [2, 7, 1], [1, 5, 6]
 LABELS = nearest_labels(X, Y, [1, 2, 3], (0, 0, 8, 7))
@@ -128,6 +128,6 @@ def test_window_and_distance(run, folder):
     ],
 )
 def test_targets(what, options, expected):
-    given = {"output": None, "fmt": None, "out_dir": None, **options}
-    found = plan_targets(formats_of("tessellate"), what, source="x/in.csv", **given)
+    given = {"format" if name == "fmt" else name: value for name, value in options.items()}
+    found = plan_targets(Options("tessellate", what=tuple(what), **given), "x/in.csv")
     assert [(target.path, target.fmt) for target in found] == expected

@@ -145,12 +145,13 @@ class Fish(FishComplete):
 SHELLS: dict[str, type[ShellComplete]] = {"bash": Bash, "zsh": Zsh, "fish": Fish}
 
 
-def register() -> None:
-    """Let click answer the shells by these classes."""
-    from click.shell_completion import add_completion_class
+def complete(group: click.Command) -> int:
+    """Let click answer a shell by these classes; the exit code."""
+    from click.shell_completion import add_completion_class, shell_complete
 
     for name, shell in SHELLS.items():
         add_completion_class(shell, name)
+    return shell_complete(group, {}, "vorotool", VARIABLE, os.environ[VARIABLE])
 
 
 @click.command("completion")

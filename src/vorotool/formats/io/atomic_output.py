@@ -210,12 +210,12 @@ def _is_regular(target: Path) -> bool:
         return True
 
 
-def is_same_file(target: Path, source: str) -> bool:
+def is_same_file(target: str | os.PathLike[str], source: str) -> bool:
     """Whether an output is an input; ``-`` is standard input."""
     try:
         if source == STANDARD:
-            return os.path.samestat(target.stat(), os.fstat(sys.stdin.fileno()))
-        return target.samefile(file_of(source))
+            return os.path.samestat(os.stat(target), os.fstat(sys.stdin.fileno()))
+        return os.path.samefile(target, file_of(source))
     except (OSError, ValueError, AttributeError):  # an input that is not there, or no file, is no output
         return False
 

@@ -67,7 +67,7 @@ def _place(name: str) -> tuple[int | None, int] | None:
             match = re.fullmatch(_OF_A_PROCESS, folder) if folder.startswith("/proc/") else None
             if match or folder == "/dev/fd":
                 return (int(match[1]) if match else None, int(last)) if re.fullmatch("[0-9]{1,9}", last) else None
-            path = str(os.path.join(folder, os.readlink(os.path.join(folder, last))))  # noqa: PTH115, PTH118
+            path = str(os.path.join(folder, os.readlink(os.path.join(folder, last))))
     except (OSError, ValueError):  # no link any more, or no path
         pass
     return None
@@ -78,7 +78,7 @@ def stream_kind(name: str) -> str | None:
     if name == STANDARD or descriptor_of(name) is not None:
         return "an open descriptor"
     try:
-        mode = os.stat(name).st_mode  # noqa: PTH116, since a name may be anything
+        mode = os.stat(name).st_mode
     except (OSError, ValueError):
         return None
     return next((kind for is_kind, kind in _KINDS if is_kind(mode)), None)
@@ -88,7 +88,7 @@ def input_identity(name: str) -> Hashable | None:
     """An identity that two names of one stream share; None for files, and for devices, which start anew."""
     number = 0 if name == STANDARD else descriptor_of(name)
     try:
-        found = os.stat(name) if number is None else os.fstat(number)  # noqa: PTH116
+        found = os.stat(name) if number is None else os.fstat(number)
     except (OSError, ValueError):
         return number
     if stat.S_ISFIFO(found.st_mode) or stat.S_ISSOCK(found.st_mode):
@@ -103,7 +103,7 @@ def is_same_output(one: str, other: str) -> bool:
         return True
     try:
         a, b = (
-            os.stat(name) if number is None else os.fstat(number)  # noqa: PTH116
+            os.stat(name) if number is None else os.fstat(number)
             for name, number in zip((one, other), numbers, strict=True)
         )
     except (OSError, ValueError):

@@ -51,7 +51,7 @@ class Source:
     @property
     def suffix(self) -> str:
         """Extension of the name in lower case, with its dot, that of gzip left out; empty for standard input."""
-        return Path(without_gz(self.name)).suffix.lower()
+        return suffix_of(without_gz(self.name))
 
 
 @plain
@@ -77,6 +77,13 @@ def read_source(path: str | os.PathLike[str], layer: str | None = None) -> Sourc
     if data.startswith(GZIP) and not name.lower().endswith(".svgz"):
         return Source(spoken, _unpacked(data, spoken), layer=layer, is_unpacked=True)
     return Source(spoken, data, layer=layer)
+
+
+def suffix_of(path: str) -> str:
+    """Return the extension of a path with its dot, in lower case; empty where it has none."""
+    name = os.path.basename(path.rstrip("/"))
+    dot = name.rfind(".")
+    return name[dot:].lower() if 0 < dot < len(name) - 1 else ""
 
 
 def without_gz(name: str) -> str:
