@@ -50,7 +50,6 @@ def as_place(source: Any, name: str) -> tuple[float, float]:
 
 def _points_of(source: Any, name: str) -> PointSet:
     if is_of(source, "SeedSet"):
-        assert source.sites is not None  # SeedSet has filled them in
         labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
         frame = None if source.frame is None else source.frame.box
         return PointSet(source.sites, labels, source.properties, y_axis=source.y_axis, index=source.index, frame=frame)

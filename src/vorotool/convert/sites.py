@@ -86,7 +86,6 @@ def _of_held(held: HeldFeatures, name: str) -> Sites:
     items = np.empty(len(held.items), dtype=object)
     items[:] = [_shapely_of(item) for item in held.items]
     made = polygons_of_geometry(items, lambda own: {"feature": own, **held.described(own)}, takes_points=True)
-    assert made.feature is not None
     note_degrees(made, name, warn)
     return Sites(made, made.feature, len(items), held.ids, held.properties, held.index)
 
@@ -129,7 +128,7 @@ def _of_image(source: Any, name: str) -> Sites:
     outlines: PolygonSet = resolved("engines.label_images.outlines:outlines")(image)
     if image.grid is None or image.grid.transform is None:
         return _of_polygons(outlines)
-    first = (image.frame.x, image.frame.y) if isinstance(image, LabelImage) and image.frame is not None else (0, 0)
+    first = (image.frame.x, image.frame.y) if isinstance(image, LabelImage) else (0, 0)
     return _of_polygons(_on_map(outlines, image.grid, first))
 
 
@@ -151,7 +150,6 @@ def _on_map(outlines: PolygonSet, grid: PixelGrid, first: tuple[int, int]) -> Po
 def _of_polygons(polygons: PolygonSet) -> Sites:
     """Sites that are the features of polygons; each is described by its first part."""
     feature = polygons.feature
-    assert feature is not None
     count = int(feature.max(initial=-1)) + 1
     first = np.searchsorted(feature, np.arange(count))
     row = np.where(feature[first] == np.arange(count), first, -1) if count else first

@@ -114,7 +114,6 @@ def as_volume_points(source: Any, name: str = "points") -> VolumePoints:
 
 def _points_of(source: Any) -> VolumePoints:
     if isinstance(source, VolumeSeeds):
-        assert source.sites is not None  # VolumeSeeds has filled them in
         labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
         return VolumePoints(source.sites, labels, source.properties, source.index)
     refuse_paths(source)

@@ -212,7 +212,7 @@ def _of_polygons(value: PolygonSet, note: Callable[[str], None]) -> Description:
     kind = " and ".join(name for name, count in (("polygons", polygons), ("lines", lines)) if count)
     return {
         "kind": kind or "polygons",
-        "features": len(set(value.feature.tolist())) if value.feature is not None else len(value),
+        "features": len(set(value.feature.tolist())),
         "polygons": polygons,
         "holes": int((value.ring_kind == HOLE).sum()),
         "lines": lines,

@@ -116,7 +116,6 @@ class DrawnInput(Results):
             self._colors = object_colors(self._value, threads=o.threads)
         if fmt == "html":
             check_size(image.shape, "HTML")
-        assert image.frame is not None  # LabelImage has filled it in
         self.world = world_of(run, o, frame=image.frame.box, size=size)
 
     def _check_layers(self, value: Lined, fmt: str) -> None:

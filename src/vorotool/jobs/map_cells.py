@@ -155,8 +155,6 @@ def _seeds_of_features(o: Options, polygons: PolygonSet, frame: Frame) -> SeedSe
     if not labels.any():
         raise InputError("no feature has a cell in the frame: use a smaller --cell-size, or another --window or --like")
     seeds = seeds_from_raster(Raster(labels), mode="labels", max_sites=o.max_sites)
-    assert seeds.site_labels is not None
-    assert polygons.feature is not None
     features, first = np.unique(polygons.feature, return_index=True)
     known = first[np.searchsorted(features, seeds.site_labels.astype(np.int64) - 1)].tolist()
     without = len(features) - len(known)

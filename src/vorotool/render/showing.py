@@ -161,7 +161,7 @@ def plotted(value: Any, ax: Axes | None = None, **style: Any) -> Axes:
 def _show_image(ax: Axes, image: LabelImage | Raster, style: dict[str, Any]) -> bool:
     """Show pixels, those of a map where they are on it; tells whether y goes upwards."""
     height, width = image.shape
-    x, y = (image.frame.x, image.frame.y) if isinstance(image, LabelImage) and image.frame is not None else (0, 0)
+    x, y = (image.frame.x, image.frame.y) if isinstance(image, LabelImage) else (0, 0)
     across, down = (1.0, 1.0) if isinstance(image, Raster) else map(float, reversed(image.sides.lengths))
     extent = ((x - 0.5) * across, (x + width - 0.5) * across, (y + height - 0.5) * down, (y - 0.5) * down)
     grid: PixelGrid | None = image.grid

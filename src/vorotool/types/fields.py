@@ -120,6 +120,11 @@ def position(*shape: Axis, default: Any = MISSING, kw_only: bool = False) -> Any
     return _field(Meaning.POSITION, shape, np.float64, default, kw_only=kw_only)
 
 
+def filled_in() -> Any:
+    """Declare a value that follows from the others where it is not given."""
+    return field(default=None)
+
+
 def input_box() -> Any:
     """Declare the box of the image or the page that a value comes from, which `==` does not look at; or None."""
     return _field(Meaning.POSITION, (), None, None, compare=False)

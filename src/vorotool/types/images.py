@@ -52,7 +52,7 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
     maker = "tessellate"
 
     labels: NDArray[Any]
-    frame: Frame | None = None
+    frame: Frame = f.filled_in()
     seeds: SeedSet | None = None
     grid: PixelGrid | None = None
     sides: PixelSides = SQUARE

@@ -192,7 +192,7 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
         rings.kind,
         np.cumsum(starts_polygon) - 1,
         None if given.ids is None else [given.ids[i] for i in source.tolist()],
-        None if given.feature is None else given.feature[source],
+        given.feature[source],
         {name: [values[i] for i in source.tolist()] for name, values in given.properties.items()},
         given.y_axis,
         given.crs,

@@ -136,15 +136,12 @@ def _in_unit(mesh: Mesh, sides: PixelSides) -> Mesh:
 
 def _sites_of_seeds(seeds: SeedSet, sides: PixelSides) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
     """Places in steps of the sides of a pixel, and labels."""
-    assert seeds.sites is not None  # SeedSet has filled them in
-    assert seeds.site_labels is not None
     return seeds.sites * (sides.x, sides.y), seeds.site_labels
 
 
 def _sites_of_image(image: LabelImage, threads: int) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
     if image.seeds is not None:
         return _sites_of_seeds(image.seeds, image.sides)
-    assert image.frame is not None
     regions = Regions(measure_regions(image, threads=threads), image.frame, image.sides)
     return regions.sites, regions.labels
 

@@ -170,7 +170,6 @@ def are_apart(graph: PlanarGraph) -> bool:
     """Whether nothing in the graph of all features was repaired, and none touches another one or lies over it."""
     given = graph.polygons
     assert given is not None
-    assert given.feature is not None
     assert graph.vertices is not None
     if any(graph.repairs.values()):
         return False
@@ -185,7 +184,6 @@ def are_apart(graph: PlanarGraph) -> bool:
 
 def _has_lines_inside(graph: PlanarGraph, given: PolygonSet) -> bool:
     """Whether an open line is inside another feature; of one that is a point it is taken to be so."""
-    assert given.feature is not None
     is_free = np.bincount(graph.segments.ravel(), minlength=len(graph.points)) == 0
     is_free[graph.point_holes[:, 0]] = False
     if is_free.any():
@@ -276,7 +274,6 @@ def _batches(
 def _batch(
     used: PolygonSet, arrays: RingArrays, placement: Placement, corners: NDArray[np.int32], polygons: Indices
 ) -> FeatureBatch:
-    assert used.feature is not None
     taken, rings, vertices = arrays.taken(polygons)
     part = PolygonSet(
         taken.xy,
@@ -300,7 +297,6 @@ def _shapes_of(batch: FeatureBatch, features: Features, checks: bool, progress: 
     if checks and not _are_apart(made):
         raise _DependentError
     feature = batch.part.feature
-    assert feature is not None
     _, own = np.unique(feature, return_inverse=True)
     repaired = np.bincount(own, made.is_repaired, minlength=1)[own] > 0
     return BatchShapes(batch, made, placed_shapes(made.graph, is_repaired=repaired))
@@ -403,7 +399,6 @@ class Features:
     @classmethod
     def of(cls, polygons: PolygonSet) -> Features:
         """Find them."""
-        assert polygons.feature is not None
         first = np.flatnonzero(np.diff(polygons.feature, prepend=-1))
         start = np.append(first, len(polygons))
         return cls(start, polygons.ring_starts[polygons.polygon_starts[start]])

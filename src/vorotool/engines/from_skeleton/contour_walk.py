@@ -206,7 +206,6 @@ def site_points(skeleton: Skeleton) -> Indices:
     places = skeleton.site_ends.reshape(-1, 2) + 0.0  # no -0
     if skeleton.features == "separate":
         feature = skeleton.polygons.feature
-        assert feature is not None
         places = np.column_stack([np.repeat(feature[skeleton.site_table.polygon], 2), places])
     _, number = np.unique(places, axis=0, return_inverse=True)
     return number.reshape(-1, 2)

@@ -302,7 +302,6 @@ def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
     rings, is_hole = [rings[k] for k in order.tolist()], is_hole[order]
     own = polygon[order[~is_hole]].tolist()
     given = skeleton.polygons
-    assert given.feature is not None
     return PolygonSet(
         np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]),
         starts_of([len(ring.xy) for ring in rings]),

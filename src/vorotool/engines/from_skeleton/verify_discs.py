@@ -60,7 +60,6 @@ def verify_discs(discs: Discs, *, progress: Progress = None) -> None:
         _check_empty(discs, discs.within, tolerance)
         return
     feature = discs.polygons.feature
-    assert feature is not None
     if (at := first_wrong(discs.polygon < 0)) is not None:
         fail(f"disc {at} is in no polygon")
     of_disc = feature[discs.polygon]

@@ -86,7 +86,6 @@ def _regions(image: LabelImage, labels: NDArray[Any]) -> NDArray[Any]:
     grid = image.grid
     if grid is None or grid.transform is None:
         return _in_unit(geometry, image.sides)
-    assert image.frame is not None
     a, b, c, d, e, f = grid.transform
     left, top = image.frame.x - 0.5, image.frame.y - 0.5
 

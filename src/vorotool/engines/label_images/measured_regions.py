@@ -95,14 +95,12 @@ class Regions:
         """Of the sites, increasing."""
         if self.seeds is None:
             return self.measures.labels
-        assert self.seeds.site_labels is not None  # the seeds have filled them in
         return self.seeds.site_labels
 
     @cached_property
     def sites(self) -> NDArray[np.float64]:
         """(n, axes) positions, in steps of the sides."""
         if self.seeds is not None:
-            assert self.seeds.sites is not None
             return self.seeds.sites * self.steps
         measures = self.measures
         centroids = measures.sums / measures.cells[:, None] + np.array(self.frame.origin, np.int64)

@@ -66,7 +66,6 @@ def outermost_pixels(image: LabelImage) -> NDArray[np.bool_]:
 
 def _painted(image: LabelImage, seeds: SeedSet) -> LabelImage:
     """The pixels of the seeds."""
-    assert image.frame is not None  # LabelImage has filled it in
     order = np.argsort(seeds.labels, kind="stable")[::-1]
     column, row = (
         np.floor(k[order] / seeds.scale + 0.5).astype(np.int64) - first

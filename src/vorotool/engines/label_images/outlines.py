@@ -164,7 +164,6 @@ def outlines(
     check_objects(mode, get_args(Objects), connectivity)
     origin = (0, 0)
     if isinstance(image, LabelImage):
-        assert image.frame is not None  # LabelImage has filled it in
         mode, origin, image = mode or "labels", (image.frame.x, image.frame.y), image.labels
     raster = as_raster(image, "image", is_gray=True)
     if threshold is not None:
@@ -197,7 +196,7 @@ def outlines(
         made["is_hole"],
         made["ring_object"],
         ids.tolist(),
-        np.cumsum(np.diff(ids, prepend=ids[:1]) > 0) if len(ids) else None,
+        np.cumsum(np.diff(ids, prepend=ids[:1]) > 0),
         properties={"label": ids.tolist()} if by_label else {},
         connectivity=connectivity if outline == "crack" else None,
         y_axis=raster.y_axis,

@@ -146,7 +146,6 @@ def _clearances(skeleton: Skeleton, polygon: NDArray[np.int32], places: Floats, 
     polygons = skeleton.polygons
     feature = np.zeros(len(polygons), dtype=np.int64)
     if skeleton.features == "separate":
-        assert polygons.feature is not None
         feature = polygons.feature.astype(np.int64)
     own = feature[polygon]
     found, step = np.empty(len(places)), skeleton.scale or 1.0

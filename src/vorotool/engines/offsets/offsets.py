@@ -111,7 +111,6 @@ def offset(
         shapes = shape_diagram(polygons, strict=strict, threads=threads, progress=progress)
     made = _offsets_of(shapes, wanted, threads, progress)
     feature = made.polygons.feature
-    assert feature is not None
     has_several = len(feature) > 0 and feature[0] != feature[-1]
     return replace(made, features="together") if has_several else made
 
@@ -236,7 +235,6 @@ def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progre
     count = len(graph.points)
     more = np.full(len(diagram.points) - count, -1, dtype=np.int32)  # points that are of no polygon
     polygon = np.insert(placed.sites.polygon, count, more)
-    assert placed.polygons.feature is not None
     feature = np.append(placed.polygons.feature, -1).astype(np.int32)
     return _core.offsets.offset_curves(
         core_diagram(diagram, graph.segment_faces),

@@ -358,7 +358,6 @@ def _are_alone(diagram: AnyDiagram) -> bool:
         return are_apart(diagram.graph)
     polygons = diagram.shapes.polygons
     assert polygons is not None
-    assert polygons.feature is not None
     return len(distinct(polygons.feature)) < 2
 
 

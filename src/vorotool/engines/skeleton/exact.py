@@ -109,7 +109,6 @@ def skeleton_of(
 def of_one_arrangement(skeleton: Skeleton) -> Skeleton:
     """Say that features were taken together, where there are several."""
     feature = skeleton.polygons.feature
-    assert feature is not None
     has_several = len(feature) > 0 and feature[0] != feature[-1]
     return replace(skeleton, features="together") if has_several else skeleton
 

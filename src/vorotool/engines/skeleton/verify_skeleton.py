@@ -300,7 +300,6 @@ def _check_sides(skeleton: Skeleton, threads: int, progress: Progress) -> None:
 def _check_own(skeleton: Skeleton) -> None:
     """Raise if an arc inside is between sites of another feature, or shares a corner with arcs in another polygon."""
     polygons = skeleton.polygons
-    assert polygons.feature is not None
     inside = np.flatnonzero(skeleton.side == INTERIOR)
     polygon = skeleton.polygon[inside]
     of_sites = polygons.feature[skeleton.site_table.polygon][skeleton.sites[inside]]

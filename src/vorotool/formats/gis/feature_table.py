@@ -89,7 +89,6 @@ def read_sites(source: Source, options: ReadOptions) -> Sites:
     expected = (*_POINTS, *_SHAPES)
     _check_kinds(features, kept, expected, "not a point, line or polygon", lambda _: OF_SITES)
     polygons = _shapes_of(features, kept, options)
-    assert polygons.feature is not None
     known: dict[str, Any] = {}
     if options.properties:
         known["ids"] = None if features.ids is None else list(features.ids)

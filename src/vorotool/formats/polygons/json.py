@@ -198,7 +198,6 @@ def write_items(out: BinaryIO, polygons: PolygonSet, own: Mapping[str, Sequence[
 def read_geojson(source: Source, options: ReadOptions) -> PolygonSet:
     """Read the polygons and lines of a GeoJSON document with their ``id``, properties and ``crs``."""
     polygons, features = _read(source, options)
-    assert polygons.feature is not None
     options.note_left_out(source.name, len(features) - len(set(polygons.feature.tolist())))
     return polygons
 
@@ -206,7 +205,6 @@ def read_geojson(source: Source, options: ReadOptions) -> PolygonSet:
 def read_geojson_sites(source: Source, options: ReadOptions) -> Sites:
     """Read points, lines and polygons, each feature a site; one without a geometry is a site without places."""
     polygons, features = _read(source, options, takes_points=True)
-    assert polygons.feature is not None
     options.note_empty(source.name, len(features) - len(set(polygons.feature.tolist())))
     known = _described(source.name, features, range(len(features)), options)
     return Sites(polygons, polygons.feature, len(features), known["ids"], known["properties"])
@@ -300,7 +298,6 @@ def feature_texts(polygons: PolygonSet, style: str) -> Computed | None:
 
 def feature_ranges(polygons: PolygonSet) -> list[tuple[int, int]]:
     """Give the first polygon of each feature, and the one after its last."""
-    assert polygons.feature is not None
     starts = np.flatnonzero(np.diff(polygons.feature, prepend=-1)).tolist()
     return list(pairwise([*starts, len(polygons)]))
 

@@ -78,7 +78,6 @@ def document_arrays(parts: Parts) -> dict[str, NDArray[Any]]:
 
 def polygon_arrays(polygons: PolygonSet) -> dict[str, NDArray[Any]]:
     """Return the arrays of polygons."""
-    assert polygons.feature is not None
     return {
         "ring_x": polygons.xy[:, 0],
         "ring_y": polygons.xy[:, 1],

@@ -43,7 +43,6 @@ def write_voronoi(
         write_arrays(out, _arrays(cells), threads=threads)
         return
     polygons = cells.polygons
-    assert polygons.feature is not None
     d.write_head(out, _head(cells))
     write_items(out, polygons, {"feature": polygons.feature.tolist(), "site": cells.polygon_site.tolist()})
     texts = [json_text(site) for site in d.described_rows(len(cells), cells.ids, cells.properties)]
@@ -81,7 +80,6 @@ def _document(polygons: PolygonSet) -> dict[str, Any]:
 
     out = io.BytesIO()
     out.write(b"{")
-    assert polygons.feature is not None
     write_items(out, polygons, {"feature": polygons.feature.tolist()})
     out.write(b"}")
     items: dict[str, Any] = orjson.loads(out.getvalue())

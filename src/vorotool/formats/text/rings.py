@@ -260,7 +260,6 @@ def written_polygons(polygons: PolygonSet) -> PolygonSet:
     """Round polygons to the decimals of the file, and repair those that are invalid then."""
     if polygons.is_line.any() or (np.diff(polygons.ring_starts) < 3).any():
         return replace(polygons, xy=on_grid(polygons.xy))
-    assert polygons.feature is not None
     first = np.flatnonzero(np.diff(polygons.feature, prepend=-1))
     nesting = Nesting(polygons.ring_starts, polygons.polygon_starts, np.append(first, len(polygons)))
     made = written_rings(polygons.xy, nesting, decimals=current_decimals())

@@ -103,7 +103,6 @@ def label_picture(
     usual = [layer for layer in product.usual_layers if not left_out.get(layer)]
     sites, column, texts = image.seeds if sites is None else sites, wanted.looks.label_by, None
     if sites is not None and column is not None:
-        assert sites.site_labels is not None  # SeedSet has filled it in
         texts = dict(zip(sites.site_labels.tolist(), column_texts(sites.properties, column, ()), strict=True))
     style = wanted.looks.style(wanted.world.scale_bar)
     shown, own = wanted.shown(usual), (wanted.width, y_up, wanted.backdrop, texts, wanted.threads)
@@ -235,7 +234,6 @@ def _pixels(picture: LabelPicture, marks: _Marks) -> NDArray[np.uint8]:
     if backdrop is None:
         pixels: NDArray[np.uint8] = marks.palette.colors[np.concatenate(list(bands))]
     else:
-        assert picture.image.frame is not None  # LabelImage has filled it in
         pixels = over_image(bands, backdrop, marks.palette, picture.image.frame).reshape(backdrop.pixels.shape)
     if not picture.style.has_insets:
         return pixels

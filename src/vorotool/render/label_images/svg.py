@@ -53,7 +53,6 @@ def write_label_svg(
         parts.append(f'<rect {size} fill="{page.style.ground}"/>')
     if backdrop is not None:
         parts.append(image_element(backdrop).decode().rstrip())
-        assert image.frame is not None  # LabelImage has filled it in
         parts.append(f'<g transform="translate({image.frame.x} {image.frame.y})">')
     if "cells" in wanted:
         parts += _cells(page, color_of_label)

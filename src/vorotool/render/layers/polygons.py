@@ -89,7 +89,6 @@ def shape_layers(polygons: PolygonSet, page: Page, layers: Iterable[str]) -> lis
 
 def feature_names(polygons: PolygonSet, page: Page) -> list[str]:
     """Ids of the features, else their numbers from 0, or what the column says that the page is to have."""
-    assert polygons.feature is not None  # PolygonSet has filled it in
     _, first = np.unique(polygons.feature, return_index=True)
     ids = [None] * len(polygons) if polygons.ids is None else polygons.ids
     names = [index if ids[index] is None else ids[index] for index in first.tolist()]
@@ -104,7 +103,6 @@ def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
 
     from vorotool.types.polygons.shapely_geometry import to_shapely
 
-    assert polygons.feature is not None  # PolygonSet has filled it in
     shapes = np.asarray(to_shapely(polygons), dtype=object)
     measure = np.where(polygons.is_line, shapely.length(shapes), shapely.area(shapes))
     order = np.lexsort((np.arange(len(shapes)), -measure, polygons.is_line, polygons.feature))

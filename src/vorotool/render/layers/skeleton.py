@@ -92,7 +92,6 @@ def _labels(skeleton: Skeleton, size: float) -> Texts:
 def _names(skeleton: Skeleton, page: Page) -> Texts:
     """Ids of the objects, each in the middle of the largest disc of its interior skeleton, else at its first vertex."""
     polygons = skeleton.polygons
-    assert polygons.feature is not None  # PolygonSet has filled it in
     _, first = np.unique(polygons.feature, return_index=True)
     owner = polygons.feature[polygons.ring_polygon]
     places = polygons.xy[polygons.ring_starts[:-1][np.searchsorted(owner, polygons.feature[first])]]

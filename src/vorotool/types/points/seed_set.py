@@ -71,8 +71,8 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
     labels: NDArray[np.uint32] = f.numbers(np.uint32, "seeds")
     scale: int = 1
     frame: Frame | None = f.position(default=None)
-    sites: NDArray[np.float64] | None = f.position("sites", 2, default=None)
-    site_labels: NDArray[np.uint32] | None = f.numbers(np.uint32, "sites", default=None)
+    sites: NDArray[np.float64] = f.position("sites", 2, default=None)  # filled in where they are not given
+    site_labels: NDArray[np.uint32] = f.numbers(np.uint32, "sites", default=None)
     object_area: NDArray[np.int64] | None = f.numbers(np.int64, "sites", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
     snapped: int = 0
@@ -100,7 +100,6 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
             object.__setattr__(self, "sites", sites)
             object.__setattr__(self, "site_labels", labels)
         super().__post_init__()
-        assert self.sites is not None
         check_index(self.index, len(self.sites), "site")
 
     def __len__(self) -> int:
@@ -122,17 +121,14 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
         return int(self.labels.max(initial=0))
 
     def _rows(self, _what: str | None = None) -> Rows:
-        assert self.sites is not None
         x, y = np.ascontiguousarray(self.sites.T)
         made = self._features()
         label, *others = made.columns.items()
         return replace(made, columns=dict([label, ("x", x), ("y", y), *others]))
 
     def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
-        assert self.sites is not None
         area = {} if self.object_area is None else {"object_area": self.object_area}
         return point_rows({"label": self.site_labels, **area}, self, self.sites)
 
     def _summary(self) -> str:
-        sites = 0 if self.sites is None else len(self.sites)
-        return f"{counted(len(self), 'seed')} of {counted(sites, 'site')}, {self.scale} to a pixel side"
+        return f"{counted(len(self), 'seed')} of {counted(len(self.sites), 'site')}, {self.scale} to a pixel side"

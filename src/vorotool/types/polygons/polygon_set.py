@@ -89,7 +89,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     ring_kind: NDArray[np.int8] = f.numbers(np.int8, "rings")
     ring_polygon: NDArray[np.int32] = f.index("rings")
     ids: Sequence[Any] | None = None
-    feature: NDArray[np.int32] | None = f.index("polygons", default=None)
+    feature: NDArray[np.int32] = f.index("polygons", default=None)  # filled in where it is not given
     properties: dict[str, Any] = field(default_factory=dict)
     y_axis: YAxis = f.y_axis(default=UNSTATED)
     crs: Any = None
@@ -130,14 +130,12 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     @cached_property
     def part(self) -> NDArray[np.int32]:
         """(p,) number of each polygon within its feature, from 1."""
-        assert self.feature is not None
         first = np.flatnonzero(np.diff(self.feature, prepend=-1))
         return (within(np.diff(first, append=len(self.feature))) + 1).astype(np.int32)
 
     @cached_property
     def labels(self) -> NDArray[np.int64]:
         """(p,) label of the feature of each polygon: what its column ``label`` holds, else its number from 1."""
-        assert self.feature is not None
         return feature_labels(self.feature, self.properties)
 
     @cached_property

@@ -106,7 +106,6 @@ def with_used_rings(polygons: PolygonSet) -> PolygonSet:
         return polygons
     shapes = used_shapes(RingArrays.of(polygons).taken(invalid)[0].polygons(polygons, invalid))
     parts = polygons_of_geometry(shapes, lambda own: {"feature": own}, takes_points=True)
-    assert parts.feature is not None
     kept = np.flatnonzero(np.isin(np.arange(len(polygons)), invalid, invert=True))
     source = np.concatenate([kept, invalid[parts.feature]])
     order = np.argsort(source, kind="stable")
@@ -180,7 +179,6 @@ class RingArrays:
 
     def polygons(self, given: PolygonSet, source: NDArray[Any]) -> PolygonSet:
         """Make a set of polygons that are described as those of another set: ids, features, properties and index."""
-        assert given.feature is not None
         own = source.tolist()
         return replace(
             given,

@@ -113,7 +113,7 @@ class LabelVolume(Value, Tabular, Graph, Elements):
     """
 
     labels: NDArray[Any]
-    frame: VoxelFrame | None = None
+    frame: VoxelFrame = f.filled_in()
     seeds: VolumeSeeds | None = None
     sides: PixelSides = CUBE
     grid: VoxelGrid | None = None
@@ -191,8 +191,8 @@ class VolumeSeeds(Value):
     labels: NDArray[np.uint32] = f.numbers(np.uint32, "seeds")
     scale: int = 1
     frame: VoxelFrame | None = None
-    sites: NDArray[np.float64] | None = f.numbers(np.float64, "sites", 3, default=None)
-    site_labels: NDArray[np.uint32] | None = f.numbers(np.uint32, "sites", default=None)
+    sites: NDArray[np.float64] = f.numbers(np.float64, "sites", 3, default=None)  # filled in where they are not given
+    site_labels: NDArray[np.uint32] = f.numbers(np.uint32, "sites", default=None)
     object_volume: NDArray[np.int64] | None = f.numbers(np.int64, "sites", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
     snapped: int = 0
@@ -220,7 +220,6 @@ class VolumeSeeds(Value):
             object.__setattr__(self, "sites", self.places[first] / self.scale)
             object.__setattr__(self, "site_labels", labels)
         super().__post_init__()
-        assert self.sites is not None
         check_index(self.index, len(self.sites), "site")
 
     def __len__(self) -> int:
@@ -252,5 +251,4 @@ class VolumeSeeds(Value):
         return int(self.labels.max(initial=0))
 
     def _summary(self) -> str:
-        sites = 0 if self.sites is None else len(self.sites)
-        return f"{counted(len(self), 'seed')} of {counted(sites, 'site')}, {self.scale} to a voxel side"
+        return f"{counted(len(self), 'seed')} of {counted(len(self.sites), 'site')}, {self.scale} to a voxel side"
