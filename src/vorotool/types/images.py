@@ -17,7 +17,7 @@ from vorotool.types import fields as f
 from vorotool.types.fields import DOWN, YAxis, record
 from vorotool.types.pixels import SQUARE, Frame, PixelGrid, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.values import Geometric, Graph, Pixels, Tabular, Value, counted, placed
+from vorotool.types.values import Geometric, Graph, Pixels, Tabular, Value, counted
 
 if TYPE_CHECKING:
     from vorotool.types.features import Rows
@@ -103,8 +103,7 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
         size = "" if self.grid is None else f", pixels of {self.grid.size_text()}"
         if self.sides != SQUARE:
             size = f", spacing {self.sides.text()}"
-        text = f"{width} x {height}, {self._label_count()}, {self.labels.dtype}{size}"
-        return placed(text, None if self.grid is None else self.grid.crs)
+        return f"{width} x {height}, {self._label_count()}, {self.labels.dtype}{size}"
 
     def _label_count(self) -> str:
         """Words for the labels that occur, where they are counted soon."""
@@ -200,5 +199,4 @@ class Raster(Value, Pixels):
         height, width = self.shape
         channels = f" x {self.values.shape[2]}" if self.is_color else ""
         size = "" if self.grid is None else f", pixels of {self.grid.size_text()}"
-        text = f"{width} x {height}{channels}, {self.values.dtype}{size}"
-        return placed(text, None if self.grid is None else self.grid.crs)
+        return f"{width} x {height}{channels}, {self.values.dtype}{size}"

@@ -71,10 +71,11 @@ class Value(Record):
         return getattr(self._made_of, "unit", None)
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}: {self._summary()}"
+        words = self._summary(), None if self.crs is None else crs_name(self.crs), self.unit
+        return f"{type(self).__name__}: {', '.join(filter(None, words))}"
 
     def _summary(self) -> str:
-        """Words for what it holds, on one line, found without going through it."""
+        """Words for what it holds, on one line, found without going through it; its map and unit follow."""
         raise NotImplementedError
 
 
@@ -477,8 +478,3 @@ class Pixels(Pictured, Elements):
 def counted(number: int, noun: str, several: str | None = None) -> str:
     """Return a number with its noun."""
     return f"{number} {noun if number == 1 else several or noun + 's'}"
-
-
-def placed(text: str, crs: object = None, unit: str | None = None) -> str:
-    """Return a summary with the coordinate reference system and the unit, if they are known."""
-    return ", ".join([text, *([crs_name(crs)] if crs is not None else []), *([unit] if unit else [])])

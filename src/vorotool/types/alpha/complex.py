@@ -20,7 +20,7 @@ from vorotool.types.features import Corners, Rows
 from vorotool.types.fields import record
 from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.table import Table
-from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted
 
 Radius = float | Fraction
 """A radius: a double, or an exact fraction such as a decimal number."""
@@ -192,7 +192,7 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
     def _summary(self) -> str:
         radii = counted(len(self.spectrum), "critical radius", "critical radii")
         sizes = (counted(len(self.points), "point"), counted(len(self), "edge"), radii)
-        return placed(", ".join(sizes), self.mesh.crs)
+        return ", ".join(sizes)
 
 
 def classes_of(family: AlphaComplex, reached: int, entered: int) -> NDArray[np.uint8]:

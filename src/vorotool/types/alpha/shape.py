@@ -20,7 +20,7 @@ from vorotool.types.features import Mixture, Rows, of_points
 from vorotool.types.fields import record
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet, set_of_rings
 from vorotool.types.table import Lookup, Table
-from vorotool.types.values import Geometric, Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, WithParts, counted
 
 if TYPE_CHECKING:
     from vorotool.types.features import Mixture, Rows
@@ -183,8 +183,7 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "point"), counted(self.region_count, "region"))
-        text = f"r = {nearest_double(self.r):.6g}, {', '.join(sizes)}, {counted(len(self.edge_index), 'edge')}"
-        return placed(text, self.family.mesh.crs)
+        return f"r = {nearest_double(self.r):.6g}, {', '.join(sizes)}, {counted(len(self.edge_index), 'edge')}"
 
 
 FINENESS = 7.529816085545908e-05
@@ -329,7 +328,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
 
     def _summary(self) -> str:
         rings = counted(len(self.ring_starts) - 1, "ring")
-        return placed(f"r = {self.r:.6g}, {counted(len(self), 'arc')}, {rings}", self.shape.family.mesh.crs)
+        return f"r = {self.r:.6g}, {counted(len(self), 'arc')}, {rings}"
 
 
 def _signed_area(ring: NDArray[np.float64]) -> float:

@@ -12,7 +12,7 @@ from vorotool.plain import plain
 from vorotool.types.features import Rows, of_segments, without_places
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Lookup, Table
-from vorotool.types.values import Geometric, Pictured, Tabular, Value, placed
+from vorotool.types.values import Geometric, Pictured, Tabular, Value
 
 HAUSDORFF, FROM_A, FROM_B, SMALLEST = "hausdorff", "a to b", "b to a", "smallest"
 """Names of distances in tables: the larger of both directions, each of them, and the smallest one."""
@@ -137,5 +137,4 @@ class Distances(Value, Tabular, Geometric, Pictured):
         return replace(self, from_a=None, from_b=None) if what == "smallest" else self
 
     def _summary(self) -> str:
-        words = ", ".join(f"{name} {each.distance:.6g}" for name, each in self.rows.items())
-        return placed(words, self.crs, self.shapes[0].unit)
+        return ", ".join(f"{name} {each.distance:.6g}" for name, each in self.rows.items())

@@ -19,7 +19,7 @@ from vorotool.types.features import Areas, Rows
 from vorotool.types.fields import UNSTATED, YAxis, record
 from vorotool.types.mesh.triangulation import ALL, Mesh, Triangulation, lengths_of
 from vorotool.types.table import Computed
-from vorotool.types.values import Geometric, Graph, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Geometric, Graph, Pictured, Tabular, Value, counted
 
 
 @record
@@ -177,7 +177,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     def _summary(self) -> str:
         empty = int(np.count_nonzero(self.is_empty))
         cells = counted(len(self), "cell") + (f" ({empty} empty)" if empty else "")
-        return placed(f"{cells}, {counted(len(self.coordinates), 'vertex', 'vertices')}", self.crs)
+        return f"{cells}, {counted(len(self.coordinates), 'vertex', 'vertices')}"
 
 
 def _checked_starts(values: Any, count: int, name: str) -> NDArray[np.int64]:
@@ -276,4 +276,4 @@ class ProximityGraph(Mesh, Value, Tabular, Geometric, Graph, Pictured):
 
     def _summary(self) -> str:
         sizes = (self.kind, counted(len(self.points), "point"), counted(len(self), "edge"))
-        return placed(", ".join(sizes), self.crs)
+        return ", ".join(sizes)

@@ -11,16 +11,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Booleans, Floats
-from vorotool.numeric.checks import check_index
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.numbers import nearest_double
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.features import Rows
 from vorotool.types.fields import record
-from vorotool.types.mesh.triangulation import ALL, FLAT
+from vorotool.types.mesh.triangulation import ALL, FLAT, OfPoints
 from vorotool.types.table import Computed, Lookup, Table
-from vorotool.types.values import Tabular, Value, counted
+from vorotool.types.values import Tabular, counted
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -36,7 +35,7 @@ TINY = 2.0**-300
 
 
 @record
-class Tetrahedralization(Value, Tabular):
+class Tetrahedralization(OfPoints, Tabular):
     """Delaunay triangulation of points in space: tetrahedra, triangles and edges, as 0-based int32 indices.
 
     The sphere through the corners of a tetrahedron holds no point inside. The cell of points on one sphere is divided
@@ -91,29 +90,8 @@ class Tetrahedralization(Value, Tabular):
     properties: dict[str, Any] = field(default_factory=dict)
     index: Any = None
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        check_index(self.index, len(self.points), "point")
-
     def __len__(self) -> int:
         return len(self.tetrahedra)
-
-    @property
-    def label_array(self) -> NDArray[np.int64]:
-        """(n,) labels: the input's own, else 1 to n."""
-        if self.labels is not None:
-            return self.labels
-        return np.arange(1, len(self.points) + 1, dtype=np.int64)
-
-    @property
-    def is_duplicate(self) -> Booleans:
-        """(n,) mask of points that lie on an earlier one."""
-        return self.first != np.arange(len(self.first))
-
-    @property
-    def duplicates(self) -> int:
-        """Number of duplicate points."""
-        return int(np.count_nonzero(self.is_duplicate))
 
     @property
     def dimension(self) -> int:

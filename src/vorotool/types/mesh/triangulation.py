@@ -20,8 +20,9 @@ from vorotool.types import fields as f
 from vorotool.types.box import Box
 from vorotool.types.features import Rows
 from vorotool.types.fields import UNSTATED, YAxis, record
+from vorotool.types.points.point_set import numbered
 from vorotool.types.table import Table
-from vorotool.types.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.types.values import Graph, Pictured, Tabular, Value, WithParts, counted
 
 if TYPE_CHECKING:
     from vorotool.types.features import Rows
@@ -49,8 +50,36 @@ class Mesh:
         return self.edges if what == "edges" else self.triangles
 
 
+class OfPoints(Value):
+    """What is made of points, of which several may lie at one place."""
+
+    points: NDArray[np.float64]
+    labels: NDArray[np.int64] | None
+    first: NDArray[np.int32]
+    index: Any
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_index(self.index, len(self.points), "point")
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels: the input's own, else 1 to n."""
+        return numbered(self.labels, len(self.points))
+
+    @property
+    def is_duplicate(self) -> NDArray[np.bool_]:
+        """(n,) mask of points that lie on an earlier one."""
+        return self.first != np.arange(len(self.first))
+
+    @property
+    def duplicates(self) -> int:
+        """Number of duplicate points."""
+        return int(np.count_nonzero(self.is_duplicate))
+
+
 @record
-class Triangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
+class Triangulation(Mesh, OfPoints, Tabular, WithParts, Graph, Pictured):
     """Triangles, edges and hull of points, as 0-based int32 indices.
 
     Triangles and edges follow a Morton curve through the points: their order depends on the coordinates, not on the
@@ -122,10 +151,6 @@ class Triangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
     index: Any = None
     frame: Box | None = f.input_box()
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        check_index(self.index, len(self.points), "point")
-
     def __len__(self) -> int:
         return len(self.triangles)
 
@@ -160,18 +185,6 @@ class Triangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
         ([[0, 1, 2], [3, 0, 2]], [[-1, 1, -1], [0, -1, -1]], [0, 1, 2, 3])
         """
         return resolved("engines.delaunay.delaunay:triangulation_of")(points, triangles)
-
-    @property
-    def label_array(self) -> NDArray[np.int64]:
-        """(n,) labels: the input's own, else 1 to n."""
-        if self.labels is not None:
-            return self.labels
-        return np.arange(1, len(self.points) + 1, dtype=np.int64)
-
-    @property
-    def duplicates(self) -> int:
-        """Number of duplicate points."""
-        return int(np.count_nonzero(self.first != np.arange(len(self.first))))
 
     def edge_lengths(self, rows: slice = ALL) -> NDArray[np.float64]:
         """Return the (e,) lengths of all or some edges, to a relative error of 1e-15; infinite on overflow."""
@@ -244,7 +257,7 @@ class Triangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "point"), counted(len(self), "triangle"), counted(len(self.edges), "edge"))
-        return placed(", ".join(sizes), self.crs)
+        return ", ".join(sizes)
 
 
 def lengths_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray[np.float64]:
@@ -386,7 +399,7 @@ class DigitalTriangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "site"), counted(len(self), "triangle"), counted(len(self.edges), "edge"))
-        return placed(", ".join(sizes), self.crs)
+        return ", ".join(sizes)
 
 
 AnyTriangulation = Triangulation | DigitalTriangulation

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -14,7 +14,7 @@ from vorotool.numeric.coordinates import coordinate_rows
 from vorotool.types import fields as f
 from vorotool.types.box import Box
 from vorotool.types.fields import UNSTATED, YAxis, record
-from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted
 
 if TYPE_CHECKING:
     from vorotool.types.features import Rows
@@ -23,8 +23,41 @@ LABEL = "label"
 """The column whose integers from 1 are the labels of points."""
 
 
+class Points(Value):
+    """A list of points, which may have labels of their own."""
+
+    _places: ClassVar[str] = "xy"
+    """The field with the coordinates, one letter an axis."""
+
+    labels: NDArray[np.int64] | None
+    index: Any
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, self._places, finite_rows(getattr(self, self._places), len(self._places)))
+        if self.labels is not None:
+            object.__setattr__(self, "labels", checked_labels(self.labels, len(self)))
+        super().__post_init__()
+        check_index(self.index, len(self), "point")
+
+    def __len__(self) -> int:
+        return len(getattr(self, self._places))
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels: the input's own, else 1 to n."""
+        return numbered(self.labels, len(self))
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+        return np.array(getattr(self, self._places), dtype=dtype, copy=copy)
+
+
+def numbered(labels: NDArray[np.int64] | None, count: int) -> NDArray[np.int64]:
+    """Return the labels of so many points, or numbers from 1."""
+    return np.arange(1, count + 1, dtype=np.int64) if labels is None else labels
+
+
 @record
-class PointSet(Value, Tabular, Geometric, Pictured):
+class PointSet(Points, Tabular, Geometric, Pictured):
     """A list of points in the order of the input.
 
     Parameters
@@ -71,26 +104,6 @@ class PointSet(Value, Tabular, Geometric, Pictured):
     frame: Box | None = f.input_box()
     unit: str | None = None
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "xy", finite_rows(self.xy, 2))
-        if self.labels is not None:
-            object.__setattr__(self, "labels", checked_labels(self.labels, len(self.xy)))
-        super().__post_init__()
-        check_index(self.index, len(self.xy), "point")
-
-    def __len__(self) -> int:
-        return len(self.xy)
-
-    @property
-    def label_array(self) -> NDArray[np.int64]:
-        """(n,) labels: the input's own, else 1 to n."""
-        if self.labels is not None:
-            return self.labels
-        return np.arange(1, len(self.xy) + 1, dtype=np.int64)
-
-    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self.xy, dtype=dtype, copy=copy)
-
     def _rows(self, _what: str | None = None) -> Rows:
         x, y = np.ascontiguousarray(self.xy.T)
         return replace(self._features(), columns={"label": self.label_array, "x": x, "y": y})
@@ -101,7 +114,7 @@ class PointSet(Value, Tabular, Geometric, Pictured):
         return point_rows({"label": self.label_array}, self, self.xy)
 
     def _summary(self) -> str:
-        return placed(counted(len(self), "point"), self.crs, self.unit)
+        return counted(len(self), "point")
 
 
 def known_of_points(points: Any) -> dict[str, Any]:

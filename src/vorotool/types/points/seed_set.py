@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +21,45 @@ SCALES = tuple(2**k for k in range(41))
 """Lattice steps a pixel: up to those of the smallest frame, see `finest_scale`."""
 
 
+class Seeds(Value):
+    """Generators of a digital tessellation, in steps of a lattice."""
+
+    labels: NDArray[np.uint32]
+    scale: int
+    sites: NDArray[np.float64]
+    index: Any
+    _axes: ClassVar[str] = "xy"
+
+    def __post_init__(self) -> None:
+        if self.sites is None:  # the first seed of each label
+            labels, first = np.unique(self.labels, return_index=True)
+            sites = np.stack([values[first] for values in self.coordinates], axis=1) / self.scale
+            object.__setattr__(self, "sites", sites)
+            object.__setattr__(self, "site_labels", labels)
+        super().__post_init__()
+        check_index(self.index, len(self.sites), "site")
+
+    def __len__(self) -> int:
+        return len(self.labels)
+
+    @property
+    def coordinates(self) -> tuple[NDArray[np.int64], ...]:
+        """Columns, rows and maybe slices of the seeds, in steps."""
+        return tuple(getattr(self, axis) for axis in self._axes)
+
+    @cached_property
+    def largest_label(self) -> int:
+        """The largest label, 0 for no seeds."""
+        return int(self.labels.max(initial=0))
+
+    def _summary(self) -> str:
+        sides = "pixel" if len(self._axes) == 2 else "voxel"
+        sites = counted(len(self.sites), "site")
+        return f"{counted(len(self), 'seed')} of {sites}, {self.scale} to a {sides} side"
+
+
 @record
-class SeedSet(Value, Tabular, Geometric, Pictured):
+class SeedSet(Seeds, Tabular, Geometric, Pictured):
     """Generators of a digital Voronoi tessellation, several of which may share a label.
 
     Parameters
@@ -92,33 +129,12 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
             )
         if self.scale not in SCALES:
             raise InputError(f"scale is {self.scale}: it must be a power of two from 1 to 2^40")
-        if self.sites is None:
-            order = np.argsort(self.labels, kind="stable")
-            labels, first = np.unique(self.labels[order], return_index=True)
-            chosen = order[first]
-            sites = np.stack([self.x[chosen], self.y[chosen]], axis=1) / self.scale
-            object.__setattr__(self, "sites", sites)
-            object.__setattr__(self, "site_labels", labels)
         super().__post_init__()
-        check_index(self.index, len(self.sites), "site")
-
-    def __len__(self) -> int:
-        return len(self.x)
-
-    @property
-    def coordinates(self) -> tuple[NDArray[np.int64], ...]:
-        """Columns and rows of the seeds, in steps."""
-        return (self.x, self.y)
 
     @property
     def is_empty_image(self) -> bool:
         """Whether these are the seeds of an image without foreground: no list of points brings a frame."""
         return not len(self) and self.frame is not None
-
-    @cached_property
-    def largest_label(self) -> int:
-        """The largest label, 0 for no seeds."""
-        return int(self.labels.max(initial=0))
 
     def _rows(self, _what: str | None = None) -> Rows:
         x, y = np.ascontiguousarray(self.sites.T)
@@ -129,6 +145,3 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
     def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
         area = {} if self.object_area is None else {"object_area": self.object_area}
         return point_rows({"label": self.site_labels, **area}, self, self.sites)
-
-    def _summary(self) -> str:
-        return f"{counted(len(self), 'seed')} of {counted(len(self.sites), 'site')}, {self.scale} to a pixel side"

@@ -15,7 +15,7 @@ from vorotool.types import fields as f
 from vorotool.types.features import Corners, Rows
 from vorotool.types.fields import record
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.values import Geometric, Graph, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Geometric, Graph, Pictured, Tabular, Value, counted
 
 REPAIRS = (
     "repeated_vertices",
@@ -187,7 +187,7 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "point"), counted(len(self), "segment"), counted(self.faces, "face"))
-        return placed(", ".join(sizes), None if self.polygons is None else self.polygons.crs)
+        return ", ".join(sizes)
 
 
 def packed(places: NDArray[Any]) -> NDArray[np.int64]:

@@ -18,7 +18,7 @@ from vorotool.types import fields as f
 from vorotool.types.box import Box
 from vorotool.types.fields import UNSTATED, YAxis, record
 from vorotool.types.identity import feature_labels, names_of, other_columns
-from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted
 
 if TYPE_CHECKING:
     from vorotool.types.features import Rows
@@ -209,7 +209,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     def _summary(self) -> str:
         lines = int(np.count_nonzero(self.ring_kind == LINE))
         kinds = [counted(len(self) - lines, "polygon"), *([counted(lines, "line")] if lines else [])]
-        return placed(", ".join([*kinds, counted(len(self.xy), "vertex", "vertices")]), self.crs, self.unit)
+        return ", ".join([*kinds, counted(len(self.xy), "vertex", "vertices")])
 
 
 def set_of_rings(

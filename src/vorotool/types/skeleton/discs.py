@@ -20,7 +20,7 @@ from vorotool.types.identity import described_shapes, names_of, place_columns, w
 from vorotool.types.polygons.polygon_set import SHELL, PolygonSet
 from vorotool.types.skeleton.skeleton import SiteTable
 from vorotool.types.table import Table
-from vorotool.types.values import Curved, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Curved, Pictured, Tabular, Value, counted
 
 SHOWN_FEET = 3
 """Feet that a row of the table has: as many as it takes to hold a disc."""
@@ -198,7 +198,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         return of_shapes(self.flattened(flatten), self.polygons, self.polygon)
 
     def _summary(self) -> str:
-        return placed(counted(len(self), "disc"), self.polygons.crs, self.polygons.unit)
+        return counted(len(self), "disc")
 
 
 def _holding(feet: NDArray[np.float64], center: NDArray[np.float64]) -> list[int]:

@@ -21,7 +21,7 @@ from vorotool.types.identity import names_of, part_table, place_columns
 from vorotool.types.polygons.input_vertices import places_as_given
 from vorotool.types.skeleton.skeleton import KINDS, Skeleton
 from vorotool.types.table import Lookup, Table
-from vorotool.types.values import Curved, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Curved, Pictured, Tabular, Value, counted
 
 EXTENSION = "extension"
 """Kind of the straight lines that lead on to the ends."""
@@ -225,9 +225,7 @@ class ExtendedSkeleton(LedOn):
     maker = "extend_ends"
 
     def _summary(self) -> str:
-        polygons = self.path.polygons
-        text = f"{counted(len(self), 'branch', 'branches')} of {counted(len(polygons), 'polygon')}"
-        return placed(text, polygons.crs, polygons.unit)
+        return f"{counted(len(self), 'branch', 'branches')} of {counted(len(self.path.polygons), 'polygon')}"
 
 
 def is_straight(a: Floats, b: Floats, c: Floats) -> NDArray[np.bool_]:
@@ -272,9 +270,7 @@ class Centerlines(LedOn):
     has_branches = False
 
     def _summary(self) -> str:
-        polygons = self.path.polygons
-        text = f"{counted(len(self), 'line')} of {counted(len(polygons), 'polygon')}"
-        return placed(text, polygons.crs, polygons.unit)
+        return f"{counted(len(self), 'line')} of {counted(len(self.path.polygons), 'polygon')}"
 
 
 def without_centerline(lines: Centerlines) -> NDArray[np.int64]:

@@ -14,7 +14,7 @@ from vorotool.types.fields import record
 from vorotool.types.identity import names_of, part_table, place_columns
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 from vorotool.types.table import Lookup, Table
-from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted
 
 SITE_KINDS = ("vertex", "edge")
 
@@ -127,6 +127,4 @@ class Necks(Value, Tabular, Geometric, Pictured):
         return of_polygons(columns, self.skeleton.polygons, self.polygon, geometry=of_segments(self.feet), is_part=True)
 
     def _summary(self) -> str:
-        polygons = self.skeleton.polygons
-        text = f"{counted(len(self), 'neck')} of {counted(len(polygons), 'polygon')}"
-        return placed(text, polygons.crs, polygons.unit)
+        return f"{counted(len(self), 'neck')} of {counted(len(self.skeleton.polygons), 'polygon')}"

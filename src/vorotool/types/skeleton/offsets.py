@@ -20,7 +20,7 @@ from vorotool.types.identity import described_shapes, names_of, part_table, plac
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.skeleton.skeleton import SiteTable
 from vorotool.types.table import Lookup, Table
-from vorotool.types.values import Curved, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Curved, Pictured, Tabular, Value, counted
 
 PIECE_KINDS = ("line", "arc")
 RING_KINDS = ("shell", "hole")
@@ -230,5 +230,4 @@ class Offsets(Value, Tabular, Curved, Pictured):
         return of_shapes(self.flattened(flatten), self.polygons, self.polygon)
 
     def _summary(self) -> str:
-        sizes = f"{counted(len(self), 'shape')}, {counted(len(self.site), 'piece')}"
-        return placed(sizes, self.polygons.crs, self.polygons.unit)
+        return f"{counted(len(self), 'shape')}, {counted(len(self.site), 'piece')}"

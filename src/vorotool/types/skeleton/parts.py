@@ -17,7 +17,7 @@ from vorotool.types.identity import described_shapes, names_of, place_columns, w
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.necks import Necks
 from vorotool.types.table import Table, object_column
-from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted
 
 
 @record
@@ -143,6 +143,4 @@ class Parts(Value, Tabular, Geometric, Pictured):
         return of_shapes(self.described(), self.necks.skeleton.polygons, self.source)
 
     def _summary(self) -> str:
-        whole = self.necks.skeleton.polygons
-        text = f"{counted(len(self), 'piece')} of {counted(len(whole), 'polygon')}"
-        return placed(text, whole.crs, whole.unit)
+        return f"{counted(len(self), 'piece')} of {counted(len(self.necks.skeleton.polygons), 'polygon')}"

@@ -17,7 +17,7 @@ from vorotool.types.identity import names_of, part_table, place_columns
 from vorotool.types.polygons.input_vertices import moved_feet
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.table import Table
-from vorotool.types.values import Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.types.values import Pictured, Tabular, Value, WithParts, counted
 
 
 @record
@@ -157,5 +157,4 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
         return (self.transects() if what == "transects" else self).as_given.xy
 
     def _summary(self) -> str:
-        polygons = self.skeleton.polygons
-        return placed(counted(len(self), "point"), polygons.crs, polygons.unit)
+        return counted(len(self), "point")

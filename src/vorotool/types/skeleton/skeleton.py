@@ -20,7 +20,7 @@ from vorotool.types.fields import Record, record
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.arc_measures import ArcMeasures
 from vorotool.types.table import Lookup
-from vorotool.types.values import Branched, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Branched, Pictured, Tabular, Value, counted
 
 if TYPE_CHECKING:
     from vorotool.types.features import Rows
@@ -328,9 +328,8 @@ class Skeleton(Value, Tabular, Branched, Pictured):
 
     def _summary(self) -> str:
         branches = counted(int(self.branch[-1]) + 1 if len(self) else 0, "branch", "branches")
-        polygons = self.polygons
         text = f"{counted(len(self), 'arc')} in {branches}, {counted(len(self.vertices), 'node')}"
-        return placed(f"{text}, of {counted(len(polygons), 'polygon')}", polygons.crs, polygons.unit)
+        return f"{text}, of {counted(len(self.polygons), 'polygon')}"
 
 
 def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(None)) -> NDArray[np.float64]:

@@ -19,7 +19,7 @@ from vorotool.types.identity import names_of, part_table
 from vorotool.types.skeleton.extended_lines import LedOn
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.table import Table
-from vorotool.types.values import Curved, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Curved, Pictured, Tabular, Value, counted
 
 
 @record
@@ -149,8 +149,7 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
         return isinstance(self.lines, Skeleton) or self.lines.has_branches
 
     def _summary(self) -> str:
-        text = f"{counted(len(self.control), 'curve')} in {counted(len(self), 'line')}"
-        return placed(text, self.path.polygons.crs, self.path.polygons.unit)
+        return f"{counted(len(self.control), 'curve')} in {counted(len(self), 'line')}"
 
 
 def ends_of_lines(lines: Skeleton | LedOn) -> Floats:

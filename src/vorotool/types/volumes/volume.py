@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import field
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.checks import check_index, whole_numbers
+from vorotool.numeric.checks import whole_numbers
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
@@ -18,7 +17,8 @@ from vorotool.types.elements import Elements
 from vorotool.types.fields import record
 from vorotool.types.images import check_labels
 from vorotool.types.pixels import PixelSides
-from vorotool.types.values import Graph, Tabular, Value, counted
+from vorotool.types.points.seed_set import Seeds
+from vorotool.types.values import Graph, Tabular, Value
 from vorotool.types.volumes.voxel_frame import VoxelFrame, VoxelGrid
 
 if TYPE_CHECKING:
@@ -142,7 +142,7 @@ FINEST_SCALE = 256
 
 
 @record
-class VolumeSeeds(Value):
+class VolumeSeeds(Seeds):
     """Generators of the digital Voronoi tessellation of a volume, several of which may share a label.
 
     Parameters
@@ -187,6 +187,8 @@ class VolumeSeeds(Value):
     (1, 2)
     """
 
+    _axes = "xyz"
+
     places: NDArray[np.int64]
     labels: NDArray[np.uint32] = f.numbers(np.uint32, "seeds")
     scale: int = 1
@@ -215,15 +217,7 @@ class VolumeSeeds(Value):
             raise InputError(f"scale is {self.scale}: it must be a power of two from 1 to {FINEST_SCALE}")
         if self.filled is not None and (np.shape(self.filled) != self.labels.shape or self.scale != 1):
             raise InputError(f"filled must have shape {self.labels.shape} and need scale 1")
-        if self.sites is None:
-            labels, first = np.unique(self.labels, return_index=True)
-            object.__setattr__(self, "sites", self.places[first] / self.scale)
-            object.__setattr__(self, "site_labels", labels)
         super().__post_init__()
-        check_index(self.index, len(self.sites), "site")
-
-    def __len__(self) -> int:
-        return len(self.labels)
 
     @property
     def x(self) -> NDArray[np.int64]:
@@ -239,16 +233,3 @@ class VolumeSeeds(Value):
     def z(self) -> NDArray[np.int64]:
         """Slices of the seeds, in steps."""
         return self.places[:, 2]
-
-    @property
-    def coordinates(self) -> tuple[NDArray[np.int64], ...]:
-        """Columns, rows and slices of the seeds, in steps."""
-        return (self.x, self.y, self.z)
-
-    @cached_property
-    def largest_label(self) -> int:
-        """The largest label, 0 for no seeds."""
-        return int(self.labels.max(initial=0))
-
-    def _summary(self) -> str:
-        return f"{counted(len(self), 'seed')} of {counted(len(self.sites), 'site')}, {self.scale} to a voxel side"

@@ -6,17 +6,16 @@ from dataclasses import field
 from typing import Any
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import NDArray
 
-from vorotool.numeric.checks import check_index
 from vorotool.types import fields as f
 from vorotool.types.fields import record
-from vorotool.types.points.point_set import checked_labels, finite_rows
-from vorotool.types.values import Value, counted
+from vorotool.types.points.point_set import Points
+from vorotool.types.values import counted
 
 
 @record
-class VolumePoints(Value):
+class VolumePoints(Points):
     """A list of points in space in the order of the input.
 
     Parameters
@@ -42,30 +41,12 @@ class VolumePoints(Value):
     array([1, 2])
     """
 
+    _places = "xyz"
+
     xyz: NDArray[np.float64] = f.position("points", 3)
     labels: NDArray[np.int64] | None = f.numbers(np.int64, "points", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
     index: Any = None
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "xyz", finite_rows(self.xyz, 3))
-        if self.labels is not None:
-            object.__setattr__(self, "labels", checked_labels(self.labels, len(self.xyz)))
-        super().__post_init__()
-        check_index(self.index, len(self.xyz), "point")
-
-    def __len__(self) -> int:
-        return len(self.xyz)
-
-    @property
-    def label_array(self) -> NDArray[np.int64]:
-        """(n,) labels: the input's own, else 1 to n."""
-        if self.labels is not None:
-            return self.labels
-        return np.arange(1, len(self.xyz) + 1, dtype=np.int64)
-
-    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self.xyz, dtype=dtype, copy=copy)
 
     def _summary(self) -> str:
         return f"{counted(len(self), 'point')} in space"

@@ -18,7 +18,7 @@ from vorotool.types.fields import record
 from vorotool.types.identity import feature_labels, other_columns
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Table
-from vorotool.types.values import Curved, Graph, Pictured, Tabular, Value, counted, placed
+from vorotool.types.values import Curved, Graph, Pictured, Tabular, Value, counted
 
 if TYPE_CHECKING:
     import pandas
@@ -272,4 +272,4 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
             counted(len(self.arcs), "arc"),
             counted(len(self.vertices), "vertex", "vertices"),
         )
-        return placed(", ".join(sizes), self.polygons.crs, self.polygons.unit)
+        return ", ".join(sizes)
