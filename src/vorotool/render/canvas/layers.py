@@ -74,13 +74,6 @@ class Curves:
         first = np.delete(np.arange(len(points)), start[1:] - 1)
         return Lines(self.name, points, np.stack([first, first + 1], axis=1).astype(np.int32), self.color, self.width)
 
-    def flattened(self, places: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-        """Straight lines instead of the curves."""
-        source, target = places[self.pairs.T]
-        points, start = polylines(source, places[self.control], target, self.control >= 0, tolerance)
-        first = np.delete(np.arange(len(points)), start[1:] - 1)
-        return points, np.stack([first, first + 1], axis=1).astype(np.int32)
-
 
 @plain(eq=False)
 class Polygons:
@@ -402,14 +395,5 @@ class CubicCurves(Curves):
 
     def polylines(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """As of `Curves`."""
-        return cubic_polylines(self._curves(self.points), tolerance)
-
-    def flattened(self, places: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-        """As of `Curves`."""
-        points, start = cubic_polylines(self._curves(places), tolerance)
-        first = np.delete(np.arange(len(points)), start[1:] - 1)
-        return points, np.stack([first, first + 1], axis=1).astype(np.int32)
-
-    def _curves(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(m, 4, 2) control points."""
-        return places[np.stack([self.pairs[:, 0], self.control, self.second, self.pairs[:, 1]], axis=1)]
+        control = np.stack([self.pairs[:, 0], self.control, self.second, self.pairs[:, 1]], axis=1)
+        return cubic_polylines(self.points[control], tolerance)

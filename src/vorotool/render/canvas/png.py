@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,8 +73,8 @@ class _Canvas:
         elif isinstance(layer, Lines):
             self._stroke(places, layer.pairs, layer.width, self._color(layer.color))
         elif isinstance(layer, Curves):
-            lines = layer.flattened(places, FLATNESS)
-            self._stroke(*lines, layer.width, self._color(layer.color))
+            lines = replace(layer, points=places).chords(FLATNESS)
+            self._stroke(lines.points, lines.pairs, layer.width, self._color(layer.color))
         elif isinstance(layer, Points):
             if layer.halo is not None:
                 self._discs(places, (layer.radius + layer.edge) * FINE, self._color(layer.halo))

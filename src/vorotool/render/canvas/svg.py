@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from html import escape
+from itertools import chain
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -93,10 +94,9 @@ def layer_parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
     if isinstance(layer, Curves):
         return _curves(layer, x, y, page, threads)
     if isinstance(layer, Polygons):
-        style = fill_style(page.backdrop, is_sheer=layer.is_sheer)
         if isinstance(layer, CurvedPolygons):
-            return _curved_polygons(layer, x, y, page, style, threads)
-        return _polygons(layer, x, y, style, threads)
+            return _curved_polygons(layer, x, y, page, threads)
+        return _polygons(layer, x, y, page, threads)
     return _points(layer, x, y, threads) if isinstance(layer, Points) else _texts(layer, x, y, threads)
 
 
@@ -108,42 +108,56 @@ def _chunks(count: int, size: int) -> Iterator[slice]:
     return (slice(begin, min(begin + size, count)) for begin in range(0, count, size))
 
 
-def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
-    across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
-    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.color, layer.width)}>\n'.encode()
-    for rows in _chunks(len(layer.pairs), PATH_ROWS):
-        a, b = layer.pairs[rows].T
-        yield f"<path {_UNSCALED} d=".encode() + b'"'
-        yield from _rows([(across, a), (down, a), (across, b), (down, b)], ("M", " ", "L", " ", ""), threads)
-        yield b'"/>\n'
+def _group(name: str, style: str, parts: Iterable[bytes]) -> Iterator[bytes]:
+    yield f'<g id="{_escaped(name)}" {style}>\n'.encode()
+    yield from parts
     yield b"</g>\n"
+
+
+def _paths(count: int, places: Callable[[slice], Iterable[bytes]]) -> Iterator[bytes]:
+    """Paths of some lines or polygons each."""
+    for rows in _chunks(count, PATH_ROWS):
+        yield f'<path {_UNSCALED} d="'.encode()
+        yield from places(rows)
+        yield b'"/>\n'
+
+
+def _texts_of(x: NDArray[Any], y: NDArray[Any], threads: int) -> tuple[_core.text.NumberTexts, _core.text.NumberTexts]:
+    return _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
+
+
+def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    across, down = _texts_of(x, y, threads)
+
+    def places(rows: slice) -> list[bytes]:
+        a, b = layer.pairs[rows].T
+        return _rows([(across, a), (down, a), (across, b), (down, b)], ("M", " ", "L", " ", ""), threads)
+
+    return _group(layer.name, _stroke(layer.color, layer.width), _paths(len(layer.pairs), places))
 
 
 def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], page: Page, threads: int) -> Iterator[bytes]:
     """One row a place: M before the begin of a path, Q or C before a control point, then L, A or nothing."""
-    commands = _Commands(layer, page)
-    across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
-    dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
-    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.color, layer.width)}{dashes}>\n'.encode()
-    for rows in _chunks(len(layer.pairs), PATH_ROWS):
+    commands, (across, down) = _Commands(layer, page), _texts_of(x, y, threads)
+    more = int(isinstance(layer, CubicCurves))
+
+    def places(rows: slice) -> list[bytes]:
         source, target = layer.pairs[rows].T
         control = layer.control[rows]
         begins = np.append(True, source[1:] != target[:-1])
         bends = control >= 0
-        more = int(isinstance(layer, CubicCurves))
         last = np.cumsum(1 + begins + bends + more) - 1  # the row of each target
-        place = np.empty(last[-1] + 1, dtype=np.int32)
-        token = np.empty(last[-1] + 1, dtype=np.int32)
+        place, token = np.empty((2, last[-1] + 1), dtype=np.int32)
         place[last], token[last] = target, commands.before_ends[0, rows]
         place[last[bends] - 1 - more], token[last[bends] - 1 - more] = control[bends], 2
         if isinstance(layer, CubicCurves):
             place[last - 1], token[last - 1] = layer.second[rows], 3
         first = (last - bends - more - 1)[begins]
         place[first], token[first] = source[begins], 0
-        yield f"<path {_UNSCALED} d=".encode() + b'"'
-        yield from _rows([(commands.texts, token), (across, place), (down, place)], ("", "", " ", ""), threads)
-        yield b'"/>\n'
-    yield b"</g>\n"
+        return _rows([(commands.texts, token), (across, place), (down, place)], ("", "", " ", ""), threads)
+
+    dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
+    return _group(layer.name, _stroke(layer.color, layer.width) + dashes, _paths(len(layer.pairs), places))
 
 
 class _Commands:
@@ -180,25 +194,32 @@ class _Commands:
         return first + np.arange(len(commands))
 
 
-def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], style: str, threads: int) -> Iterator[bytes]:
-    """One row a corner: what stands before it is L, the end of a ring, or the end of a path and another's begin."""
-    across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
-    stroke = "" if layer.edge is None else f" {_stroke(layer.edge, layer.width)}"
-    yield f'<g id="{_escaped(layer.name)}" fill-rule="evenodd"{style}{stroke}>\n'.encode()
-    texts, before = _openings(layer)
-    for rows in _chunks(len(layer.corners), SLICE_ROWS):
+def _filled(
+    layer: Polygons, page: Page, rows: int, columns: Callable[[slice], list[Any]], threads: int
+) -> Iterator[bytes]:
+    """One row a place: what stands before it, x and y; the end of the last path is missing."""
+    edge = "" if layer.edge is None else f" {_outline(layer.edge, layer.width)}"
+    parts = (part for chunk in _chunks(rows, SLICE_ROWS) for part in _rows(columns(chunk), ("", "", " ", ""), threads))
+    style = f'fill-rule="evenodd"{fill_style(page.backdrop, is_sheer=layer.is_sheer)}{edge}'
+    return _group(layer.name, style, chain(parts, [b'Z"/>\n'] * bool(rows)))
+
+
+def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], page: Page, threads: int) -> Iterator[bytes]:
+    """What stands before a corner is L, the end of a ring, or the end of a path and another's begin."""
+    (across, down), (texts, before) = _texts_of(x, y, threads), _openings(layer)
+
+    def columns(rows: slice) -> list[Any]:
         corners = layer.corners[rows]
-        yield from _rows([(texts, before[rows]), (across, corners), (down, corners)], ("", "", " ", ""), threads)
-    yield b'Z"/>\n</g>\n' if len(layer.corners) else b"</g>\n"
+        return [(texts, before[rows]), (across, corners), (down, corners)]
+
+    return _filled(layer, page, len(layer.corners), columns, threads)
 
 
 def _curved_polygons(
-    layer: CurvedPolygons, x: NDArray[Any], y: NDArray[Any], page: Page, style: str, threads: int
+    layer: CurvedPolygons, x: NDArray[Any], y: NDArray[Any], page: Page, threads: int
 ) -> Iterator[bytes]:
-    """One row a place, as of `_curves`; each ring begins with a place, and ends with it."""
-    across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
-    stroke = "" if layer.edge is None else f" {_stroke(layer.edge, layer.width)}"
-    yield f'<g id="{_escaped(layer.name)}" fill-rule="evenodd"{style}{stroke}>\n'.encode()
+    """Rows as of `_curves`; each ring begins with a place, and ends with it."""
+    across, down = _texts_of(x, y, threads)
     curves, commands = layer.curves, _Commands(layer.curves, page)
     side, is_back = np.abs(layer.along) - 1, layer.along < 0
     bends = curves.control[side] >= 0
@@ -207,7 +228,7 @@ def _curved_polygons(
     is_first[rings[:-1][rings[1:] > rings[:-1]]] = True
     last = np.cumsum(1 + is_first + bends) - 1  # the row of the end of each side
     rows = int(last[-1]) + 1 if len(last) else 0
-    place, token = np.empty(rows, dtype=np.int32), np.empty(rows, dtype=np.int32)
+    place, token = np.empty((2, rows), dtype=np.int32)
     place[last] = curves.pairs[side, 1 - is_back]
     token[last] = commands.before_ends[is_back.astype(int), side]
     place[last[bends] - 1], token[last[bends] - 1] = curves.control[side[bends]], 2
@@ -216,10 +237,11 @@ def _curved_polygons(
     texts, before = _openings(layer)
     token[first] = before[is_first] + len(commands.texts)
     texts = [*commands.texts, *texts]
-    for part in _chunks(rows, SLICE_ROWS):
-        at = place[part]
-        yield from _rows([(texts, token[part]), (across, at), (down, at)], ("", "", " ", ""), threads)
-    yield b'Z"/>\n</g>\n' if rows else b"</g>\n"
+
+    def columns(part: slice) -> list[Any]:
+        return [(texts, token[part]), (across, place[part]), (down, place[part])]
+
+    return _filled(layer, page, rows, columns, threads)
 
 
 def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
@@ -252,15 +274,13 @@ def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
 
 def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     if len(x) > MOST_ELEMENTS:
+        discs = [(layer.name, layer.color, layer.radius)]
         if layer.halo is not None:
-            yield from _dots(f"{layer.name}-halo", layer.halo, layer.radius + layer.edge, x, y, threads)
-        yield from _dots(layer.name, layer.color, layer.radius, x, y, threads)
-        return
+            discs.insert(0, (f"{layer.name}-halo", layer.halo, layer.radius + layer.edge))
+        return chain.from_iterable(_dots(*each, x, y, threads) for each in discs)
     halo = "" if layer.halo is None else f" {edge_style(layer.halo, layer.edge)}"
-    yield f'<g id="{_escaped(layer.name)}" fill="{layer.color}"{halo}>\n'.encode()
-    radius = f'" r="{layer.radius:.3g}"/>\n'
-    yield from _rows([x, y], ('<circle cx="', '" cy="', radius), threads)
-    yield b"</g>\n"
+    circles = _rows([x, y], ('<circle cx="', '" cy="', f'" r="{layer.radius:.3g}"/>\n'), threads)
+    return _group(layer.name, f'fill="{layer.color}"{halo}', circles)
 
 
 def edge_style(color: str, width: float) -> str:
@@ -270,24 +290,26 @@ def edge_style(color: str, width: float) -> str:
 
 def _dots(name: str, color: str, radius: float, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     """Lines of no length with round ends are discs."""
-    yield f'<g id="{_escaped(name)}" fill="none" {_stroke(color, 2 * radius)}>\n'.encode()
-    for rows in _chunks(len(x), PATH_ROWS):
-        yield f"<path {_UNSCALED} d=".encode() + b'"'
-        yield from _rows([x[rows], y[rows]], ("M", " ", "h0"), threads)
-        yield b'"/>\n'
-    yield b"</g>\n"
+
+    def places(rows: slice) -> list[bytes]:
+        return _rows([x[rows], y[rows]], ("M", " ", "h0"), threads)
+
+    return _group(name, _stroke(color, 2 * radius), _paths(len(x), places))
 
 
 def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     font = f'font-family="Helvetica, Arial, sans-serif" font-size="{layer.size:g}"'
     halo = "" if layer.halo is None else f" {halo_style(layer.halo, layer.size)}"
     anchor = "start" if layer.is_led else "middle"
-    yield f'<g id="{_escaped(layer.name)}" text-anchor="{anchor}" {font} fill="{layer.color}"{halo}>\n'.encode()
-    texts = [_escaped(text) for text in layer.texts]
-    y = np.round(layer.lowered(y, CAPITAL), DECIMALS)
-    for rows in _chunks(len(x), SLICE_ROWS):
-        yield from _rows([x[rows], y[rows], texts[rows]], ('<text x="', '" y="', '">', "</text>\n"), threads)
-    yield b"</g>\n"
+    columns = [x, np.round(layer.lowered(y, CAPITAL), DECIMALS), [_escaped(text) for text in layer.texts]]
+    texts = _elements(columns, ('<text x="', '" y="', '">', "</text>\n"), threads)
+    return _group(layer.name, f'text-anchor="{anchor}" {font} fill="{layer.color}"{halo}', texts)
+
+
+def _elements(columns: list[Any], around: tuple[str, ...], threads: int) -> Iterator[bytes]:
+    """An element a row."""
+    for rows in _chunks(len(columns[0]), SLICE_ROWS):
+        yield from _rows([column[rows] for column in columns], around, threads)
 
 
 def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
@@ -309,13 +331,11 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
         x, y = start[first].tolist()
         begin = f"M{_short(x, page.decimals)} {_short(y, page.decimals)}"
         paths.append(f"{begin}{''.join(commands[first:last])}Z")
-    style = 'fill="none"'
+    style = _stroke(layer.edge, layer.width)
     if layer.fill is not None:
-        style = f'fill="{layer.fill}" fill-rule="evenodd"{fill_style(page.backdrop)}'
-    yield f'<g id="{_escaped(layer.name)}" {style} {_stroke(layer.edge, layer.width)}>\n'.encode()
-    for rows in _chunks(len(paths), PATH_ROWS):
-        yield f'<path {_UNSCALED} d="{"".join(paths[rows])}"/>\n'.encode()
-    yield b"</g>\n"
+        area = f'fill="{layer.fill}" fill-rule="evenodd"{fill_style(page.backdrop)}'
+        style = f"{area} {_outline(layer.edge, layer.width)}"
+    return _group(layer.name, style, _paths(len(paths), lambda rows: ["".join(paths[rows]).encode()]))
 
 
 def _circles(layer: Circles, page: Page, threads: int) -> Iterator[bytes]:
@@ -325,10 +345,7 @@ def _circles(layer: Circles, page: Page, threads: int) -> Iterator[bytes]:
     columns, around = [x, y, across], _CIRCLE
     if page.aspect != 1:
         columns, around = [*columns, np.round(across * page.aspect, page.decimals + 1)], _ELLIPSE
-    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.edge, layer.width)}>\n'.encode()
-    for rows in _chunks(len(x), SLICE_ROWS):
-        yield from _rows([column[rows] for column in columns], around, threads)
-    yield b"</g>\n"
+    return _group(layer.name, _stroke(layer.edge, layer.width), _elements(columns, around, threads))
 
 
 def _escaped(text: str) -> str:
@@ -347,4 +364,9 @@ _ELLIPSE: tuple[str, ...] = ('<ellipse cx="', '" cy="', '" rx="', '" ry="', f'" 
 
 
 def _stroke(color: str, width: float) -> str:
+    """Attributes of lines that fill nothing."""
+    return f'fill="none" {_outline(color, width)}'
+
+
+def _outline(color: str, width: float) -> str:
     return f'stroke="{color}" stroke-width="{width:.3g}" stroke-linejoin="round" stroke-linecap="round"'
