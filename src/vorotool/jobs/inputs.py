@@ -203,7 +203,7 @@ def read_voxel_points(run: Run, o: Options, given: JobInput, *, properties: bool
     """Read points in space, as the options say."""
     how: dict[str, Any] = {"input_format": o.input_format, "columns": o.columns}
     is_wanted = properties and not o.no_properties
-    return run.call(o, "formats.volumes.points:read_xyz", given.path, phase=None, properties=is_wanted, **how)
+    return run.call(o, "formats.volumes.opening:read_xyz", given.path, phase=None, properties=is_wanted, **how)
 
 
 def seeds_of_image(run: Run, o: Options, image: Raster, mode: SeedMode | None) -> SeedSet:

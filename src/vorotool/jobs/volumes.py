@@ -20,8 +20,7 @@ from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.sources import reading
-from vorotool.formats.volumes.opening import kind_of_head, open_volume
-from vorotool.formats.volumes.points import read_xyz
+from vorotool.formats.volumes.opening import kind_of_head, open_volume, read_xyz
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
 from vorotool.jobs.inputs import JobInput, frame_of, report_no_seeds

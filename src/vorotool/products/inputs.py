@@ -119,7 +119,7 @@ def names_of(*held: Holds) -> dict[str, str]:
     return {name: each.name for each in _ALL if each.readers.keys() & set(held) for name in each.names}
 
 
-VOLUME_READER, SPACE_READER = "formats.volumes.opening:read_volume", "formats.volumes.points:read_xyz"
+VOLUME_READER, SPACE_READER = "formats.volumes.opening:read_volume", "formats.volumes.opening:read_xyz"
 """``module:function`` that read volumes, and points with a z, from a path."""
 
 IMAGE_NAMES = names_of("image")

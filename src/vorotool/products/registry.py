@@ -143,7 +143,7 @@ _DELAUNAY = (
 )
 
 # ---- delaunay, of points in space ----------------------------------------------------------------
-_SOLIDS = Writer("formats.results.solids:write_solid", ("fmt", "what", "threads"))
+_SOLIDS = Writer("formats.results.meshes:write_solid", ("fmt", "what", "threads"))
 _SOLID = dict.fromkeys(("obj", "ply", "stl", "vtu"), _SOLIDS)
 _TETRAHEDRA = _product("tetrahedra", "Tetrahedralization", f"{_TABLES} npy vtu", own=_SOLID, usual_for=("vtu",))
 _HULL = _product("hull", "Tetrahedralization", f"{_TABLES} npy obj ply stl vtu", own=_SOLID, usual_for=("ply", "stl"))

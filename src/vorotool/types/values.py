@@ -395,7 +395,7 @@ class Branched(_Places):
         >>> len(vorotool.skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]).to_networkx())
         6
         """
-        return resolved("convert.graphs:to_networkx")(self, by=by, flatten=flatten)
+        return resolved("convert.frames:to_networkx")(self, by=by, flatten=flatten)
 
 
 class Graph:
@@ -425,7 +425,7 @@ class Graph:
         >>> vorotool.delaunay([[0, 0], [4, 0], [0, 3]]).to_networkx().edges[0, 1]["length"]
         4.0
         """
-        return resolved("convert.graphs:to_networkx")(self)
+        return resolved("convert.frames:to_networkx")(self)
 
 
 class Pictured:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vorotool
-from vorotool.formats.results.solids import write_solid
+from vorotool.formats.results.meshes import write_solid
 
 POINTS = np.random.default_rng(1).random((60, 3))
 MESH = vorotool.delaunay(POINTS)

@@ -8,7 +8,7 @@ import shapely
 
 import vorotool
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.formats.volumes.points import read_xyz
+from vorotool.formats.volumes.opening import read_xyz
 
 XYZ = [[1.5, 2, 3], [4, 5, 6.25], [0, 0, 9]]
 LABELS = [7, 9, 7]

@@ -8,8 +8,7 @@ import shapely
 
 import vorotool
 from vorotool.errors import InputError, VorotoolWarning
-from vorotool.numeric.curves.curve_geometry import flattened_arcs
-from vorotool.numeric.curves.well_known import geometry_of_binary, geometry_of_texts, without_curves
+from vorotool.numeric.curves.well_known import flattened_arcs, geometry_of_binary, geometry_of_texts, without_curves
 
 RING = "CIRCULARSTRING (0 0, 4 0, 4 4, 0 4, 0 0)"
 SQUARE = "((0 0, 1 0, 1 1, 0 1, 0 0))"

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.plain import plain
 from vorotool.render.canvas.styles import INK, SEED, PictureStyle, edge_color
 from vorotool.types.box import bounds
+from vorotool.types.identity import column_of
 from vorotool.types.pixels import PixelGrid
 
 MARGIN = 0.02
@@ -397,3 +399,28 @@ class CubicCurves(Curves):
         """As of `Curves`."""
         control = np.stack([self.pairs[:, 0], self.control, self.second, self.pairs[:, 1]], axis=1)
         return cubic_polylines(self.points[control], tolerance)
+
+
+def column_texts(properties: Mapping[str, Sequence[Any]], column: str | None, ids: Iterable[Any]) -> list[str]:
+    """Give what is written on objects."""
+    return [text_of(value) for value in (ids if column is None else column_of(properties, column) or ())]
+
+
+def text_of(value: Any) -> str:
+    """Give a value as what is written, shortest; nothing for what is missing."""
+    if value is None or value is np.ma.masked:
+        return ""
+    value = value.item() if isinstance(value, np.generic) else value
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float):
+        return "" if value != value else repr(value).removesuffix(".0")  # noqa: PLR0124  # NaN is not itself
+    return str(value).strip()
+
+
+def without_empty(texts: Texts) -> Texts:
+    """Leave out the places where nothing is written."""
+    kept = [k for k, text in enumerate(texts.texts) if text]
+    if len(kept) == len(texts.texts):
+        return texts
+    return replace(texts, points=texts.points[kept], texts=[texts.texts[k] for k in kept])

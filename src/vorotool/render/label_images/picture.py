@@ -96,7 +96,7 @@ def label_picture(
     sites: SeedSet | VolumeSeeds | None = None,
 ) -> LabelPicture:
     """Prepare the picture of a label image, whose seeds are those of the sites: numbers in the pixels of small ones."""
-    from vorotool.render.canvas.names import column_texts
+    from vorotool.render.canvas.layers import column_texts
     from vorotool.render.label_images.svg import has_numbers
 
     left_out = {"labels": not has_numbers(image.shape), "seeds": image.seeds is None}

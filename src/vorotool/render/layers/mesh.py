@@ -13,8 +13,19 @@ from vorotool.engines.alpha.alpha_hull import alpha_hull
 from vorotool.engines.delaunay.cells import cell_colors
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.arrays import following, owners
-from vorotool.render.canvas.layers import Arcs, Layer, Lines, Makers, Page, Points, Polygons, Texts, made_layers
-from vorotool.render.canvas.names import column_texts, without_empty
+from vorotool.render.canvas.layers import (
+    Arcs,
+    Layer,
+    Lines,
+    Makers,
+    Page,
+    Points,
+    Polygons,
+    Texts,
+    column_texts,
+    made_layers,
+    without_empty,
+)
 from vorotool.render.canvas.styles import BOUNDARY, CELLS, EDGE, FAINT, INK, PALE, SINGULAR, WHITE, cell_color
 from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.alpha.shape import AlphaHull, AlphaShape

@@ -20,10 +20,11 @@ from vorotool.render.canvas.layers import (
     Polygons,
     Texts,
     circles,
+    column_texts,
     made_layers,
     name_size,
+    without_empty,
 )
-from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.styles import FAINT, LIGHT, RESULT, SEED, WHITE
 from vorotool.types.distances.distances import Distances
 from vorotool.types.polygons.polygon_set import PolygonSet

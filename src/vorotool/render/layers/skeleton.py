@@ -22,8 +22,8 @@ from vorotool.render.canvas.layers import (
     Texts,
     made_layers,
     name_size,
+    without_empty,
 )
-from vorotool.render.canvas.names import without_empty
 from vorotool.render.canvas.styles import EDGE as CELL_EDGE
 from vorotool.render.canvas.styles import FAINT, INK, RESULT, SEED, WHITE, cell_color
 from vorotool.render.layers.polygons import feature_names, names_of_features, polygon_layers

@@ -21,10 +21,11 @@ from vorotool.render.canvas.layers import (
     Points,
     Polygons,
     Texts,
+    column_texts,
     made_layers,
     name_size,
+    without_empty,
 )
-from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.styles import EDGE, INK, WHITE, cell_color
 from vorotool.render.layers.mesh import cell_ids
 from vorotool.render.layers.polygons import polygon_layers
