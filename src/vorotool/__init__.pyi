@@ -89,7 +89,7 @@ from vorotool.engines.distances.hausdorff import (
 from vorotool.engines.distances.hausdorff import (
     hausdorff as hausdorff,
 )
-from vorotool.engines.distances.verify_distances import (
+from vorotool.engines.distances.hausdorff import (
     verify_distances as verify_distances,
 )
 from vorotool.engines.from_skeleton.empty_discs import (
@@ -305,6 +305,9 @@ from vorotool.types.pixels import (
 from vorotool.types.points.point_set import (
     PointSet as PointSet,
 )
+from vorotool.types.points.point_set import (
+    VolumePoints as VolumePoints,
+)
 from vorotool.types.points.seed_set import (
     SeedSet as SeedSet,
 )
@@ -320,29 +323,29 @@ from vorotool.types.skeleton.critical_values import (
 from vorotool.types.skeleton.discs import (
     Discs as Discs,
 )
-from vorotool.types.skeleton.extended_lines import (
+from vorotool.types.skeleton.lines import (
     Centerlines as Centerlines,
 )
-from vorotool.types.skeleton.extended_lines import (
+from vorotool.types.skeleton.lines import (
     ExtendedSkeleton as ExtendedSkeleton,
+)
+from vorotool.types.skeleton.lines import (
+    SmoothLines as SmoothLines,
 )
 from vorotool.types.skeleton.necks import (
     Necks as Necks,
 )
+from vorotool.types.skeleton.necks import (
+    Parts as Parts,
+)
 from vorotool.types.skeleton.offsets import (
     Offsets as Offsets,
-)
-from vorotool.types.skeleton.parts import (
-    Parts as Parts,
 )
 from vorotool.types.skeleton.points_along import (
     SkeletonPoints as SkeletonPoints,
 )
 from vorotool.types.skeleton.skeleton import (
     Skeleton as Skeleton,
-)
-from vorotool.types.skeleton.smooth_lines import (
-    SmoothLines as SmoothLines,
 )
 from vorotool.types.skeleton.tables import (
     arc_table as arc_table,
@@ -368,13 +371,10 @@ from vorotool.types.volumes.volume import (
 from vorotool.types.volumes.volume import (
     VolumeSeeds as VolumeSeeds,
 )
-from vorotool.types.volumes.volume_points import (
-    VolumePoints as VolumePoints,
-)
-from vorotool.types.volumes.voxel_frame import (
+from vorotool.types.volumes.volume import (
     VoxelFrame as VoxelFrame,
 )
-from vorotool.types.volumes.voxel_frame import (
+from vorotool.types.volumes.volume import (
     VoxelGrid as VoxelGrid,
 )
 from vorotool.types.voronoi.voronoi_map import (

@@ -23,12 +23,11 @@ from numpy.typing import ArrayLike
 from vorotool.types.box import Box
 from vorotool.types.images import LabelImage, Raster
 from vorotool.types.mesh.triangulation import Triangulation
-from vorotool.types.points.point_set import PointSet
+from vorotool.types.points.point_set import PointSet, VolumePoints
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds
-from vorotool.types.volumes.volume_points import VolumePoints
 
 
 @runtime_checkable

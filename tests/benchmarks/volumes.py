@@ -23,8 +23,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from benchmarks.timing import best, in_own_process, options
 from vorotool import _core_testing
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.types.volumes.volume import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import VolumeSeeds, VoxelFrame
 
 PEERS: dict[str, Callable[[np.ndarray], object]] = {
     "scipy": lambda volume: volume[

@@ -14,7 +14,7 @@ from vorotool.errors import InputError, UsageError, warn
 from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.length_units import ratio
 from vorotool.types.pixels import ALIKE, PixelGrid, PixelSides, map_grid, pixel_sides, rounded_side, sides_of_grid
-from vorotool.types.volumes.voxel_frame import VoxelGrid
+from vorotool.types.volumes.volume import VoxelGrid
 
 AUTO = "auto"
 

@@ -17,7 +17,7 @@ from vorotool.types.fields import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet, labels_of
 
 if TYPE_CHECKING:
-    from vorotool.types.volumes.volume_points import VolumePoints
+    from vorotool.types.points.point_set import VolumePoints
 
 ROWS_FIRST = ("y", "lat", "north", "row", "r", "i")
 """How names begin, or are, of a first column that may be the y of two."""
@@ -53,7 +53,7 @@ def points_of_table(table: Any, name: str) -> PointSet:
 
 def volume_points_of_table(table: Any) -> VolumePoints:
     """Take coordinates of space, labels, further columns and the index of a table."""
-    from vorotool.types.volumes.volume_points import VolumePoints
+    from vorotool.types.points.point_set import VolumePoints
 
     names, columns = _columns_of(table)
     texts = [str(each) for each in names]

@@ -15,8 +15,8 @@ from vorotool.numeric.coordinates import number_array
 from vorotool.numeric.numbers import real_number
 from vorotool.types.images import LabelImage, Raster
 from vorotool.types.pixels import MAX_PIXELS
+from vorotool.types.points.point_set import VolumePoints
 from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds
-from vorotool.types.volumes.volume_points import VolumePoints
 
 AXES = 3
 

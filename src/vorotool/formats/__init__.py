@@ -12,12 +12,11 @@ from vorotool.types.pixels import MAX_PIXELS
 if TYPE_CHECKING:
     from vorotool.numeric.numbers import Flatten
     from vorotool.types.images import Raster
-    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.point_set import PointSet, VolumePoints
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.offsets import Offsets
     from vorotool.types.skeleton.skeleton import Skeleton
     from vorotool.types.volumes.volume import Volume
-    from vorotool.types.volumes.volume_points import VolumePoints
     from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vorotool.convert.sites import as_sites
-from vorotool.engines.distances.hausdorff import distance, hausdorff
-from vorotool.engines.distances.verify_distances import verify_distances
+from vorotool.engines.distances.hausdorff import distance, hausdorff, verify_distances
 from vorotool.errors import InputError
 from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.options import Options

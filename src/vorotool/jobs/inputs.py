@@ -29,11 +29,10 @@ if TYPE_CHECKING:
     from vorotool.types.images import Raster
     from vorotool.types.mesh.tetrahedralization import Tetrahedralization
     from vorotool.types.mesh.triangulation import Triangulation
-    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.point_set import PointSet, VolumePoints
     from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.values import Value
     from vorotool.types.volumes.volume import VolumeSeeds
-    from vorotool.types.volumes.volume_points import VolumePoints
 
 
 class JobInput(NamedTuple):
@@ -243,7 +242,7 @@ def frame_of(o: Options, seeds: SeedSet | VolumeSeeds) -> Any:
 def asked_frame(o: Options) -> Any:
     """Give the frame of --window or --size, if there is one: of pixels, or of voxels."""
     from vorotool.types.pixels import Frame
-    from vorotool.types.volumes.voxel_frame import VoxelFrame
+    from vorotool.types.volumes.volume import VoxelFrame
 
     numbers = o.window if o.size is None else (*(0 for _ in o.size), *o.size)
     if numbers is None:

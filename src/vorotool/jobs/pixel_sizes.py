@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.polygons.polygon_set import PolygonSet
-    from vorotool.types.volumes.voxel_frame import VoxelGrid
+    from vorotool.types.volumes.volume import VoxelGrid
 
 Placed = TypeVar("Placed")
 

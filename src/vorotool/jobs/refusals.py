@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.units import PixelSize
     from vorotool.numeric.length_units import InputUnit
     from vorotool.types.pixels import PixelGrid
-    from vorotool.types.volumes.voxel_frame import VoxelGrid
+    from vorotool.types.volumes.volume import VoxelGrid
 
 _KINDS = {
     ".picture": "pictures (-f {})",

@@ -28,8 +28,7 @@ from vorotool.plain import plain
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import CELL, SQUARE, Frame, PixelSides
 from vorotool.types.table import Table
-from vorotool.types.volumes.volume import LabelVolume
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import LabelVolume, VoxelFrame
 
 if TYPE_CHECKING:
     from vorotool.engines.label_images.measured_regions import Regions

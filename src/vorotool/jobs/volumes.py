@@ -37,8 +37,7 @@ from vorotool.numeric.length_units import unit_name
 from vorotool.products.inputs import VOLUME_NAMES
 from vorotool.render.label_images.slices import SlicePicture
 from vorotool.types.pixels import Frame, PixelSides
-from vorotool.types.volumes.volume import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelGrid
+from vorotool.types.volumes.volume import VolumeSeeds, VoxelGrid
 
 if TYPE_CHECKING:
     from vorotool.render.label_images.picture import LabelPicture

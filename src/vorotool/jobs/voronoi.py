@@ -192,7 +192,7 @@ class VoronoiProducts(Results):
             "borders": int(cells.is_border.sum()),
             "parabolas": int(cells.is_parabola.sum()),
             "circles": int(cells.is_circle.sum()),
-            **resolved("engines.voronoi.measures:ties")(cells),
+            **resolved("engines.voronoi.voronoi:ties")(cells),
             "frame": list(cells.frame),
             "threads": o.threads,
         }

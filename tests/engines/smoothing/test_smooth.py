@@ -9,7 +9,7 @@ import shapely
 import vorotool
 from support.few import few
 from vorotool.numeric.curves.flatten import cubic_polylines, parts_between, places_at
-from vorotool.types.skeleton.extended_lines import LedOn
+from vorotool.types.skeleton.lines import LedOn
 
 ELL = [[0, 0], [60, 0], [60, 40], [50, 40], [50, 10], [0, 10]]
 

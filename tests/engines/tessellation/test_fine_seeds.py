@@ -9,8 +9,8 @@ import vorotool
 from support.families.families import fine_case
 from support.few import few
 from support.oracles.oracles import nearest_labels_of_fine_seeds
+from vorotool.engines.tessellation.tessellate import verify_labels
 from vorotool.engines.tessellation.tessellator import SeedBands, Tessellator
-from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from vorotool.engines.tessellation.tessellator import SeedBand
-from vorotool.types.volumes.volume import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import VolumeSeeds, VoxelFrame
 
 SEEDS = VolumeSeeds(np.array([[0, 0, 0], [4, 0, 9]]), np.array([1, 2]))
 FRAME = VoxelFrame(0, 0, 0, 5, 1, 10)

@@ -8,8 +8,8 @@ from scipy import ndimage
 
 from support.few import few
 from vorotool.engines import masks
+from vorotool.engines.tessellation.tessellate import verify_labels
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import UsageError, VerificationError
 from vorotool.types.pixels import Frame, PixelSides, pixel_sides
 from vorotool.types.points.seed_set import SeedSet

@@ -11,9 +11,8 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.volume_seeding import seeds_from_xyz
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.pixels import PixelSides, pixel_sides
-from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds
-from vorotool.types.volumes.volume_points import VolumePoints
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.points.point_set import VolumePoints
+from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds, VoxelFrame
 
 
 def brute(seeds, frame, units=(1, 1, 1)):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vorotool.engines.tessellation.verify_tessellation import verify_labels
+from vorotool.engines.tessellation.tessellate import verify_labels
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet

@@ -6,11 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vorotool
-from vorotool.engines.tessellation.verify_tessellation import verify_labels
+from vorotool.engines.tessellation.tessellate import verify_labels
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.types.pixels import PixelSides, pixel_sides
-from vorotool.types.volumes.volume import CUBE, LabelVolume, VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import CUBE, LabelVolume, VolumeSeeds, VoxelFrame
 
 
 def brute_force(seeds, frame, sides=CUBE, limit=None):

@@ -12,8 +12,7 @@ from vorotool.engines.label_images.measured_regions import measure_parts
 from vorotool.engines.label_images.regions import measure_regions, neighbor_table, region_colors, region_table
 from vorotool.errors import InputError, UsageError
 from vorotool.types.pixels import pixel_sides
-from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds, VoxelFrame
 
 DTYPES = (np.uint8, np.uint16, np.uint32, np.int32)
 COLUMNS = [

@@ -9,8 +9,7 @@ from vorotool.engines.label_images.measured_regions import regions_of_parts
 from vorotool.engines.label_images.regions import neighbor_table, region_table
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.pixels import pixel_sides
-from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds, VoxelFrame
 
 FRAME = VoxelFrame(-4, 2, 7, 13, 9, 16)
 

@@ -17,8 +17,7 @@ from vorotool.engines.tessellation.volume_seeding import (
     seeds_of_slabs,
 )
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
-from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame, VoxelGrid
+from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds, VoxelFrame, VoxelGrid
 
 FORMS = {26: np.ones((3, 3, 3)), 6: ndimage.generate_binary_structure(3, 1)}
 

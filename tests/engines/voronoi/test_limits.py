@@ -11,7 +11,7 @@ from tests.support.oracles.voronoi_oracle import assert_is_within, quietly
 from support.few import few
 from vorotool import verify_voronoi, voronoi
 from vorotool.errors import InputError, UsageError, VerificationError
-from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
+from vorotool.types.voronoi.tables import PART_OF_RADIUS, flattened_arcs
 
 FRAME = (-10, -10, 30, 30)
 ROUND = np.pi

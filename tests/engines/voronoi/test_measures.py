@@ -10,7 +10,7 @@ from tests.support.families.site_families import mixed_sites
 import vorotool
 from support.few import few
 from vorotool import voronoi
-from vorotool.engines.voronoi.measures import ties
+from vorotool.engines.voronoi.voronoi import ties
 from vorotool.errors import RepairWarning
 
 BOX = shapely.box(0, 0, 10, 10)

@@ -21,7 +21,7 @@ from vorotool.formats.zarr.writer import (
     write_chunks,
     write_zarr,
 )
-from vorotool.types.volumes.voxel_frame import VoxelGrid
+from vorotool.types.volumes.volume import VoxelGrid
 
 zarr = pytest.importorskip("zarr")
 VALUES = np.random.default_rng(4).integers(0, 200, (11, 40, 33))

@@ -18,7 +18,7 @@ from vorotool.formats.volumes import writer
 from vorotool.formats.volumes.opening import open_volume, read_volume
 from vorotool.formats.volumes.tiff_stack import ome_stack
 from vorotool.formats.volumes.writer import write_volume
-from vorotool.types.volumes.voxel_frame import VoxelGrid
+from vorotool.types.volumes.volume import VoxelGrid
 
 VALUES = np.random.default_rng(3).integers(0, 200, (5, 40, 30))
 SIDES = (Fraction(13, 40), Fraction(1, 4), Fraction(3, 2))

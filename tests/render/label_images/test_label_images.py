@@ -20,8 +20,7 @@ from vorotool.render.label_images.svg import crack_loops, write_label_svg
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds, VoxelFrame
 
 
 def filled(shape: tuple[int, int], loops: list[list[tuple[int, int]]]) -> np.ndarray:

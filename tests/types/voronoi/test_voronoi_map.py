@@ -9,8 +9,7 @@ from tests.support.families.site_families import mixed_sites
 
 from vorotool import UsageError, voronoi
 from vorotool.types.voronoi import tables
-from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
-from vorotool.types.voronoi.tables import site_distances
+from vorotool.types.voronoi.tables import PART_OF_RADIUS, flattened_arcs, site_distances
 
 WALL_AND_TREE = [shapely.LineString([(0, 0), (8, 0)]), shapely.Point(4, 2)]
 

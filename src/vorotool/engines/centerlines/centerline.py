@@ -23,7 +23,7 @@ from vorotool.numeric.checks import is_choice
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.box import check_lengths
-from vorotool.types.skeleton.extended_lines import Centerlines, without_centerline
+from vorotool.types.skeleton.lines import Centerlines, without_centerline
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from vorotool.numeric.arrays import Booleans, Floats, Numbers, owners, starts_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.extended_lines import ExtendedSkeleton, LedOn
+from vorotool.types.skeleton.lines import ExtendedSkeleton, LedOn
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
 

@@ -14,7 +14,7 @@ from vorotool.engines.pruning.verify_pruning import check_counts
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.shapely_geometry import to_shapely
-from vorotool.types.skeleton.extended_lines import ExtendedSkeleton
+from vorotool.types.skeleton.lines import ExtendedSkeleton
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 PRECISION = 2.0**-40

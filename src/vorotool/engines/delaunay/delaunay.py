@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from vorotool.types.mesh.tetrahedralization import Tetrahedralization
+    from vorotool.types.points.point_set import VolumePoints
     from vorotool.types.volumes.volume import VolumeSeeds
-    from vorotool.types.volumes.volume_points import VolumePoints
     from vorotool.typing import PointsLike, SeedsLike
 
 MOST_POINTS = 2**28

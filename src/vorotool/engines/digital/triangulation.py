@@ -21,8 +21,8 @@ from vorotool.engines.tessellation.frames import (
     default_frame,
     require_memory,
 )
+from vorotool.engines.tessellation.tessellate import verify_labels
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.engines.tessellation.verify_tessellation import verify_labels
 from vorotool.errors import InputError, LimitError, UsageError, VerificationError, option, warn
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress

@@ -22,7 +22,7 @@ from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import to_shapely
-from vorotool.types.skeleton.extended_lines import LedOn
+from vorotool.types.skeleton.lines import LedOn
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import Skeleton
 

@@ -20,8 +20,7 @@ from vorotool.plain import plain
 from vorotool.types.pixels import CELL, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.table import Table
-from vorotool.types.volumes.volume import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import VolumeSeeds, VoxelFrame
 
 _MEASURES = {2: ("area", "perimeter", "border_length"), 3: ("volume", "surface", "border_area")}
 """Columns: the size of a region and of its border, and of the border that two share."""

@@ -15,7 +15,7 @@ from vorotool.numeric.arrays import Columns, Floats, Indices
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.polygons.input_vertices import moved_feet, projected
+from vorotool.types.polygons.planar_graph import moved_feet, projected
 from vorotool.types.skeleton.arc_measures import ClearanceCourse
 from vorotool.types.skeleton.necks import Necks
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton

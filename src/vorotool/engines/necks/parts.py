@@ -20,11 +20,10 @@ from vorotool.engines.necks.necks import Feet, FoundNecks, Ways, check_neck, fou
 from vorotool.numeric.arrays import Floats, Indices, following, owners, ranges
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.polygons.input_vertices import moved_feet, places_as_given
+from vorotool.types.polygons.planar_graph import moved_feet, places_as_given
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
-from vorotool.types.skeleton.necks import Necks
-from vorotool.types.skeleton.parts import Parts
+from vorotool.types.skeleton.necks import Necks, Parts
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
 

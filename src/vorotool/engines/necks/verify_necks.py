@@ -17,11 +17,9 @@ from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
-from vorotool.types.polygons.input_vertices import moved_feet, places_as_given
-from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.planar_graph import PlanarGraph, moved_feet, places_as_given
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.skeleton.necks import Necks
-from vorotool.types.skeleton.parts import Parts
+from vorotool.types.skeleton.necks import Necks, Parts
 from vorotool.types.skeleton.skeleton import Skeleton
 
 _AREA_ERROR = 1e-9

@@ -12,9 +12,8 @@ from vorotool.numeric.numbers import checked_tolerance
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.extended_lines import LedOn
+from vorotool.types.skeleton.lines import LedOn, SmoothLines
 from vorotool.types.skeleton.skeleton import Skeleton
-from vorotool.types.skeleton.smooth_lines import SmoothLines
 
 NEARNESS = 16
 """How many times nearer the polylines are than the tolerance."""

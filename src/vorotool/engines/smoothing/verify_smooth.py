@@ -10,9 +10,8 @@ from vorotool.errors import VerificationError
 from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.curves.flatten import chained, places_at
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.extended_lines import LedOn
+from vorotool.types.skeleton.lines import LedOn, SmoothLines, ends_of_lines
 from vorotool.types.skeleton.skeleton import Skeleton
-from vorotool.types.skeleton.smooth_lines import SmoothLines, ends_of_lines
 
 Numbers = NDArray[np.integer]
 

@@ -22,7 +22,7 @@ from vorotool.errors import InputError, UsageError, option
 from vorotool.numeric.numbers import real_number, shown_number
 
 if TYPE_CHECKING:
-    from vorotool.types.volumes.voxel_frame import VoxelGrid
+    from vorotool.types.volumes.volume import VoxelGrid
     from vorotool.typing import RealLike
 
 _THRESHOLD = option("--threshold T", "threshold=T")

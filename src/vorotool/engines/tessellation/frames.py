@@ -26,8 +26,7 @@ from vorotool.types.images import LabelImage
 from vorotool.types.pixels import CELL, MAX_PIXELS, SQUARE, Frame, PixelSides
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds, VoxelFrame
 
 SIMD_LEVELS = ("portable", "avx2", "avx512")
 BAND_PIXELS = 2**24

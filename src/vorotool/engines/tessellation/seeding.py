@@ -36,8 +36,7 @@ from vorotool.types.values import counted
 from vorotool.types.volumes.volume import FINEST_SCALE
 
 if TYPE_CHECKING:
-    from vorotool.types.points.point_set import PointSet
-    from vorotool.types.volumes.volume_points import VolumePoints
+    from vorotool.types.points.point_set import PointSet, VolumePoints
     from vorotool.typing import ImageLike, PointsLike, RealLike
 
 _CENTROIDS = option("--seeds centroids", 'mode="centroids"')

@@ -29,8 +29,7 @@ from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.pixels import CELL, MAX_SIDE, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.volumes.volume import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import VolumeSeeds, VoxelFrame
 
 _WHOLE = {2: "image", 3: "volume"}
 

@@ -33,9 +33,8 @@ from vorotool.errors import LimitError, option
 from vorotool.numeric.numbers import finite_double, whole_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.pixels import MAX_PIXELS
-from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds
-from vorotool.types.volumes.volume_points import VolumePoints
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.points.point_set import VolumePoints
+from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds, VoxelFrame
 
 if TYPE_CHECKING:
     from vorotool.typing import RealLike, VolumeLike, VolumePointsLike

@@ -16,8 +16,7 @@ from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.types.arguments import check_value
 from vorotool.types.box import bounds, corners_of
 from vorotool.types.polygons.shapely_geometry import to_shapely, used_shapes
-from vorotool.types.voronoi.shapes import flattened_arcs
-from vorotool.types.voronoi.tables import site_shapes
+from vorotool.types.voronoi.tables import flattened_arcs, site_shapes
 from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 AREA = 1e-12

@@ -16,11 +16,10 @@ from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.alpha.shape import AlphaHull
 from vorotool.types.fields import DOWN, YAxis
 from vorotool.types.skeleton.discs import Discs
-from vorotool.types.skeleton.extended_lines import Centerlines, ExtendedSkeleton, LedOn
+from vorotool.types.skeleton.lines import Centerlines, ExtendedSkeleton, LedOn, SmoothLines
 from vorotool.types.skeleton.offsets import Offsets
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import Skeleton
-from vorotool.types.skeleton.smooth_lines import SmoothLines
 
 DEPTH = "depth"
 """Layer of the lines in space along points."""

@@ -23,7 +23,7 @@ from vorotool.formats.zarr.metadata import read_metadata
 from vorotool.formats.zarr.reader import Described, StoredArray, ZarrImage
 from vorotool.numeric.length_units import ratio, unit_name
 from vorotool.plain import plain
-from vorotool.types.volumes.voxel_frame import VoxelGrid
+from vorotool.types.volumes.volume import VoxelGrid
 
 SLAB_BYTES = 2**26
 """Of the slices that are read at a time, where whole volumes are."""

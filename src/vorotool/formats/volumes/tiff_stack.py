@@ -25,7 +25,7 @@ from vorotool.formats.volumes.source import VolumeSource, mapped, refuse_axes
 from vorotool.numeric.length_units import ratio
 from vorotool.numeric.parallel import in_order
 from vorotool.plain import plain
-from vorotool.types.volumes.voxel_frame import VoxelGrid
+from vorotool.types.volumes.volume import VoxelGrid
 
 _WORTH_THREADS = 2**20
 """Bytes of slices from which threads take less time than they cost."""

@@ -15,8 +15,7 @@ from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, write_pages
 from vorotool.formats.io.arrays import write_npy
 from vorotool.formats.volumes.tiff_stack import PIXEL
 from vorotool.types.pixels import PixelGrid
-from vorotool.types.volumes.volume import LabelVolume, Volume
-from vorotool.types.volumes.voxel_frame import VoxelGrid
+from vorotool.types.volumes.volume import LabelVolume, Volume, VoxelGrid
 
 VolumeFormat = Literal["tiff", "npy"]
 

@@ -19,7 +19,7 @@ from vorotool.formats.zarr.reader import OME_ENDING, StoredArray, add_scales, ha
 from vorotool.formats.zarr.store import open_store
 from vorotool.numeric.parallel import in_order, start
 from vorotool.types.pixels import PixelGrid
-from vorotool.types.volumes.voxel_frame import VoxelGrid
+from vorotool.types.volumes.volume import VoxelGrid
 
 Result = TypeVar("Result")
 

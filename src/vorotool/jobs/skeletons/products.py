@@ -38,10 +38,9 @@ if TYPE_CHECKING:
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.arc_measures import ThicknessImage
     from vorotool.types.skeleton.discs import Discs
-    from vorotool.types.skeleton.extended_lines import Centerlines, LedOn
+    from vorotool.types.skeleton.lines import Centerlines, LedOn, SmoothLines
     from vorotool.types.skeleton.offsets import Offsets
     from vorotool.types.skeleton.points_along import SkeletonPoints
-    from vorotool.types.skeleton.smooth_lines import SmoothLines
 
 SKELETON_INSIDE = "engines.skeleton.diagrams:skeleton_inside"
 LINES = ("skeleton", "centerline")
@@ -331,7 +330,7 @@ class SkeletonProducts(Results, ABC):
         value, o = super().written(what, fmt), self.options
         if what != "table":
             return value
-        from vorotool.types.skeleton.extended_lines import centerline_columns
+        from vorotool.types.skeleton.lines import centerline_columns
         from vorotool.types.skeleton.tables import polygon_table
 
         columns = centerline_columns(in_units(o.pixel_size, self._longest))

@@ -16,8 +16,7 @@ from vorotool.plain import plain
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds, VoxelFrame
 
 Z, Y, X = range(3)
 

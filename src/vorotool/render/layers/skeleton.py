@@ -27,12 +27,10 @@ from vorotool.render.canvas.layers import (
 from vorotool.render.canvas.styles import EDGE as CELL_EDGE
 from vorotool.render.canvas.styles import FAINT, INK, RESULT, SEED, WHITE, cell_color
 from vorotool.render.layers.polygons import feature_names, names_of_features, polygon_layers
-from vorotool.types.skeleton.extended_lines import Centerlines, LedOn
-from vorotool.types.skeleton.necks import Necks
-from vorotool.types.skeleton.parts import Parts
+from vorotool.types.skeleton.lines import Centerlines, LedOn, SmoothLines
+from vorotool.types.skeleton.necks import Necks, Parts
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
-from vorotool.types.skeleton.smooth_lines import SmoothLines
 from vorotool.types.skeleton.tables import site_labels
 
 _WIDEST_CUT = 2.0

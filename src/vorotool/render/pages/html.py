@@ -29,7 +29,7 @@ from vorotool.types.pixels import SQUARE, PixelSides
 from vorotool.types.skeleton.critical_values import ArcProfiles, CriticalValues
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.table import Table
-from vorotool.types.voronoi.shapes import cell_rings
+from vorotool.types.voronoi.tables import cell_rings
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 _PLACE = "/*DATA*/null"

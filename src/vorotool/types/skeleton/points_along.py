@@ -14,7 +14,7 @@ from vorotool.types import fields as f
 from vorotool.types.features import Corners, Rows, chosen, of_points, of_polygons, of_segments, without_places
 from vorotool.types.fields import record
 from vorotool.types.identity import names_of, part_table, place_columns
-from vorotool.types.polygons.input_vertices import moved_feet
+from vorotool.types.polygons.planar_graph import moved_feet
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.table import Table
 from vorotool.types.values import Pictured, Tabular, Value, WithParts, counted

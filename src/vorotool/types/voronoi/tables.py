@@ -10,12 +10,205 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats, Indices
-from vorotool.types.features import Rows
+from vorotool.numeric.arrays import Floats, Indices, Nesting, owners, starts_of, within
+from vorotool.numeric.curves.flatten import circle_tolerances, curve_tolerances, least_focal_distances
+from vorotool.numeric.curves.mixed_arcs import MixedArcs
+from vorotool.numeric.numbers import distinct
+from vorotool.products.formats import resolved
+from vorotool.types.features import Areas, Lines, Rows, without_places
 from vorotool.types.identity import with_ends
 from vorotool.types.polygons.shapely_geometry import used_shapes
 from vorotool.types.table import Computed, Lookup, Table
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
+
+PART_OF_RADIUS = 0.25
+"""How far a polyline may be from its curve, as a part of the smallest distance of that from the sites."""
+
+_BEND_OF_TWO = 10
+"""A parabola that may be off by its second difference over this is divided in two: more than 4, at most 16."""
+
+
+def flattened_arcs(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indices]:
+    """Return each arc as a polyline, from its source to its target."""
+    arcs = cells.mixed_arcs
+    least = least_focal_distances(arcs.source, arcs.control, arcs.target)
+    ends = np.stack([arcs.source, arcs.target], axis=1)
+    clearance = np.where(np.isfinite(least), least, 0)
+    most = np.minimum(curve_tolerances(ends, clearance, tolerance), PART_OF_RADIUS * least)
+    if cells.max_distance is not None:
+        at = np.flatnonzero(cells.is_circle)
+        radius = np.full(len(at), cells.max_distance)
+        most[at] = np.minimum(circle_tolerances(arcs.center[at], radius, tolerance), PART_OF_RADIUS * radius)
+    paired = _in_pairs(cells)
+    bend = (arcs.source - 2 * arcs.control + arcs.target)[paired]
+    most[paired] = np.fmin(most[paired], np.sqrt((bend * bend).sum(axis=1)) / _BEND_OF_TWO)
+    most[paired] = np.minimum(most[paired], arcs[paired].sagittas / 2)
+    return with_feet_of_corners(cells, *arcs.polylines(most), most)
+
+
+def _in_pairs(cells: VoronoiMap) -> Indices:
+    """Arcs of rings of two: of one piece each they would hold nothing."""
+    first = cells.ring_starts[:-1][np.diff(cells.ring_starts) == 2]
+    return np.abs(cells.ring_arcs[np.concatenate([first, first + 1])].astype(np.int64)) - 1
+
+
+def cell_rings(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indices]:
+    """Return the vertices of all rings of cells, the first of each not repeated."""
+    points, start = flattened_arcs(cells, tolerance)
+    arc, is_back = np.abs(cells.ring_arcs.astype(np.int64)) - 1, cells.ring_arcs < 0
+    sizes = np.diff(start)[arc] - 1
+    row = owners(sizes)
+    step = within(sizes)
+    taken = np.where(is_back[row], start[arc + 1][row] - 1 - step, start[arc][row] + step)
+    return points[taken], starts_of(sizes)[cells.ring_starts]
+
+
+def cell_polygons(cells: VoronoiMap, tolerance: float | None) -> NDArray[Any]:
+    """(s,) each cell as a polygon or multipolygon of shapely; what two cells share is the same in both, bit for bit."""
+    return resolved("convert.frames:shapely_of")(map_features(cells, "cells", tolerance).geometry)
+
+
+def map_features(cells: VoronoiMap, what: str | None, tolerance: float | None) -> Rows:
+    """Return the rows of borders, or of cells; only without a part with all columns of their table, some slow."""
+    every = np.arange(len(cells))
+    if what == "edges":
+        return _borders(cells, tolerance)
+    points, start = cell_rings(cells, tolerance)
+    areas = Areas(points, Nesting(start, cells.polygon_starts, cells.cell_starts))
+    if what is None:
+        return Rows(cell_table(cells), {}, cells, every, areas)
+    further = dict(cells.other_columns)
+    ids = further.pop("id", None) if cells.ids is None else list(cells.ids)
+    names = {"label": cells.labels} | ({} if ids is None else {"id": ids})
+    columns = {**names, "area": cells.areas, "perimeter": cells.perimeters}
+    return Rows(columns, further, cells, every, areas, ids=cells.labels)
+
+
+_LEFT_OUT = "x0", "y0", "x1", "y1", "cx", "cy", "r0", "r1", "arc"
+"""Columns of the table of borders that features do not have."""
+
+
+def _borders(cells: VoronoiMap, tolerance: float | None) -> Rows:
+    """Return a row a piece of a border, in the order of the table."""
+    points, start = flattened_arcs(cells, tolerance)
+    sizes, shown = np.diff(start), cells.is_border
+    geometry = Lines(points[shown[owners(sizes)]], starts_of(sizes[shown]))
+    return Rows(without_places(border_table(cells), *_LEFT_OUT), {}, cells, None, geometry)
+
+
+def with_feet_of_corners(
+    cells: VoronoiMap, points: Floats, start: Indices, tolerance: Floats
+) -> tuple[Floats, Indices]:
+    """Add to polylines the feet of corners of cuts that may be between them and their curves."""
+    curved = np.flatnonzero(cells.is_parabola | cells.is_circle)
+    if (cells.clip is None and cells.enclosures is None) or not curved.size:
+        return points, start
+    import shapely
+
+    arcs, corner = cells.mixed_arcs, distinct(cells.arcs[cells.is_cut])
+    hulls = shapely.polygons(_hulls(arcs[curved]))
+    row, at = shapely.STRtree(shapely.points(cells.vertices[corner])).query(hulls, predicate="intersects")
+    arc, vertex = curved[row], corner[at]
+    place = cells.vertices[vertex]
+    own = arcs[arc]
+    from_circles = np.abs(_size(place - own.center) - _size(own.source - own.center))
+    near = np.where(own.is_circle, from_circles, _from_parabolas(own, place))
+    chosen = (cells.arcs[arc] != vertex[:, None]).all(axis=1) & (near <= 2 * tolerance[arc])
+    arc, place = arc[chosen], place[chosen]
+    if not arc.size:
+        return points, start
+    rows = np.concatenate([owners(np.diff(start)), arc])
+    places = np.concatenate([points, _feet(arcs[arc], place)])
+    key = _along(arcs, rows, places)
+    key[start[:-1]], key[start[1:] - 1] = -np.inf, np.inf
+    others = np.flatnonzero(~np.isin(rows, arc))
+    key[others] = others
+    is_end = np.isinf(key)
+    order = np.lexsort((key, rows))
+    rows, places, is_end = rows[order], places[order], is_end[order]
+    same = np.isin(rows[1:], arc) & (rows[1:] == rows[:-1]) & (places[1:] == places[:-1]).all(axis=1)
+    kept = np.ones(len(rows), dtype=bool)
+    kept[1:][same & ~is_end[1:]] = False
+    kept[:-1][same & is_end[1:] & ~is_end[:-1]] = False
+    return places[kept], starts_of(np.bincount(rows[kept], minlength=len(cells.arcs)))
+
+
+def _axes(arcs: MixedArcs) -> Floats:
+    """(k, 2) unit vectors across the axes of parabolas, on from source to target."""
+    axis = arcs.source - 2 * arcs.control + arcs.target
+    size = _size(axis)
+    across = np.stack([-axis[:, 1], axis[:, 0]], axis=1) / np.where(size > 0, size, 1)[:, None]
+    forward = np.sign((across * (arcs.target - arcs.source)).sum(axis=1))
+    return across * forward[:, None]
+
+
+def _feet(arcs: MixedArcs, place: Floats) -> Floats:
+    """(k, 2) places on curves: in the direction of the axis of a parabola, or of the center of a circle."""
+    across = _axes(arcs)
+    whole = (across * (arcs.target - arcs.source)).sum(axis=1)
+    t = (across * (place - arcs.source)).sum(axis=1) / np.where(whole > 0, whole, 1)
+    t = t.clip(0, 1)[:, None]
+    feet = (1 - t) * (1 - t) * arcs.source + 2 * t * (1 - t) * arcs.control + t * t * arcs.target
+    offset = place - arcs.center
+    scale = _size(arcs.source - arcs.center) / _size(offset)
+    return np.where(arcs.is_circle[:, None], arcs.center + scale[:, None] * offset, feet)
+
+
+def _along(arcs: MixedArcs, arc: Indices, place: Floats) -> Floats:
+    """(k,) numbers that rise along arcs: across the axis of a parabola, the half angle on a circle."""
+    own = arcs[arc]
+    key: Floats = np.nan_to_num((_axes(own) * (place - own.source)).sum(axis=1))
+    circle = np.flatnonzero(own.is_circle)
+    round_arcs = own[circle]
+    middle, offset = _middles(round_arcs), place[circle] - round_arcs.center
+    ahead = _size(middle) * _size(offset) + (middle * offset).sum(axis=1)
+    turned = _cross(middle, offset) / np.where(ahead > 0, ahead, 1)
+    key[circle] = np.where(round_arcs.is_left, turned, -turned)
+    return key
+
+
+def _middles(arcs: MixedArcs) -> Floats:
+    """(k, 2) directions of the middles of circular arcs."""
+    a, b = arcs.source - arcs.center, arcs.target - arcs.center
+    chord = np.where(arcs.is_left[:, None], b - a, a - b)
+    across = np.stack([chord[:, 1], -chord[:, 0]], axis=1)
+    return np.where(((a * b).sum(axis=1) > 0)[:, None], a + b, across)
+
+
+def _hulls(arcs: MixedArcs) -> Floats:
+    """(k, 5, 2) closed rings around curves: two chords or tangents, and the chord between both ends."""
+    corner = [arcs.control, arcs.control]
+    if arcs.is_circle.any():
+        a, b = arcs.source - arcs.center, arcs.target - arcs.center
+        middle = _middles(arcs)
+        square = (a * a).sum(axis=1)[:, None]
+        size = _size(middle)[:, None]
+        middle = middle * np.sqrt(square) / np.where(size > 0, size, 1)
+        of_circles = [
+            arcs.center + (one + middle) * square / (square + (one * middle).sum(axis=1)[:, None]) for one in (a, b)
+        ]
+        corner = [np.where(arcs.is_circle[:, None], circle, arcs.control) for circle in of_circles]
+    return np.stack([arcs.source, *corner, arcs.target, arcs.source], axis=1)
+
+
+def _from_parabolas(arcs: MixedArcs, place: Floats) -> Floats:
+    """(k,) no more than the distance of places in the triangles of Bezier curves from these."""
+    a, b, c = arcs.source, arcs.control, arcs.target
+    double = _cross(b - a, c - a)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        u, w = _cross(b - place, c - place) / double, _cross(a - place, b - place) / double
+        rise = (2 * _size(c - a) + 4 * (_size(c - b) + _size(b - a))) / np.abs(double)
+        near: Floats = np.abs((1 - u - w) * (1 - u - w) - 4 * u * w) / rise
+    return np.where(np.isfinite(near), near, 0)
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+
+def _size(way: Floats) -> Floats:
+    return np.sqrt((way * way).sum(axis=1))
+
 
 KINDS = ["line", "parabola", "circle"]
 """Of arcs."""

@@ -197,13 +197,13 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
 
     @cached_property
     def own_areas(self) -> Floats:
-        """(s,) areas of the site's own polygons that cells have; see `vorotool.engines.voronoi.measures.own_areas`."""
-        return resolved("engines.voronoi.measures:own_areas")(self)
+        """(s,) areas of the site's own polygons that cells have; see `vorotool.engines.voronoi.voronoi.own_areas`."""
+        return resolved("engines.voronoi.voronoi:own_areas")(self)
 
     @cached_property
     def reaches(self) -> Floats:
-        """(s,) largest distances of cells from their sites; see `vorotool.engines.voronoi.measures.reaches`."""
-        return resolved("engines.voronoi.measures:reaches")(self)
+        """(s,) largest distances of cells from their sites; see `vorotool.engines.voronoi.voronoi.reaches`."""
+        return resolved("engines.voronoi.voronoi:reaches")(self)
 
     @cached_property
     def components(self) -> NDArray[np.int64]:
@@ -264,7 +264,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         return resolved(f"{_TABLES}:map_rows")(self, what)
 
     def _features(self, what: str | None = None, flatten: float | None = None) -> Rows:
-        return resolved("types.voronoi.shapes:map_features")(self, what, flatten)
+        return resolved("types.voronoi.tables:map_features")(self, what, flatten)
 
     def _summary(self) -> str:
         sizes = (
