@@ -26,8 +26,8 @@ from vorotool.numeric.checks import checked_threads
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS, NAMES_WITH, SPACE_FORMATS, VOLUME_NAMES, known_input_format
 from vorotool.types.pixels import MAX_PIXELS
+from vorotool.types.points.point_set import VolumePoints
 from vorotool.types.volumes.volume import Volume
-from vorotool.types.volumes.volume_points import VolumePoints
 
 _HEADS = ((b"II*\x00", "tiff"), (b"MM\x00*", "tiff"), (b"II+\x00", "tiff"), (b"MM\x00+", "tiff"), (MAGIC, "npy"))
 _LONGEST_HEAD = 8
