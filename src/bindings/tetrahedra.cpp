@@ -14,7 +14,9 @@
 #include "core/base/indices.hpp"
 #include "core/tetrahedra/delaunay_tetrahedra.hpp"
 #include "core/tetrahedra/point3.hpp"
+#include "core/tetrahedra/point_table.hpp"
 #include "core/tetrahedra/predicates.hpp"
+#include "core/tetrahedra/spheres.hpp"
 #include "core/tetrahedra/verify_tetrahedra.hpp"
 
 namespace vorotool::bindings {
@@ -113,13 +115,57 @@ Columns triangulate(const Places& points, unsigned threads, const Progress& prog
   return result;
 }
 
+using Row = std::array<std::int32_t, 4>;
+using PointLabels = Vector<const std::int64_t>;
+
 std::optional<std::string> find_fault(const Places& points, const IndexRows& tetrahedra,
                                       const IndexRows& neighbors, const Indices& first, unsigned threads,
                                       const Progress& progress) {
-  using Row = std::array<std::int32_t, 4>;
   const core::tetrahedra::TetrahedraView arrays{rows<Point3>(points), rows<Row>(tetrahedra),
                                                 rows<Row>(neighbors), view(first)};
   return run_interruptible(progress, core::tetrahedra::find_fault, arrays, threads);
+}
+
+std::pair<Array<double>, Array<double>> spheres(const Places& points, const IndexRows& tetrahedra,
+                                                unsigned threads, const Progress& progress) {
+  core::base::check_range(view(tetrahedra), 0, points.shape(0),
+                          "a tetrahedron names a point that does not exist");
+  core::tetrahedra::Spheres made = run_interruptible(progress, core::tetrahedra::measure_spheres,
+                                                     rows<Point3>(points), rows<Row>(tetrahedra), threads);
+  const std::size_t count = tetrahedra.shape(0);
+  Point3* ways = made.ways.release();
+  return {
+      {reinterpret_cast<double*>(ways),
+       {count, 3},
+       nb::capsule(ways,
+                   [](void* p) noexcept { core::base::LargeArray<Point3>::free(static_cast<Point3*>(p)); })},
+      to_numpy(std::move(made.volumes), {count})};
+}
+
+Columns point_table(const Places& points, const IndexRows& tetrahedra, const IndexRows& neighbors,
+                    const PointLabels& labels, unsigned threads, const Progress& progress) {
+  if (neighbors.shape(0) != tetrahedra.shape(0) || labels.size() != points.shape(0))
+    throw std::invalid_argument("the arrays do not have the lengths of each other");
+  core::tetrahedra::PointTable made =
+      run_interruptible(progress, core::tetrahedra::point_table, rows<Point3>(points), rows<Row>(tetrahedra),
+                        rows<Row>(neighbors), view(labels), threads);
+  Columns result;
+  result["neighbors"] = to_numpy(std::move(made.neighbors));
+  result["cell_volume"] = to_numpy(std::move(made.cell_volume));
+  result["nearest"] = to_numpy(std::move(made.nearest));
+  result["on_hull"] = to_numpy(std::move(made.on_hull));
+  return result;
+}
+
+Array<std::int32_t> nearest_corners(const Places& points, const IndexRows& simplices,
+                                    const PointLabels& labels, unsigned threads, const Progress& progress) {
+  if (labels.size() != points.shape(0)) throw std::invalid_argument("each point must have a label");
+  const auto found = [&]<std::size_t corners>() {
+    return to_numpy(
+        run_interruptible(progress, core::tetrahedra::nearest_corners<corners>, rows<Point3>(points),
+                          rows<std::array<std::int32_t, corners>>(simplices), view(labels), threads));
+  };
+  return simplices.shape(1) == 2 ? found.operator()<2>() : found.operator()<3>();
 }
 
 }  // namespace
@@ -137,6 +183,20 @@ void bind_tetrahedra(nb::module_& room) {
       "duplicates, how many points have an earlier one.");
   room.def("find_fault", &find_fault, "points"_a, "tetrahedra"_a, "neighbors"_a, "first"_a, "threads"_a,
            "progress"_a.none());
+  room.def(
+      "spheres", &spheres, "points"_a, "tetrahedra"_a, "threads"_a, "progress"_a.none(),
+      "The ways from the first corners of tetrahedra to the centers of their spheres, within 2^-43 of their "
+      "lengths, and the volumes of the tetrahedra.");
+  room.def("point_table", &point_table, "points"_a, "tetrahedra"_a, "neighbors"_a, "labels"_a, "threads"_a,
+           "progress"_a.none(),
+           "Of each point of a Delaunay triangulation: neighbors, how many; cell_volume within 2^-40 of "
+           "itself, infinite "
+           "on the hull; nearest, the nearest other point, of several that of the smallest label, or -1; "
+           "on_hull.");
+  room.def(
+      "nearest_corners", &nearest_corners, "points"_a, "simplices"_a, "labels"_a, "threads"_a,
+      "progress"_a.none(),
+      "Of each point the nearest other corner of the edges or triangles that have it, as in point_table.");
   room.def("orient3d", &orient3d, "points"_a, "level"_a = "auto", levels);
   room.def("in_sphere", &in_sphere, "points"_a, "level"_a = "auto",
            "As orient3d; the level ties breaks ties as the triangulation does.");

@@ -45,6 +45,17 @@ struct Difference3 {
   Number x, y, z;
 };
 
+template <class Number>
+auto cross(const Difference3<Number>& p, const Difference3<Number>& q) {
+  using Product = decltype(p.x * q.y);
+  return Difference3<Product>{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+
+template <class Number, class Other>
+auto dot(const Difference3<Number>& p, const Difference3<Other>& q) {
+  return p.x * q.x + p.y * q.y + p.z * q.z;
+}
+
 // The determinants, from the differences to the last point. A product of integers of fixed width is wider, and so is
 // each result.
 template <class Number>

@@ -14,6 +14,21 @@ def triangulate(points: numpy.typing.NDArray[numpy.float64], threads: int, progr
 
 def find_fault(points: numpy.typing.NDArray[numpy.float64], tetrahedra: numpy.typing.NDArray[numpy.int32], neighbors: numpy.typing.NDArray[numpy.int32], first: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> str | None: ...
 
+def spheres(points: numpy.typing.NDArray[numpy.float64], tetrahedra: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    """
+    The ways from the first corners of tetrahedra to the centers of their spheres, within 2^-43 of their lengths, and the volumes of the tetrahedra.
+    """
+
+def point_table(points: numpy.typing.NDArray[numpy.float64], tetrahedra: numpy.typing.NDArray[numpy.int32], neighbors: numpy.typing.NDArray[numpy.int32], labels: numpy.typing.NDArray[numpy.int64], threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]:
+    """
+    Of each point of a Delaunay triangulation: neighbors, how many; cell_volume within 2^-40 of itself, infinite on the hull; nearest, the nearest other point, of several that of the smallest label, or -1; on_hull.
+    """
+
+def nearest_corners(points: numpy.typing.NDArray[numpy.float64], simplices: numpy.typing.NDArray[numpy.int32], labels: numpy.typing.NDArray[numpy.int64], threads: int, progress: Callable[[float], object] | None) -> numpy.typing.NDArray[numpy.int32]:
+    """
+    Of each point the nearest other corner of the edges or triangles that have it, as in point_table.
+    """
+
 def orient3d(points: numpy.typing.NDArray[numpy.float64], level: str = 'auto') -> numpy.typing.NDArray[numpy.int8]:
     """
     A level is auto, filter, integers or wide; the sign is 2 where the filter cannot tell. The points must be finite.

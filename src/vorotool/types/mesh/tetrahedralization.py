@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import field
-from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,12 +10,11 @@ import numpy as np
 
 from vorotool.errors import UsageError
 from vorotool.numeric.arrays import Floats
-from vorotool.numeric.numbers import nearest_double
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.features import Rows
 from vorotool.types.fields import record
-from vorotool.types.mesh.triangulation import ALL, FLAT, OfPoints
+from vorotool.types.mesh.triangulation import ALL, OfPoints
 from vorotool.types.table import Computed, Lookup, Table
 from vorotool.types.values import Tabular, counted
 
@@ -28,10 +25,6 @@ FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 """Corners of the face opposite to each corner of a tetrahedron, counter-clockwise as seen from outside."""
 EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
 """Corners at the ends of each edge of a tetrahedron."""
-BLOCK = 1 << 13
-"""Tetrahedra that are measured at a time."""
-TINY = 2.0**-300
-"""Sizes of tetrahedra below it, and above its inverse, have determinants that are no doubles."""
 
 
 @record
@@ -167,15 +160,9 @@ class Tetrahedralization(OfPoints, Tabular):
 
     @cached_property
     def _spheres(self) -> tuple[Floats, Floats]:
-        """Ways to centers, and volumes."""
-        ways, volumes = np.empty((len(self), 3)), np.empty(len(self))
-        for rows in self.blocks():
-            ways[rows], volumes[rows] = _spheres(self.points[self.tetrahedra[rows]])
-        return ways, volumes
-
-    def blocks(self) -> Iterator[slice]:
-        """Rows of tetrahedra whose numbers stay in the cache."""
-        return (slice(begin, begin + BLOCK) for begin in range(0, len(self), BLOCK))
+        """Ways to centers within 2^-43 of their lengths, and volumes within 2^-44 of theirs."""
+        found: tuple[Floats, Floats] = resolved("engines.delaunay.space_table:spheres")(self)
+        return found
 
     # ---- tables
     def _rows(self, what: str | None = None) -> Rows:
@@ -209,50 +196,3 @@ def norms(ways: Floats) -> Floats:
     with np.errstate(over="ignore", under="ignore"):
         lengths: Floats = np.ldexp(np.sqrt((scaled * scaled).sum(axis=1)), exponent)
     return lengths
-
-
-def cross(p: Floats, q: Floats) -> Floats:
-    """Cross products of (3, n) vectors."""
-    return np.stack([p[i - 2] * q[i - 1] - p[i - 1] * q[i - 2] for i in range(3)])
-
-
-def dot(p: Floats, q: Floats) -> Floats:
-    """Scalar products of (3, n) vectors."""
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-
-
-def _spheres(corners: Floats) -> tuple[Floats, Floats]:
-    """Ways from the first of (n, 4, 3) corners to the centers of spheres, and volumes; flat ones in rationals."""
-    a, *others = np.moveaxis(corners, 0, 2)
-    b, c, d = (other - a for other in others)
-    with np.errstate(all="ignore"):  # what overflows or divides by zero is done again
-        normals = cross(c, d), cross(d, b), cross(b, c)
-        six = dot(b, normals[0])
-        sums = dot(b, b) * normals[0] + dot(c, c) * normals[1] + dot(d, d) * normals[2]
-        ways, volumes = (sums / (2 * six)).T, six / 6
-        size = np.abs([b, c, d]).max(axis=(0, 1), initial=0.0)
-        is_flat = ~((six >= FLAT * _permanents(b, c, d)) & (size > TINY) & (size < 1 / TINY))
-    for t in np.flatnonzero(is_flat):
-        ways[t], volumes[t] = _exact_sphere(corners[t])
-    return ways, volumes
-
-
-def _permanents(b: Floats, c: Floats, d: Floats) -> Floats:
-    """What the terms of determinants are, all with the same sign."""
-    b, c, d = np.abs(b), np.abs(c), np.abs(d)
-    return dot(b, np.stack([c[i - 2] * d[i - 1] + c[i - 1] * d[i - 2] for i in range(3)]))
-
-
-def _exact_sphere(corners: Floats) -> tuple[list[float], float]:
-    """The way from the first of four points to the center of their sphere, and their volume, from rationals."""
-    a, *others = ([Fraction(x) for x in corner] for corner in corners.tolist())
-    ways = [[x - y for x, y in zip(other, a, strict=True)] for other in others]
-    normals = [_cross(ways[(i + 1) % 3], ways[(i + 2) % 3]) for i in range(3)]
-    six = sum(x * y for x, y in zip(ways[0], normals[0], strict=True))
-    squares = [sum(x * x for x in way) for way in ways]
-    way = [sum(s * n[i] for s, n in zip(squares, normals, strict=True)) / (2 * six) for i in range(3)]
-    return [nearest_double(x) for x in way], nearest_double(six / 6)
-
-
-def _cross(p: list[Fraction], q: list[Fraction]) -> list[Fraction]:
-    return [p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3] for i in range(3)]
