@@ -37,10 +37,7 @@ def _found(mesh: Tetrahedralization) -> dict[str, Any]:
     """Count the neighbors, and find the volume of the cell, the nearest point, and what is on the hull."""
     labels = mesh.label_array
     if len(mesh):
-        found: dict[str, Any] = _core.tetrahedra.point_table(
-            mesh.points, mesh.tetrahedra, mesh.neighbors, labels, 0, None
-        )
-        return found
+        return _core.tetrahedra.point_table(mesh.points, mesh.tetrahedra, mesh.neighbors, labels, 0, None)
     simplices = mesh.planar if len(mesh.planar) else mesh.edges
     return {
         "neighbors": np.bincount(mesh.edges.reshape(-1), minlength=len(labels)),

@@ -161,8 +161,7 @@ class Tetrahedralization(OfPoints, Tabular):
     @cached_property
     def _spheres(self) -> tuple[Floats, Floats]:
         """Ways to centers within 2^-43 of their lengths, and volumes within 2^-44 of theirs."""
-        found: tuple[Floats, Floats] = resolved("engines.delaunay.space_table:spheres")(self)
-        return found
+        return resolved("engines.delaunay.space_table:spheres")(self)
 
     # ---- tables
     def _rows(self, what: str | None = None) -> Rows:
