@@ -103,7 +103,7 @@ def _folder_of_parts(plan: Plan, stack: ExitStack) -> str:
     path = plan.table.place
     folder = Path(os.path.realpath(path)).parent if stream_kind(path) is None else Path(tempfile.gettempdir())
     with atomic_output.explained(path, "--table"):
-        return str(stack.enter_context(temporary_beside(folder / "tables", new_folder)).path)
+        return stack.enter_context(temporary_beside(folder / "tables", new_folder)).path
 
 
 # ---- the work ----------------------------------------------------------------------------------------------------

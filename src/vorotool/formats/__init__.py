@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, cast, overload
 
 from vorotool.types.pixels import MAX_PIXELS
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from vorotool.numeric.numbers import Flatten
     from vorotool.types.images import Raster
     from vorotool.types.points.point_set import PointSet, VolumePoints
@@ -217,6 +218,7 @@ def sample(name: str) -> Path:
     53
     """
     from importlib.resources import files
+    from pathlib import Path
 
     return Path(str(files("vorotool").joinpath("samples", sample_name(name))))
 
@@ -224,6 +226,7 @@ def sample(name: str) -> Path:
 def sample_name(name: str) -> str:
     """Return the full name of a sample that is named with or without its extension."""
     from difflib import get_close_matches
+    from pathlib import Path
 
     from vorotool.errors import UsageError
     from vorotool.numeric.checks import is_choice

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from os import PathLike, fspath
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
@@ -133,6 +132,8 @@ def open_tiff(name: str, input_format: str | None = None, page: int | None = Non
     """Open a page of a TIFF file that can be read band by band; None if it is none, or comes through a stream."""
     if input_format not in (None, "tiff") or not _begins_as_tiff(name):
         return None
+    from pathlib import Path
+
     from vorotool.formats.images.band_reader import TiffRows
 
     rows = TiffRows(name, str(Path(name).absolute()), page)
@@ -144,7 +145,7 @@ def _begins_as_tiff(name: str) -> bool:
     try:
         if stream_kind(name) is not None:
             return False
-        with Path(name).open("rb") as file:
+        with open(name, "rb") as file:  # noqa: PTH123, since small jobs do without pathlib
             return file.read(4) in TIFF_MAGIC
     except (OSError, ValueError):  # who reads it says why
         return False
@@ -158,6 +159,8 @@ def open_zarr(name: str, input_format: str | None = None, page: int | None = Non
         return None
     if page not in (None, 0):
         raise InputError(f"{name} has a single page: {option(f'--page {page}')} does not exist")
+    from pathlib import Path
+
     from vorotool.formats.images.band_reader import ZarrRows
 
     return ZarrRows(name, str(Path(name).absolute()))

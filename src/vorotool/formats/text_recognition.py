@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import zlib
 from dataclasses import replace
-from pathlib import Path
 
 from vorotool.convert.tables import coordinate_columns
 from vorotool.errors import INPUT_FORMAT, OTSU, InputError, UsageError, option
@@ -261,6 +260,8 @@ def refuse_convertible(source: Source) -> None:
     if found == ".zip" and b".roi" in source.data:
         found = ".roi"
     if found is not None:
+        from pathlib import Path
+
         file = source.name if source.suffix == found else f"FILE{found}"
         advice = _CONVERSIONS.get(found, _MAP).format(file=file, stem=Path(file).with_suffix(""))
         raise InputError(f"{source.name}: {found} files are not supported; {advice}")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vorotool.jobs.inputs import check_column
@@ -186,6 +185,8 @@ def write_world_file(
 
     if path == "-" or stream_kind(path) is not None:
         return
+    from pathlib import Path
+
     with open_output(str(Path(path).with_suffix(".pgw")), no_clobber=no_clobber, inputs=inputs) as out:
         out.write(world_text(transform))
 

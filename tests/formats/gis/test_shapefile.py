@@ -2,6 +2,7 @@
 
 import errno
 import os
+from pathlib import Path
 
 import geopandas
 import pytest
@@ -36,7 +37,7 @@ def test_no_part_is_replaced_if_one_cannot_be(older, monkeypatch, part, crs):
     before, move_to = contents(older), Temporary.move_to
 
     def fail(self, target):
-        if target.suffix == part:
+        if Path(target).suffix == part:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         move_to(self, target)
 

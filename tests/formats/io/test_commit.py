@@ -46,7 +46,7 @@ def write_all(folder, *, last=lambda: None):
     """Replace all, write a new one, and remove one."""
     with committed_together() as commit:
         gone = folder / "sub/gone.qix"
-        commit.add(Placement(gone, None, lambda: None, partial(explained, str(gone))))
+        commit.add(Placement(str(gone), None, partial(explained, str(gone))))
         for name in OUTPUTS:
             if name.endswith(".zarr"):
                 write_store(folder / name, "new")
@@ -167,7 +167,7 @@ def test_permissions_are_those_of_the_older_files_after_a_failure_too(folder, mo
     move_to = Temporary.move_to
 
     def fail(self, target):
-        if target.name == "new.csv":
+        if Path(target).name == "new.csv":
             raise OSError(errno.EIO, "broken")
         move_to(self, target)
 

@@ -94,7 +94,7 @@ def test_those_of_the_living_stay(tmp_path, make):
     with temporary_beside(tmp_path / "a", make) as temporary:
         for _ in range(3):
             remove_dead(tmp_path)
-        assert temporary.path.exists()
+        assert Path(temporary.path).exists()
         temporary.check()
     assert names(tmp_path) == []
 
@@ -134,7 +134,7 @@ def test_one_that_is_taken_for_a_dead_ones_before_it_is_locked(tmp_path, monkeyp
             other = os.open(path, os.O_RDONLY)
             fcntl.flock(other, fcntl.LOCK_EX)
             if steps == 2:
-                temporaries._discard(path)
+                temporaries._discard(str(path))
                 os.close(other)
         return lock(descriptor)
 
@@ -167,10 +167,10 @@ def test_a_file_system_without_locks(tmp_path, monkeypatch):
 
     monkeypatch.setattr("fcntl.flock", refuse)
     with tagged_temporaries("0a1b2c3d-1-"), temporary_beside(tmp_path / "a", new_file) as temporary:
-        assert temporary.path.name.startswith(".vorotool-0a1b2c3d-1-")
-        assert temporary.path.exists()
+        assert Path(temporary.path).name.startswith(".vorotool-0a1b2c3d-1-")
+        assert Path(temporary.path).exists()
         remove_dead(tmp_path)
-        assert temporary.path.exists()
+        assert Path(temporary.path).exists()
     assert names(tmp_path) == []
     path = left(tmp_path)
     remove_dead(tmp_path)
@@ -191,7 +191,7 @@ def test_those_of_one_batch_are_removed_wherever_they_were_written(tmp_path):
 
 def test_a_file_that_was_removed_meanwhile_is_an_error(tmp_path):
     with temporary_beside(tmp_path / "a", new_file) as temporary:
-        temporary.path.unlink()
+        Path(temporary.path).unlink()
         with pytest.raises(FileNotFoundError):
             temporary.move_to(tmp_path / "a")
 

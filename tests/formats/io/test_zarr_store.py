@@ -81,7 +81,7 @@ def test_what_is_not_replaced(tmp_path):
             check_store(array, inputs=[source])
     with pytest.raises(OutputError, match="create the directory first"):
         check_store(tmp_path / "none" / "a.zarr")
-    assert check_store(tmp_path / "none" / "a.zarr", makes_folder=True).name == "a.zarr"
+    assert check_store(tmp_path / "none" / "a.zarr", makes_folder=True).endswith("a.zarr")
     with pytest.raises(UsageError, match="standard output"):
         check_store("-")
 

@@ -358,9 +358,9 @@ class GeoPackage(GdalFeatures):
         }
         whole = Path(os.path.realpath(self.path))
         with committed_together() as commit:
-            earlier = commit.pending(whole)
+            earlier = commit.pending(str(whole))
             if earlier is not None:
-                place = commit.temporaries.make(whole, new_folder).path / "layers.gpkg"
+                place = Path(commit.make(whole, new_folder).path) / "layers.gpkg"
                 shutil.copyfile(earlier, place)
                 self.gdal_write(place, columns, driver="GPKG", layer_options=options)
                 if self.is_of_features and not has_index(place, self.what):  # GDAL says nothing of a full disk

@@ -242,11 +242,11 @@ def check_parts(path: str, rules: Rules, *, makes_folder: bool = False) -> None:
                 f"a Shapefile is several files, which the stream {name} cannot hold: name a file with {rules.option}, "
                 "or write a GeoPackage (.gpkg)"
             )
-    target = followed(path)
+    target = Path(followed(path))
     for extension in PARTS[1:]:
         part, real = whole.with_suffix(extension), target.with_suffix(extension)
         check_output(part, binary=True, makes_folder=makes_folder, **rules._asdict())
-        if whole.is_symlink() and real.exists() and followed(str(part)) != real:
+        if whole.is_symlink() and real.exists() and followed(str(part)) != str(real):
             raise OutputError(
                 f"{path} is a link to a Shapefile whose {real.name} would not be replaced: give {rules.option} {target}"
             )
@@ -286,8 +286,8 @@ def is_whole(path: Path, count: int) -> bool:
 
 def removal(part: Path, rules: Rules) -> Placement:
     """Make the removal of a file of an older Shapefile part of what is written."""
-    place = Path(os.path.realpath(part.parent), part.name)
-    return Placement(place, None, partial(rules.check, str(part)), partial(explained, str(part), rules.option))
+    place = os.path.join(os.path.realpath(part.parent), part.name)  # noqa: PTH118, as targets of commits are
+    return Placement(place, None, partial(explained, str(part), rules.option), partial(rules.check, str(part)))
 
 
 class Shapefile(GdalFeatures):
@@ -307,7 +307,7 @@ class Shapefile(GdalFeatures):
             )
         rules, whole = current_rules(), Path(self.path)
         with committed_together() as commit:
-            place = commit.temporaries.make(Path(os.path.realpath(whole)), new_folder).path / "layer.shp"
+            place = Path(commit.make(os.path.realpath(whole), new_folder).path) / "layer.shp"
             self.gdal_write(
                 place, self.columns(), driver="ESRI Shapefile", layer_options={"DBF_DATE_LAST_UPDATE": "1970-01-01"}
             )

@@ -10,7 +10,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from functools import partial
-from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 from vorotool.errors import FORMAT, NO_CLOBBER, OUTPUT, OutputError, UsageError, VorotoolError
@@ -39,7 +38,7 @@ class Rules(NamedTuple):
     def check(self, name: str) -> None:
         """Refuse to replace or remove a file."""
         target = followed(name, self.option)
-        if target.exists():
+        if os.path.exists(target):
             _check_replaced(name, target, self)
 
 
@@ -69,8 +68,8 @@ def open_output(
         writer = _embedded_output()
     else:
         rules = Rules(no_clobber, tuple(inputs), option)
-        target = _checked_target(name, rules)
-        writer = _replacing(name, target, rules) if _is_regular(target) else _direct(name, target, binary, option)
+        target, is_regular = _checked_target(name, rules)
+        writer = _replacing(name, target, rules) if is_regular else _direct(name, target, binary, option)
     with writer as out:
         yield out
 
@@ -88,17 +87,18 @@ def check_output(
     name = os.fspath(path)
     if _checked_descriptor(name, binary, option) is not None or name == STANDARD:
         return
-    target = _checked_target(name, Rules(no_clobber, tuple(inputs), option))
-    if _is_regular(target):
-        check_folder(name, target.parent, makes_folder=makes_folder, option=option)
+    target, is_regular = _checked_target(name, Rules(no_clobber, tuple(inputs), option))
+    if is_regular:
+        check_folder(name, os.path.dirname(target), makes_folder=makes_folder, option=option)
 
 
-def check_folder(name: str, folder: Path, *, makes_folder: bool = False, option: str = OUTPUT) -> None:
+def check_folder(name: str, folder: str, *, makes_folder: bool = False, option: str = OUTPUT) -> None:
     """Refuse an output whose folder is not there, unless it is made, or cannot be written in."""
-    while makes_folder and not folder.exists():
-        folder = folder.parent
-    if not folder.is_dir():
-        raise failure(name, OSError(errno.ENOTDIR if folder.exists() else errno.ENOENT, "not a directory"), option)
+    while makes_folder and not os.path.exists(folder):
+        folder = os.path.dirname(folder)
+    if not os.path.isdir(folder):
+        code = errno.ENOTDIR if os.path.exists(folder) else errno.ENOENT
+        raise failure(name, OSError(code, "not a directory"), option)
     if not os.access(folder, os.W_OK | os.X_OK):
         raise failure(name, OSError(errno.EACCES, f"no permission to write in {folder}"), option)
 
@@ -106,7 +106,7 @@ def check_folder(name: str, folder: Path, *, makes_folder: bool = False, option:
 def make_folder(path: str | os.PathLike[str]) -> None:
     """Make a folder for outputs and those above it, where they are not there yet."""
     try:
-        Path(path).mkdir(parents=True, exist_ok=True)
+        os.makedirs(path, exist_ok=True)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise OutputError(f"the folder {os.fspath(path)!r} cannot be created: {reason}; name another") from error
@@ -155,22 +155,24 @@ def _embedded_output() -> Iterator[BinaryIO]:
         sys.stdout.buffer.flush()
 
 
-def _checked_target(name: str, rules: Rules) -> Path:
-    target = followed(name, rules.option)
-    exists = target.exists()
+def _checked_target(name: str, rules: Rules) -> tuple[str, bool]:
+    """Follow links; tell as well whether there is, or will be, an ordinary file, which may be replaced."""
+    target, mode = followed(name, rules.option), None
+    with suppress(OSError):
+        mode = os.stat(target).st_mode
     if not name:
         raise OutputError("the name of the output is empty: name a file")
-    if target.is_dir() or name.endswith(os.sep):
+    if name.endswith(os.sep) or (mode is not None and stat.S_ISDIR(mode)):
         raise OutputError(f"{name!r} is a directory: name a file in it")
-    if not exists or not _is_regular(target):
-        return target
+    if mode is None or not stat.S_ISREG(mode):
+        return target, mode is None
     _check_replaced(name, target, rules)
     if not os.access(target, os.W_OK):
         raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with {rules.option}")
-    return target
+    return target, True
 
 
-def _check_replaced(name: str, target: Path, rules: Rules) -> None:
+def _check_replaced(name: str, target: str, rules: Rules) -> None:
     for each in rules.inputs:
         if is_same_file(target, os.fspath(each)):
             raise UsageError(
@@ -180,16 +182,24 @@ def _check_replaced(name: str, target: Path, rules: Rules) -> None:
         raise clobber_error(name, rules.option)
 
 
-def followed(name: str, option: str = OUTPUT) -> Path:
+def followed(name: str, option: str = OUTPUT) -> str:
     """Follow links, so that a file is replaced and not the link to it."""
     try:
         if is_of_another_process(name):
             raise OutputError(
                 f"{name} is open in another process and cannot be opened again: name a file with {option}"
             )
-        target = Path(os.path.realpath(name))
-        if not target.exists() and target.is_symlink():
-            raise OutputError(f"{name} cannot be written: its links lead back to themselves; choose another name")
+        target = os.path.realpath(name)
+        try:
+            os.stat(target)
+        except FileNotFoundError:
+            pass
+        except OSError as error:
+            if error.errno == errno.ELOOP:
+                text = f"{name} cannot be written: its links lead back to themselves; choose another name"
+                raise OutputError(text) from None
+            if error.errno != errno.ENOTDIR:
+                raise
     except VorotoolError:
         raise
     except (OSError, ValueError) as error:
@@ -200,14 +210,6 @@ def followed(name: str, option: str = OUTPUT) -> Path:
 def clobber_error(name: str, option: str = OUTPUT) -> OutputError:
     """Say that an output is there already, with ``--no-clobber``."""
     return OutputError(f"{name} already exists, and {NO_CLOBBER} is set: choose another name with {option}")
-
-
-def _is_regular(target: Path) -> bool:
-    """Whether ``target`` is, or will be, an ordinary file; links have been followed."""
-    try:
-        return stat.S_ISREG(target.stat().st_mode)
-    except OSError:
-        return True
 
 
 def is_same_file(target: str | os.PathLike[str], source: str) -> bool:
@@ -221,7 +223,7 @@ def is_same_file(target: str | os.PathLike[str], source: str) -> bool:
 
 
 @contextmanager
-def _direct(name: str, target: Path, binary: bool, option: str) -> Iterator[BinaryIO]:
+def _direct(name: str, target: str, binary: bool, option: str) -> Iterator[BinaryIO]:
     """Write to a pipe or a device."""
     with explained(name, option), open_onward(target) as out:
         if binary and out.isatty():
@@ -230,29 +232,22 @@ def _direct(name: str, target: Path, binary: bool, option: str) -> Iterator[Bina
 
 
 @contextmanager
-def _replacing(name: str, target: Path, rules: Rules) -> Iterator[BinaryIO]:
+def _replacing(name: str, target: str, rules: Rules) -> Iterator[BinaryIO]:
     def check() -> None:
-        if rules.no_clobber and target.exists():
+        if os.path.exists(target):
             raise clobber_error(name, rules.option)
 
-    outer = current_rules()
-    with explained(name, rules.option), committed_together() as commit:
-        temporary = commit.temporaries.make(target, partial(_create, target=target))
+    outer = _RULES.get(None)
+    told = partial(explained, name, rules.option)
+    with told(), committed_together() as commit:
+        temporary = commit.make(target, partial(new_file, like=target))
         _RULES.set(rules)
         try:
             with temporary.opened() as out:
                 yield out
         finally:
-            _RULES.set(outer)
-        commit.add(Placement(target, temporary, check, partial(explained, name, rules.option)))
-
-
-def _create(temporary: Path, target: Path) -> int:
-    """Create the temporary file with the permissions of the older file, else those of the umask."""
-    descriptor = new_file(temporary)
-    with suppress(OSError):  # no older file, or a file system without permissions
-        temporary.chmod(stat.S_IMODE(target.stat().st_mode))
-    return descriptor
+            _RULES.set(outer or Rules())
+        commit.add(Placement(target, temporary, told, check if rules.no_clobber else None))
 
 
 @contextmanager
@@ -278,6 +273,7 @@ def failure(name: str, error: OSError, option: str = OUTPUT) -> OutputError:
     code, reason = errno.errorcode.get(error.errno or 0, ""), error.strerror or error
     if code == "ENOENT":
         reason = "the directory does not exist"
-        if (folder := Path(name).parent).is_dir():  # as in /proc and /dev/fd, which are made by the system
+        folder = os.path.dirname(name) or "."
+        if os.path.isdir(folder):  # as in /proc and /dev/fd, which are made by the system
             code, reason = "", f"no file can be created in {folder}"
     return OutputError(f"{name} cannot be written: {reason}; {advice.get(code, elsewhere)}")

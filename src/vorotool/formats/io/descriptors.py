@@ -16,7 +16,6 @@ import select
 import stat
 import sys
 from collections.abc import Callable, Hashable
-from pathlib import Path
 from typing import Any, BinaryIO
 
 from vorotool.errors import OUTPUT, OutputError
@@ -215,10 +214,9 @@ def _free(path: str | os.PathLike[str]) -> int | None:
     """Bytes that are free where a file is, or will be; None where it takes none."""
     if stream_kind(os.fspath(path)) is not None:
         return None
-    target = Path(os.path.realpath(path))
-    folder = target.parent
-    while not folder.exists():
-        folder = folder.parent
+    folder = os.path.dirname(os.path.realpath(path))
+    while not os.path.exists(folder):
+        folder = os.path.dirname(folder)
     from shutil import disk_usage  # which loads bz2 and lzma, and small jobs do without
 
     return disk_usage(folder).free

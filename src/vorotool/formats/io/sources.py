@@ -11,7 +11,6 @@ import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import fields
-from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
 
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolError, option
@@ -141,7 +140,8 @@ def read_bytes(name: str) -> bytes:
     """Read all that a file holds, or that comes through a stream: each is opened once, and read to its end."""
     number = 0 if name == STANDARD else descriptor_of(name)
     if number is None:
-        return Path(name).read_bytes()
+        with open(name, "rb") as file:
+            return file.read()
     spoken = STANDARD_INPUT if name == STANDARD else name
     standard, begun = number_of(sys.stdin), b""
     try:
@@ -165,7 +165,7 @@ def copy_stream(name: str, out: BinaryIO) -> None:
 
     number = 0 if name == STANDARD else descriptor_of(name)
     if number is None:
-        with Path(name).open("rb") as file:
+        with open(name, "rb") as file:
             shutil.copyfileobj(file, out)
         return
     is_standard = name == STANDARD or number_of(sys.stdin) == number
@@ -183,6 +183,8 @@ def copy_stream(name: str, out: BinaryIO) -> None:
 
 
 def _place(name: str) -> str:
+    from pathlib import Path
+
     parent = Path(name).parent
     return f"looked in {parent.resolve()}" if parent.is_dir() else f"the folder {parent} does not exist either"
 
@@ -207,7 +209,7 @@ _NOT_IN_NAMES = r'[<>:"/\\|?*\x00-\x1f]'
 def split_layer(name: str) -> tuple[str, str | None]:
     """Split FILE:LAYER at its last colon; the layer is None where the name is that of a file, or of nothing."""
     file, _, layer = name.rpartition(":")
-    if not layer or len(file) < _SHORTEST or os.path.lexists(name) or not _is_file(file):
+    if not layer or len(file) < _SHORTEST or os.path.lexists(name) or not os.path.exists(file) or os.path.isdir(file):
         return name, None
     return file, layer
 
@@ -229,18 +231,12 @@ def file_and_layer(name: str, layer: str | None) -> tuple[str, str | None]:
 def output_name(name: str) -> str:
     """Return the name that outputs of an input are named after: ``x.roads.gpkg`` for ``folder/x.gpkg:roads``."""
     file, layer = split_layer(name)
+    from pathlib import Path
+
     if layer is None:
         return Path(name).name
     path = Path(file[: -len(".gz")] if file.lower().endswith(".gz") else file)
     return f"{path.stem}.{re.sub(_NOT_IN_NAMES, '_', layer)}{path.suffix or '.layer'}"
-
-
-def _is_file(path: str) -> bool:
-    """Return whether something is there that is no folder."""
-    try:
-        return Path(path).exists() and not Path(path).is_dir()
-    except (OSError, ValueError):
-        return False
 
 
 _MOMENT = 0.05

@@ -28,13 +28,11 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, suppress
 from contextvars import ContextVar
-from dataclasses import dataclass, field
 from functools import cache
-from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 from zlib import crc32
 
-from vorotool.plain import plain, scoped
+from vorotool.plain import scoped
 
 try:
     import fcntl
@@ -53,12 +51,12 @@ ASIDE = ".aside"
 _UNKNOWN = "0" * 12
 
 
-@dataclass
 class Temporary:
     """A file or folder that is being written, and is ours."""
 
-    path: Path  # its name for now
-    descriptor: int  # holds the lock; -1 where there are no locks
+    def __init__(self, path: str, descriptor: int) -> None:
+        self.path = path  # its name for now
+        self.descriptor = descriptor  # holds the lock; -1 where there are no locks
 
     def opened(self) -> BinaryIO:
         """Open a file for writing; closing this does not give the lock back."""
@@ -70,62 +68,42 @@ class Temporary:
     def check(self) -> None:
         """Raise an `OSError` if it is not there any more: somebody has removed it, or the folder."""
         if self.descriptor >= 0 and not _is_at(self.path, self.descriptor):
-            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.fspath(self.path))
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), self.path)
 
-    def is_at(self, path: Path) -> bool:
+    def is_at(self, path: str) -> bool:
         """Return whether it has a name by now."""
         return _is_at(path, self.descriptor) if self.descriptor >= 0 else not os.path.lexists(self.path)
 
-    def move_to(self, target: Path) -> None:
+    def move_to(self, target: str) -> None:
         """Give it its final name, in the place of an older file."""
         self.check()
-        self.path.replace(target)
-
-
-class Temporaries:
-    """Temporary files and folders, whose rest is removed at the end, whatever happens."""
-
-    def __init__(self) -> None:
-        self._names: list[Path] = []
-        self._made: list[Temporary] = []
-
-    def make(self, target: Path, make: Callable[[Path], int], *, ending: str = ".tmp") -> Temporary:
-        """Make one beside a place."""
-        _remove_dead_once(target.parent)
-        temporary = Temporary(target, _make_ours(target.parent, make, ending, self._names))
-        temporary.path = self._names[-1]
-        self._made.append(temporary)
-        return temporary
-
-    def __enter__(self) -> Temporaries:
-        """Make some."""
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Remove what is left of them, and give the locks back."""
-        try:
-            _discard_ours(self._names)
-        finally:
-            for each in self._made:
-                if each.descriptor >= 0:
-                    os.close(each.descriptor)
+        os.replace(self.path, target)
 
 
 @contextmanager
-def temporary_beside(target: Path, make: Callable[[Path], int], *, ending: str = ".tmp") -> Iterator[Temporary]:
+def temporary_beside(
+    target: str | os.PathLike[str], make: Callable[[str], int], *, ending: str = ".tmp"
+) -> Iterator[Temporary]:
     """Make a temporary file or folder, and remove what is left of it at the end, whatever happens."""
-    with Temporaries() as temporaries:
-        yield temporaries.make(target, make, ending=ending)
+    commit = Commit()
+    try:
+        yield commit.make(target, make, ending=ending)
+    finally:
+        commit.close()
 
 
-def new_file(path: Path) -> int:
-    """Make an empty file with the permissions of the umask; its descriptor."""
-    return os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+def new_file(path: str, like: str = "") -> int:
+    """Make an empty file with the permissions of another one, else those of the umask; its descriptor."""
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+    if like:
+        with suppress(OSError):  # no older file, or a file system without permissions
+            os.chmod(path, stat.S_IMODE(os.stat(like).st_mode))
+    return descriptor
 
 
-def new_folder(path: Path) -> int:
+def new_folder(path: str) -> int:
     """Make an empty folder; its descriptor, or -1 where folders cannot be opened, or it is gone already."""
-    path.mkdir()
+    os.mkdir(path)
     if not hasattr(os, "O_DIRECTORY"):
         return -1
     with suppress(FileNotFoundError):
@@ -154,56 +132,19 @@ def remove_dead(folder: str | os.PathLike[str]) -> None:
             _remove_unless_held(path)
 
 
-def remove(path: Path) -> None:
+def remove(path: str) -> None:
     """Remove a file or a folder with all that is in it, as far as it is there and can be removed."""
-    if path.is_dir() and not path.is_symlink():
+    if os.path.isdir(path) and not os.path.islink(path):
         import shutil  # it brings compressors
 
         shutil.rmtree(path, ignore_errors=True)
     else:
         with suppress(OSError):
-            path.unlink()
+            os.unlink(path)
 
 
 _SEEN: set[tuple[str, str]] = set()
 """Folders, with tags of batches, from which this process has removed what the dead have left."""
-
-
-def _remove_dead_once(folder: Path) -> None:
-    key = (os.fspath(folder), _TAG.get().partition("-")[0])
-    if key not in _SEEN:
-        _SEEN.add(key)
-        remove_dead(folder)
-
-
-def _discard_ours(names: Sequence[Path]) -> None:
-    """Remove what is left under names: 64 random bits are nobody else's, so that whatever happens they are ours."""
-
-    def discard() -> None:
-        for path in names:
-            _discard(path)
-
-    _insist(discard)
-
-
-def _make_ours(folder: Path, make: Callable[[Path], int], ending: str, names: list[Path]) -> int:
-    """Make a temporary, the last of the names, and lock it."""
-    host = "".join(_host()) + "-"
-    if fcntl is None or host == f"{_UNKNOWN}{_UNKNOWN}-":
-        host = ""
-    while True:
-        names.append(folder / f".vorotool-{host}{_TAG.get()}{os.urandom(8).hex()}{ending}")
-        descriptor = make(names[-1])
-        if not host:
-            return descriptor
-        if descriptor < 0:
-            continue
-        try:
-            if _lock(descriptor) and _is_at(names[-1], descriptor):
-                return descriptor
-        except OSError:  # no such locks here
-            host = ""
-        os.close(descriptor)
 
 
 def _lock(descriptor: int) -> bool:
@@ -215,27 +156,27 @@ def _lock(descriptor: int) -> bool:
     return True
 
 
-def _is_at(path: Path, descriptor: int) -> bool:
+def _is_at(path: str, descriptor: int) -> bool:
     try:
-        return os.path.samestat(path.lstat(), os.fstat(descriptor))
+        return os.path.samestat(os.lstat(path), os.fstat(descriptor))
     except FileNotFoundError:
         return False
 
 
-def _temporaries(folder: str | os.PathLike[str]) -> list[tuple[Path, re.Match[str]]]:
+def _temporaries(folder: str | os.PathLike[str]) -> list[tuple[str, re.Match[str]]]:
     """Temporaries in a folder and the parts of their names; none if it cannot be listed."""
     with suppress(OSError), os.scandir(folder) as entries:
         names = [entry.name for entry in entries if entry.name.startswith(".vorotool-")]
-        return [(Path(folder) / name, found) for name in names if (found := re.fullmatch(_NAME, name))]
+        return [(os.path.join(folder, name), found) for name in names if (found := re.fullmatch(_NAME, name))]
     return []
 
 
-def _remove_unless_held(path: Path) -> None:
+def _remove_unless_held(path: str) -> None:
     """Remove a temporary of this machine if its lock can be taken, which is held meanwhile."""
     if fcntl is None:
         return
     with suppress(OSError):
-        kind = path.lstat().st_mode
+        kind = os.lstat(path).st_mode
         if not (stat.S_ISREG(kind) or stat.S_ISDIR(kind)):
             return
         access = os.O_RDONLY | os.O_DIRECTORY if stat.S_ISDIR(kind) else os.O_RDWR  # which network locks ask for
@@ -247,13 +188,14 @@ def _remove_unless_held(path: Path) -> None:
             os.close(descriptor)
 
 
-def _discard(path: Path) -> None:
+def _discard(path: str) -> None:
     """Remove a temporary; what was moved aside goes back where nothing has taken its place."""
-    if path.suffix == ASIDE:
+    if path.endswith(ASIDE):
         try:
-            for each in path.iterdir():
-                if not os.path.lexists(path.with_name(each.name)):
-                    each.rename(path.with_name(each.name))
+            for name in os.listdir(path):
+                place = os.path.join(os.path.dirname(path), name)
+                if not os.path.lexists(place):
+                    os.rename(os.path.join(path, name), place)
         except OSError:  # what is in it may be all that there is
             return
     remove(path)
@@ -262,7 +204,14 @@ def _discard(path: Path) -> None:
 @cache
 def _host() -> tuple[str, str]:
     """Digests of this boot of the system and of this machine, as far as they can be known."""
-    boot, machine = (_text(Path(name)) for name in ("/proc/sys/kernel/random/boot_id", "/etc/machine-id"))
+    texts = []
+    for path in ("/proc/sys/kernel/random/boot_id", "/etc/machine-id"):
+        try:
+            with open(path, encoding="utf-8", errors="replace") as file:
+                texts.append(file.read().strip())
+        except OSError:
+            texts.append("")
+    boot, machine = texts
     if not machine and sys.platform == "darwin":
         import uuid
 
@@ -277,38 +226,67 @@ def _digest(text: str) -> str:
     return f"{crc32(data):08x}{crc32(data[::-1]) & 0xFFFF:04x}" if text else _UNKNOWN
 
 
-def _text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8", errors="replace").strip()
-    except OSError:
-        return ""
-
-
-@plain
-class Placement:
+class Placement(NamedTuple):
     """An output that is complete, and the place where it goes."""
 
-    target: Path  # the place, links followed
+    target: str  # the place, links followed
     temporary: Temporary | None  # the output; without one the file at the place is removed
-    check: Callable[[], None]  # raises if what is there must stay
     # makes a context that turns an `OSError` into an error that names the output
     explained: Callable[[], AbstractContextManager[None]]
+    check: Callable[[], None] | None = None  # raises if what is there must stay
 
 
-@dataclass
 class Commit:
     """Outputs that are being written and will take their places together."""
 
-    temporaries: Temporaries  # makes what is written, and removes it at the end
-    _placements: list[Placement] = field(default_factory=list)
-    _asides: dict[Path, Path] = field(default_factory=dict)
+    def __init__(self) -> None:
+        self._names: list[str] = []  # of temporaries
+        self._made: list[Temporary] = []
+        self._placements: list[Placement] = []
+        self._asides: dict[str, str] = {}
+
+    def make(self, target: str | os.PathLike[str], make: Callable[[str], int], *, ending: str = ".tmp") -> Temporary:
+        """Make a temporary file or folder beside a place, and lock it."""
+        folder, tag = os.path.dirname(target) or ".", _TAG.get()
+        if (folder, tag.partition("-")[0]) not in _SEEN:
+            _SEEN.add((folder, tag.partition("-")[0]))
+            remove_dead(folder)
+        host = "".join(_host()) + "-"
+        if fcntl is None or host == f"{_UNKNOWN}{_UNKNOWN}-":
+            host = ""
+        while True:
+            self._names.append(os.path.join(folder, f".vorotool-{host}{tag}{os.urandom(8).hex()}{ending}"))
+            made = Temporary(self._names[-1], make(self._names[-1]))
+            try:
+                if not host or (made.descriptor >= 0 and _lock(made.descriptor) and _is_at(made.path, made.descriptor)):
+                    self._made.append(made)
+                    return made
+            except OSError:  # no such locks here
+                host = ""
+            if made.descriptor >= 0:
+                os.close(made.descriptor)
+
+    def close(self) -> None:
+        """Remove what is left of temporaries, whatever happens, and give the locks back."""
+        try:
+            _insist(self._discard_left)
+        finally:
+            for each in self._made:
+                if each.descriptor >= 0:
+                    os.close(each.descriptor)
+
+    def _discard_left(self) -> None:
+        """Remove what has such a name: 64 random bits are nobody else's, so that whatever has it is ours."""
+        for path in self._names:
+            if os.path.lexists(path):
+                _discard(path)
 
     def add(self, placement: Placement) -> None:
         """Put an output in its place when all others are complete, too; a later one goes there instead."""
         self._placements = [each for each in self._placements if each.target != placement.target]
         self._placements.append(placement)
 
-    def pending(self, target: Path) -> Path | None:
+    def pending(self, target: str) -> str | None:
         """Return the file that will take a place, if one is complete."""
         found = (each.temporary for each in self._placements if each.target == target)
         return next((each.path for each in found if each is not None), None)
@@ -317,7 +295,8 @@ class Commit:
         """Put all outputs in their places; on any exception put back what was there."""
         for each in self._placements:
             with each.explained():
-                each.check()
+                if each.check is not None:
+                    each.check()
                 if each.temporary is not None:
                     each.temporary.check()
         if len(self._placements) == 1 and _put_at_once(self._placements[0]):
@@ -337,34 +316,35 @@ class Commit:
         """Set aside what is at a place, and put an output there."""
         target, temporary = placement.target, placement.temporary
         if _may_be_set_aside(target, temporary):
-            kept = self._aside(target.parent) / target.name
+            kept = os.path.join(self._aside(os.path.dirname(target)), os.path.basename(target))
             if not os.path.lexists(kept):
-                _set_aside(target, kept, by_link=temporary is not None and not target.is_dir())
+                _set_aside(target, kept, by_link=temporary is not None and not os.path.isdir(target))
         if temporary is not None:
             temporary.move_to(target)
 
-    def _aside(self, folder: Path) -> Path:
+    def _aside(self, folder: str) -> str:
         """Return a folder for what is set aside of another; a killed process's is emptied by the next one there."""
         if folder not in self._asides:
-            self._asides[folder] = self.temporaries.make(folder / "aside", new_folder, ending=ASIDE).path
+            self._asides[folder] = self.make(os.path.join(folder, "aside"), new_folder, ending=ASIDE).path
         return self._asides[folder]
 
     def _undo(self, begun: Sequence[Placement]) -> None:
         """Put back what was there, the last first; what fails does not keep others from it."""
         for each in reversed(begun):
             with suppress(OSError):
-                kept = self._asides.get(each.target.parent, Path(os.devnull)) / each.target.name
+                folder, name = os.path.split(each.target)
+                kept = os.path.join(self._asides.get(folder, os.devnull), name)
                 is_ours = each.temporary is not None and each.temporary.is_at(each.target)
-                if is_ours and (each.target.is_dir() or not os.path.lexists(kept)):
+                if is_ours and (os.path.isdir(each.target) or not os.path.lexists(kept)):
                     remove(each.target)
                 if os.path.lexists(kept):
-                    kept.replace(each.target)
+                    os.replace(kept, each.target)
 
     def _forget(self) -> None:
         """Remove what was set aside, so that none of it is put back."""
         for folder in self._asides.values():
-            for kept in folder.iterdir():
-                remove(kept)
+            for name in os.listdir(folder):
+                remove(os.path.join(folder, name))
 
 
 _CURRENT: ContextVar[Commit | None] = ContextVar("commit", default=None)
@@ -377,45 +357,47 @@ def committed_together() -> Iterator[Commit]:
     if current is not None:
         yield current
         return
-    with Temporaries() as temporaries:
-        commit = Commit(temporaries)
+    commit = Commit()
+    try:
         _CURRENT.set(commit)
         try:
             yield commit
         finally:
             _CURRENT.set(None)
         commit.run()
+    finally:
+        commit.close()
 
 
 def _put_at_once(placement: Placement) -> bool:
     """Put an output in its place in one step, or return False where the system has none."""
     target, temporary = placement.target, placement.temporary
-    if temporary is None or (target.is_dir() and _is_folder(temporary)):
+    if temporary is None or (os.path.isdir(target) and _is_folder(temporary)):
         return temporary is not None and _exchange(temporary.path, target)
     with placement.explained():
         temporary.move_to(target)
     return True
 
 
-def _may_be_set_aside(target: Path, temporary: Temporary | None) -> bool:
+def _may_be_set_aside(target: str, temporary: Temporary | None) -> bool:
     """Return whether what is at a place may go: a folder goes for a folder only."""
-    return os.path.lexists(target) and (_is_folder(temporary) or not target.is_dir())
+    return os.path.lexists(target) and (_is_folder(temporary) or not os.path.isdir(target))
 
 
 def _is_folder(temporary: Temporary | None) -> bool:
-    return temporary is not None and temporary.path.is_dir()
+    return temporary is not None and os.path.isdir(temporary.path)
 
 
-def _set_aside(target: Path, kept: Path, *, by_link: bool) -> None:
+def _set_aside(target: str, kept: str, *, by_link: bool) -> None:
     """Move a file or folder, or link a file so that it is never away."""
     if by_link:
         with suppress(OSError):  # a file system without hard links, or somebody else's file
-            kept.hardlink_to(target)
+            os.link(target, kept)
             return
-    target.rename(kept)
+    os.rename(target, kept)
 
 
-def _exchange(one: Path, other: Path) -> bool:
+def _exchange(one: str, other: str) -> bool:
     """Exchange two folders at once, or return False where the system or the file system cannot."""
     if sys.platform != "linux":
         return False

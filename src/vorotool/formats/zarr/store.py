@@ -6,44 +6,37 @@ import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import partial
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from vorotool.errors import OUTPUT, InputError, OutputError, UsageError
 from vorotool.formats.io.atomic_output import check_folder, clobber_error, explained, followed, is_same_file
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.temporaries import Placement, committed_together, new_folder
 
+if TYPE_CHECKING:
+    from pathlib import Path
+
 _METADATA = ("zarr.json", ".zarray", ".zgroup")
 
 
 def is_store(path: str | os.PathLike[str]) -> bool:
     """Whether a path is a folder that holds a Zarr array or group."""
-    return any(_is_file(Path(path) / name) for name in _METADATA)
+    return any(os.path.isfile(os.path.join(path, name)) for name in _METADATA)
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:
     """Whether a path is a folder; what must not be looked at is none, and who opens it says why."""
-    try:
-        return Path(path).is_dir()
-    except (OSError, ValueError):
-        return False
-
-
-def _is_file(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except (OSError, ValueError):
-        return False
+    return os.path.isdir(path)
 
 
 def is_array(path: str | os.PathLike[str]) -> bool:
     """Whether a path is a folder that holds a Zarr array, and not a group of them."""
-    return _is_file(Path(path) / ".zarray") or _node_type(path) == "array"
+    return os.path.isfile(os.path.join(path, ".zarray")) or _node_type(path) == "array"
 
 
 def is_group(path: str | os.PathLike[str]) -> bool:
     """Whether a path is a folder that holds a group of Zarr arrays."""
-    return _is_file(Path(path) / ".zgroup") or _node_type(path) == "group"
+    return os.path.isfile(os.path.join(path, ".zgroup")) or _node_type(path) == "group"
 
 
 def _node_type(path: str | os.PathLike[str]) -> object:
@@ -62,7 +55,7 @@ def check_store(
     no_clobber: bool = False,
     inputs: Iterable[str | os.PathLike[str]] = (),
     makes_folder: bool = False,
-) -> Path:
+) -> str:
     """Refuse a store that `open_store` would not write."""
     name = os.fspath(path)
     if (kind := stream_kind(name)) is not None:
@@ -70,24 +63,26 @@ def check_store(
         raise UsageError(f"a Zarr store is a folder and cannot be written to {place}: name it with {OUTPUT}")
     with explained(name):
         target = followed(name)
-        exists = target.exists()
+        exists = os.path.exists(target)
     if exists and not _may_be_replaced(target):
         raise _other_error(name)
     for each in inputs:
-        within = target in Path(os.path.realpath(each)).parents
+        within = os.path.realpath(each).startswith(os.path.join(target, ""))
         if exists and (within or is_same_file(target, os.fspath(each))):
             raise UsageError(f"{name} is also an input, which is never replaced: choose another name with {OUTPUT}")
     if exists and no_clobber:
         raise clobber_error(name)
-    check_folder(name, target.parent, makes_folder=makes_folder)
+    check_folder(name, os.path.dirname(target), makes_folder=makes_folder)
     return target
 
 
-def _may_be_replaced(target: Path) -> bool:
+def _may_be_replaced(target: str) -> bool:
     """Whether a folder is an image that could have been written here: an array, or an OME-Zarr group of one."""
+    from pathlib import Path
+
     from vorotool.formats.zarr.reader import is_single_image
 
-    return is_array(target) or is_single_image(target)
+    return is_array(target) or is_single_image(Path(target))
 
 
 def _other_error(name: str) -> OutputError:
@@ -99,18 +94,20 @@ def open_store(
     path: str | os.PathLike[str], *, no_clobber: bool = False, inputs: Iterable[str | os.PathLike[str]] = ()
 ) -> Iterator[Path]:
     """Give a folder to write a store in; it takes its place when all of it has been written."""
+    from pathlib import Path
+
     name = os.fspath(path)
     target = check_store(name, no_clobber=no_clobber, inputs=inputs)
 
     def check() -> None:
-        if not target.exists():
+        if not os.path.exists(target):
             return
         if no_clobber:
-            raise clobber_error(str(target))
+            raise clobber_error(target)
         if not _may_be_replaced(target):
-            raise _other_error(str(target))
+            raise _other_error(target)
 
     with explained(name), committed_together() as commit:
-        temporary = commit.temporaries.make(target, new_folder)
-        yield temporary.path
-        commit.add(Placement(target, temporary, check, partial(explained, name)))
+        temporary = commit.make(target, new_folder)
+        yield Path(temporary.path)
+        commit.add(Placement(target, temporary, partial(explained, name), check))
