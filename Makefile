@@ -128,7 +128,6 @@ else
 	$(RUN) tests/fuzz/spacing.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/volumes.py --voxels $(or $(VOXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
-	$(RUN) tests/fuzz/space_predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/written.py --sets $(or $(SETS),10000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/cells.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
@@ -155,7 +154,6 @@ else
 	$(RUN) tests/fuzz/bytes.py --minutes 5 --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/streams.py --runs $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/features.py --cases $(or $(CASES),2000) --seed $(or $(SEED),1)
-	$(RUN) tests/fuzz/batch.py --kills $(or $(KILLS),20) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/faults.py --kills $(or $(FAULTS),1000) --minutes 120 --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/machines.py --settings $(or $(MACHINES),40) --seed $(or $(SEED),1)
 endif

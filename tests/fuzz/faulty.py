@@ -2,6 +2,7 @@
 
 import errno
 import importlib
+import json
 import os
 import random
 import shutil
@@ -9,6 +10,8 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
@@ -76,11 +79,22 @@ def trial(folder, chance, counts):
         _, said = again.communicate()
         wrong += [f"{fmt}: resumed: exit code {again.returncode}: {said.decode()[-300:]}"] * (again.returncode != 0)
         wrong += [f"{fmt}: resumed: {leftovers(folder)} left"] * bool(leftovers(folder))
+        wrong += [f"{fmt}: done {times} times: {name}" for name, times in done_in(folder / "out") if times != 1]
         wrong += [f"{fmt}: resumed: other outputs"] * (
             not wrong and contents(folder, "out") != contents(folder, "whole")
         )
     counts["batches"] += 1
     return wrong
+
+
+def done_in(out):
+    """Inputs that the manifest says are done, and how often; torn lines are of killed batches."""
+    done = Counter()
+    for line in next(out.glob("*.jsonl")).read_bytes().splitlines():
+        with suppress(ValueError):
+            record = json.loads(line)
+            done[record.get("input")] += record.get("status") == "done"
+    return [(name, times) for name, times in done.items() if name is not None and times]
 
 
 def killed(folder, fmt, number, chance, counts):

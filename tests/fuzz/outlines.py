@@ -9,20 +9,20 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import run_families
 from support.oracles.outline_oracle import numbered_objects, pixel_sides, random_labels, ring_areas, unit_sides
 from vorotool import VorotoolError, VorotoolWarning, outlines, planar_graph, skeleton_exact, verify_skeleton
 
 
-def failure(random: np.random.Generator) -> str | None:
+def failure(labels: np.ndarray, random: np.random.Generator) -> str | None:
     """What is wrong with the outlines or the skeleton of an image, if anything."""
-    labels = random_labels(random)
     connectivity = int(random.choice([4, 8]))
     kind = str(random.choice(["crack", "contour"]))
     simplify = [None, 0.5, 0.8, 1.5, 4.0, 12.0][int(random.integers(6))]
     if not labels.any():
         return None
     try:
+        warnings.simplefilter("error", VorotoolWarning)
         given = outlines(labels, mode="labels", connectivity=connectivity, outline=kind)
         if kind == "crack":
             objects, values = numbered_objects(labels, connectivity)
@@ -42,14 +42,5 @@ def faces_of(graph: object) -> list[tuple[int, ...]]:
     return sorted(tuple(graph.polygons_of(face).tolist()) for face in range(graph.faces))
 
 
-def main() -> int:
-    """Run all cases; exit 1 if any failed."""
-    cases = Cases(options(20_000).parse_args())
-    warnings.simplefilter("error", VorotoolWarning)
-    for case in cases:
-        cases.judge(case, "", failure(cases.random(case)))
-    return cases.end("images")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_families([random_labels], failure, 20_000, "images"))

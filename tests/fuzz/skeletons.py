@@ -14,17 +14,11 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
 from support.families.skeleton_shapes import DATA, FAMILIES, under_symmetries
-from vorotool import Skeleton, VorotoolError, read, skeleton_exact, verify_skeleton
+from support.readers.written import differing
+from vorotool import VorotoolError, read, skeleton_exact, verify_skeleton
 from vorotool.engines.segment_voronoi.segment_voronoi import verify_segment_voronoi
 from vorotool.engines.skeleton.exact import shape_diagram, skeleton_of
 from vorotool.engines.skeleton.verify_skeleton import verify_exterior
-
-ARRAYS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length")
-
-
-def differing(one: Skeleton, other: Skeleton) -> str | None:
-    """The first array that is not the same to the bit."""
-    return next((name for name in ARRAYS if getattr(one, name).tobytes() != getattr(other, name).tobytes()), None)
 
 
 def failure(shape: object) -> str | None:
@@ -37,8 +31,8 @@ def failure(shape: object) -> str | None:
         for skeleton in whole.values():
             verify_skeleton(skeleton, threads=1)
         verify_skeleton(skeleton_exact(shape, threads=2), threads=1)  # of each feature by itself
-        if name := differing(skeleton_exact(shape, features="together", threads=2), whole["interior"]):
-            return f"{name} inside are others when nothing else is made"
+        if names := differing(skeleton_exact(shape, features="together", threads=2), whole["interior"]):
+            return f"{names[0]} inside are others when nothing else is made"
     except VorotoolError as error:
         return str(error)
     return None

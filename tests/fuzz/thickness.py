@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import run_families
 from support.oracles.outline_oracle import random_labels
 from support.oracles.thickness_oracle import check_thickness
 from vorotool import VorotoolError, VorotoolWarning, outlines, skeleton_exact, verify_thickness
@@ -19,14 +19,14 @@ from vorotool.engines.from_skeleton.thickness import thickness_of_pixels
 SIDES = ((1, 1), (1, 1), (2, 1), (3, 5))
 
 
-def failure(random: np.random.Generator) -> str | None:
+def failure(labels: np.ndarray, random: np.random.Generator) -> str | None:
     """What is wrong with the thickness of an image, if anything."""
-    labels = random_labels(random)
     connectivity, kind = int(random.choice([4, 8])), str(random.choice(["crack", "contour"]))
     sides = SIDES[int(random.integers(len(SIDES)))]
     if not labels.any():
         return None
     try:
+        warnings.simplefilter("error", VorotoolWarning)
         shapes = outlines(labels, mode="labels", connectivity=connectivity, outline=kind)
         shapes = replace(shapes, xy=shapes.xy * sides[::-1])
         skeleton = skeleton_exact(shapes)
@@ -39,14 +39,5 @@ def failure(random: np.random.Generator) -> str | None:
     return None
 
 
-def main() -> int:
-    """Run all cases; exit 1 if any failed."""
-    cases = Cases(options(2000).parse_args())
-    warnings.simplefilter("error", VorotoolWarning)
-    for case in cases:
-        cases.judge(case, "", failure(cases.random(case)))
-    return cases.end("images")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_families([random_labels], failure, 2000, "images"))

@@ -42,9 +42,7 @@ def test_cases_that_were_not_run_have_not_passed(capsys):
     assert capsys.readouterr().out.startswith("cases 0 to -1: 0 cases, 0 failures")
 
 
-@pytest.mark.parametrize(
-    "script", ["predicates.py", "space_predicates.py", "tessellate.py", "spacing.py", "volumes.py"]
-)
+@pytest.mark.parametrize("script", ["predicates.py", "tessellate.py", "spacing.py", "volumes.py"])
 def test_a_script_that_compares_nothing_fails(script, script_here):
     code, out, complaints = script_here(script, "--seconds", "0")
     assert (code, complaints) == (1, "")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull, Delaunay
 
-from support.families import space_cases
+from support.families import predicate_cases
 from vorotool import _core
 from vorotool._core import tetrahedra
 
@@ -130,14 +130,14 @@ def test_general_position_is_as_in_scipy(n, seed):
 
 def rule(points):
     """The tetrahedra whose spheres are empty, ties broken, by trying all in integers."""
-    rows = space_cases.rows_of(points.tolist())
+    rows = predicate_cases.rows_of(points.tolist())
     found = set()
     for four in itertools.combinations(range(len(points)), 4):
-        sign = space_cases.orient3d_sign([rows[i] for i in four])
+        sign = predicate_cases.exact_sign([rows[i] for i in four])
         if sign == 0:
             continue
         others = ([rows[i] for i in (*four, j)] for j in range(len(points)) if j not in four)
-        if all((space_cases.in_sphere_sign(p) or space_cases.tie_sign(p)) == -sign for p in others):
+        if all((predicate_cases.exact_sign(p) or predicate_cases.tie_sign(p)) == -sign for p in others):
             found.add(frozenset(map(tuple, points[list(four)].tolist())))
     return found
 
@@ -168,7 +168,7 @@ def test_all_sets_of_the_grid_follow_the_rule(part):
 
 @pytest.mark.parametrize("name", ["lattice", "boxes", "near_degenerate", "flat", "subnormal", "axis_parallel"])
 def test_small_sets_follow_the_rule(name):
-    for points, *_ in space_cases.FAMILIES[name](np.random.default_rng(2), 12, 8)[:, None]:
+    for points, *_ in predicate_cases.FAMILIES[name](np.random.default_rng(2), 12, 8, 3)[:, None]:
         check_small(np.unique(points, axis=0))
 
 
@@ -179,9 +179,9 @@ def cells_of(points, made):
         p = [[Fraction(v) for v in q] for q in points[row].tolist()]
         matrix = [[b - a for a, b in zip(p[0], q, strict=True)] for q in p[1:]]
         right = [sum(b * b - a * a for a, b in zip(p[0], q, strict=True)) / 2 for q in p[1:]]
-        volume = space_cases.determinant(matrix)
+        volume = predicate_cases.determinant(matrix)
         center = tuple(
-            space_cases.determinant([[*m[:k], r, *m[k + 1 :]] for m, r in zip(matrix, right, strict=True)]) / volume
+            predicate_cases.determinant([[*m[:k], r, *m[k + 1 :]] for m, r in zip(matrix, right, strict=True)]) / volume
             for k in range(3)
         )
         cells.setdefault(center, []).append(frozenset(map(tuple, points[row].tolist())))
