@@ -3,30 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import cached_property, partial
 from math import inf
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.engines.alpha.alpha_shape import (
-    alpha_complex,
-    alpha_curves,
-    alpha_edges,
-    alpha_shape,
-    chosen_radius,
-)
+from vorotool.engines.alpha.alpha_shape import alpha_curves, alpha_edges, chosen_radius
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
-from vorotool.jobs.inputs import JobInput, check_columns, frame_of, note_repeated_labels, read_sites, window_of
+from vorotool.jobs.inputs import JobInput, check_columns, note_repeated_labels, read_sites
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_sites
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.jobs.triangulation import TRIANGULATE, digital_mesh, seeds_of
 from vorotool.jobs.units import length_in_units, measured
 from vorotool.numeric.numbers import nearest_double
 from vorotool.numeric.parallel import Progress
@@ -43,95 +37,61 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from vorotool.types.alpha.complex import AlphaComplex
     from vorotool.types.alpha.shape import AlphaHull
-    from vorotool.types.mesh.triangulation import AnyTriangulation
-
-
-def products(run: Run, o: Options, given: JobInput) -> ShapeProducts:
-    """Read points, or find those of an image, and what their shapes of all radii are made of."""
-    if not measured(o):  # what is wrong with it is said before a long file is read
-        chosen_radius(o.r, o.alpha, o.auto)
-    with run.phase("read"):
-        o, points = read_sites(
-            run, o, given, properties="points" in o.what or o.names_columns, is_digital=o.method != "exact"
-        )
-        o, points = placed_sites(run, o, given, points)
-    return ShapeProducts(run, o, given, points, chosen_radius(o.r, o.alpha, o.auto))
 
 
 class ShapeProducts(Results):
     """Results of the alpha shapes of one list of points."""
 
-    def __init__(
-        self,
-        run: Run,
-        options: Options,
-        given: JobInput,
-        points: PointSet | SeedSet,
-        radius: Radius | None,
-    ) -> None:
-        super().__init__(run, options)
-        self.radius = radius
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
+        if not measured(options):  # what is wrong with it is said before a long file is read
+            chosen_radius(options.r, options.alpha, options.auto)
+        with run.phase("read"):
+            properties, is_digital = "points" in options.what or options.names_columns, options.method != "exact"
+            o, points = read_sites(run, options, given, properties=properties, is_digital=is_digital)
+            o, points = placed_sites(run, o, given, points)
+        super().__init__(run, o)
+        self.radius = chosen_radius(o.r, o.alpha, o.auto)
         self._has_told_regions = False
-        self.backdrop = placed_backdrop(run, options, given.backdrop)
-        is_allowed = isinstance(points, SeedSet) or not len(points)
-        self._empty: dict[str, Any] = {"strict": options.strict, "allow_empty": is_allowed}
-        with run.phase("triangulate") as progress:
-            mesh = self._triangulation(points, progress)
-            mesh = mesh if isinstance(mesh, SeedSet) else placed_mesh(options.pixel_size, mesh)
-        with run.phase("alpha complex") as progress:
-            self.family = alpha_complex(
-                mesh, rule=options.rule, **self._empty, threads=options.threads, progress=progress
-            )
-        check_columns(options, self.family.mesh.properties)
-        self.world = world_of_sites(run, options, self.family.mesh, points)
-        self.has_shape = bool(set(options.what) & OF_ONE_SHAPE)
+        self.backdrop = placed_backdrop(run, o, given.backdrop)
+        mesh = self._triangulation(points)
+        mesh = mesh if isinstance(mesh, SeedSet) else placed_mesh(o.pixel_size, mesh)
+        self._allow_empty = isinstance(points, SeedSet) or not len(points)
+        how = {"phase": "alpha complex", "rule": o.rule, "allow_empty": self._allow_empty}
+        self.family: AlphaComplex = self.call("engines.alpha.alpha_shape:alpha_complex", mesh, **how)
+        check_columns(o, self.family.mesh.properties)
+        self.world = world_of_sites(run, o, self.family.mesh, points)
+        self.has_shape = bool(set(o.what) & OF_ONE_SHAPE)
         if self.has_shape:
-            with run.phase("shape") as progress:
-                self.shape = self._shape(progress)
-            if radius is None and not self.is_unjoined:
-                regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"
-                run.note(
-                    f"r = {radius_text(self.shape.r)}, the smallest radius whose shape is {regions} covering every "
-                    "point"
-                )
+            self.shape = self._shape()
+            if self.radius is None and not self.is_unjoined:
+                regions = "one region" if o.regions in (None, 1) else f"at most {o.regions} regions"
+                r = radius_text(self.shape.r)
+                run.note(f"r = {r}, the smallest radius whose shape is {regions} covering every point")
 
-    def _triangulation(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation | SeedSet:
+    def _triangulation(self, points: PointSet | SeedSet) -> Any:
         if isinstance(points, SeedSet) and points.is_empty_image:
             return points
-        from vorotool.engines.delaunay.delaunay import delaunay
-        from vorotool.engines.digital.triangulation import digital_triangulation, repair_digital
-        from vorotool.engines.tessellation.seeding import seeds_in_frame
+        if self.options.method != "exact" and len(points):
+            seeds = seeds_of(self.run, self.options, points)
+            return digital_mesh(self.run, self.options, points, seeds)[0]
+        exact: Any = self.call(TRIANGULATE, points, phase="triangulate")
+        note_repeated_labels(self.run, points, exact)
+        return exact
 
-        o = self.options
-        if o.method == "exact" or not len(points):
-            exact = delaunay(points, strict=o.strict, threads=o.threads, progress=progress)
-            note_repeated_labels(self.run, points, exact)
-            return exact
-        seeds = points if isinstance(points, SeedSet) else seeds_in_frame(points, partial(frame_of, o), strict=o.strict)
-        frame: Any = {"window": window_of(o, seeds), "spacing": 1, "strict": o.strict, "threads": o.threads}
-        mesh: AnyTriangulation
-        if o.method == "digital":
-            mesh = digital_triangulation(seeds, **frame, progress=progress)
-        else:
-            mesh, _ = repair_digital(seeds, **frame, max_pixels=o.max_pixels, progress=progress)
-        return replace(mesh, y_axis=points.y_axis, crs=points.crs) if isinstance(points, PointSet) else mesh
-
-    def _shape(self, progress: Progress) -> AlphaShape:
+    def _shape(self) -> AlphaShape:
         o = self.options
         if o.method == "digital":
             assert self.radius is not None  # the command refuses the automatic one
-            return self._edges_only(self.radius)
-        return alpha_shape(
-            self.family,
-            r=self.radius,
-            regions=o.regions or 1,
-            hole_threshold=o.hole_threshold,
-            region_threshold=o.region_threshold,
-            **self._empty,
-            threads=o.threads,
-            progress=progress,
-        )
+            with self.run.phase("shape"):
+                return self._edges_only(self.radius)
+        thresholds = {"hole_threshold": o.hole_threshold, "region_threshold": o.region_threshold}
+        return self._shape_of(self.radius, phase="shape", regions=o.regions or 1, **thresholds)
+
+    def _shape_of(self, r: Radius | None, *, phase: str | None = None, **more: Any) -> AlphaShape:
+        how = {"phase": phase, "r": r, "allow_empty": self._allow_empty, **more}
+        return self.call("engines.alpha.alpha_shape:alpha_shape", self.family, **how)
 
     @cached_property
     def is_unjoined(self) -> bool:
@@ -156,9 +116,7 @@ class ShapeProducts(Results):
     @cached_property
     def hull(self) -> AlphaHull:
         """The hull of the shape's radius."""
-        from vorotool.engines.alpha.alpha_hull import alpha_hull
-
-        return alpha_hull(self.shape)
+        return self.call("engines.alpha.alpha_hull:alpha_hull", self.shape, phase=None)
 
     @cached_property
     def persistence(self) -> RegionPersistence:
@@ -171,10 +129,6 @@ class ShapeProducts(Results):
             self._has_told_regions = True
             self.run.note(self._standing_regions())
         super().check(target)
-        if target.fmt == "html":
-            from vorotool.render.pages.html import check_family_size
-
-            check_family_size(self.family)
         empty = {
             "edges": lambda: not len(self.shape.edge_index),
             "polygons": lambda: not len(self.shape.polygons),
@@ -184,6 +138,12 @@ class ShapeProducts(Results):
         if empty is not None and len(self.family.spectrum) and not self.is_unjoined and empty():
             words = {"table": "regions", "hull": "arcs in the hull"}.get(target.what, target.what)
             warn(f"the shape has no {words} at r = {radius_text(self.shape.r)}: {self._beginning(target.what, words)}")
+
+    def check_page(self) -> None:
+        """Refuse a page of too many edges."""
+        from vorotool.render.pages.html import check_family_size
+
+        check_family_size(self.family)
 
     def _beginning(self, what: str, words: str) -> str:
         """Words for the radius at which there is something: regions begin with a triangle, shapes with an edge."""
@@ -239,50 +199,36 @@ class ShapeProducts(Results):
         assert isinstance(whole, Drawing)  # there are no plots of what moves
 
         def draw(part: Fraction) -> NDArray[np.uint8]:
-            shape = alpha_shape(self.family, r=r * part, threads=self.options.threads, **self._empty)
-            return whole.of(shape).pixels()
+            return whole.of(self._shape_of(r * part)).pixels()
 
         return draw
 
     def verify(self, progress: Progress) -> None:
         """Check the shape exactly, from its triangulation."""
-        from vorotool.engines.alpha.verify_alpha import verify_alpha_shape
-
-        shape = self.shape if self.has_shape else alpha_shape(self.family, r=inf, threads=self.options.threads)
-        verify_alpha_shape(shape, threads=self.options.threads, progress=progress)
+        shape = self.shape if self.has_shape else self._shape_of(inf, strict=False, allow_empty=None)
+        self.call("engines.alpha.verify_alpha:verify_alpha_shape", shape, phase=None, progress=progress)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        mesh = self.family.mesh
-        counts: dict[str, Any] = {
-            "points": len(mesh.points),
-            "duplicates": mesh.duplicates,
-            "triangles": len(mesh.triangles),
-            "delaunay_edges": len(self.family),
-            "radii": len(self.family.spectrum),
-            "rule": self.family.rule,
-            "method": self.options.method,
-            "threads": self.options.threads,
-        }
+        mesh, o = self.family.mesh, self.options
+        counts: dict[str, Any] = {"points": len(mesh.points), "duplicates": mesh.duplicates}
+        counts |= {"triangles": len(mesh.triangles), "delaunay_edges": len(self.family)}
+        counts |= {"radii": len(self.family.spectrum), "rule": self.family.rule, "method": o.method}
+        counts["threads"] = o.threads
         if not self.has_shape:
             return counts
-        shape = self.shape
-        chosen: dict[str, Any] = {
-            "r": None if self.is_unjoined else _json_number(shape.r),
-            "alpha": None if self.is_unjoined else shape.alpha,
-            "automatic": self.radius is None,
-        }
-        kinds = {"singular_edges": int((shape.kind == 1).sum()), "boundary_edges": int((shape.kind == 2).sum())}
-        if self.options.method == "digital":
-            return {**counts, **chosen, **kinds}
+        shape, is_known = self.shape, not self.is_unjoined
+        counts |= {"r": _json_number(shape.r) if is_known else None, "alpha": shape.alpha if is_known else None}
+        counts["automatic"] = self.radius is None
+        counts |= {"singular_edges": int((shape.kind == 1).sum()), "boundary_edges": int((shape.kind == 2).sum())}
+        if o.method == "digital":
+            return counts
+        names = {"regions": "region_count", "holes": "hole_count", "cavities": "cavity_count"}
+        measures = {name: getattr(shape, field) for name, field in names.items()}
         return {
             **counts,
-            **chosen,
-            **kinds,
             "isolated_points": len(shape.isolated),
-            "regions": shape.region_count,
-            "holes": shape.hole_count,
-            "cavities": shape.cavity_count,
+            **measures,
             "area": shape.area,
             "perimeter": shape.perimeter,
         }

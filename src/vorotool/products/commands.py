@@ -60,7 +60,7 @@ kept. OBJ and files for Triangle (.edge, .ele, .node) number the points instead.
     ),
     "alphashape": Command(
         "Alpha shapes of points, of one radius or of all.",
-        "jobs.alpha_shape:products",
+        "jobs.alpha_shape:ShapeProducts",
         "points",
         f"""Find the alpha shape of points: edges that an empty disc of radius r touches at both ends, and the areas
 that they bound.
