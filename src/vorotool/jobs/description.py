@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection
 from dataclasses import replace
-from functools import partial, singledispatch
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -28,7 +28,7 @@ from vorotool.jobs.refusals import refuse
 from vorotool.jobs.terminal import escaped, tell
 from vorotool.numeric.crs import crs_name
 from vorotool.numeric.length_units import unit_of
-from vorotool.products.inputs import NAMES_WITH, TAKEN_BY, VOLUME_NAMES, VOLUMES_TAKEN_BY
+from vorotool.products.inputs import NAMES_WITH, TAKEN_BY, VOLUME_NAMES, VOLUMES_TAKEN_BY, Holds
 from vorotool.types.box import bounds
 from vorotool.types.fields import UNSTATED
 from vorotool.types.images import Raster
@@ -188,99 +188,60 @@ def _may_be_a_ring(value: object, fmt: str) -> bool:
     )
 
 
-@singledispatch
 def _told_of(value: Any, note: Callable[[str], None]) -> Description:
-    raise TypeError(type(value).__name__)
+    """Tell what a value holds, how much, where, and which commands take it."""
+    if isinstance(value, Raster):
+        return _of_image(value, note)
+    holder, columns = getattr(value, "polygons", value), value
+    xy: Any = getattr(holder, "xy", None)
+    taker: Holds
+    counts: Description
+    if isinstance(value, PointSet):
+        taker, kind, counts = "points", "points", {"points": len(value)}
+    elif isinstance(value, PolygonSet):
+        taker, kind, counts = "polygons", *_of_polygons(value)
+    elif isinstance(value, Sites):
+        taker, kind, counts = "sites", "points, lines and polygons", _of_sites(value)
+    elif isinstance(value, Skeleton):
+        taker, kind, columns, xy = "skeleton", "skeleton", value.polygons, value.vertices
+        counts = {"arcs": len(value), "nodes": len(value.vertices), "polygons": len(value.polygons)}
+    elif isinstance(value, Offsets):
+        taker, kind, columns, xy = "offsets", "offset curves", value.polygons, np.concatenate([value.start, value.end])
+        distances = sorted(set(np.asarray(value.distance).tolist()))
+        counts = {"shapes": len(value), "pieces": len(value.site), "distances": distances}
+    else:
+        assert isinstance(value, VoronoiMap)  # nothing else is read
+        taker, kind, xy = "voronoi", "Voronoi map", value.vertices
+        counts = {"cells": len(value), "arcs": len(value.arcs)}
+    told = {"kind": kind, **counts, **_of_places(xy, holder)}
+    if isinstance(value, PointSet):
+        told["has_labels"] = value.labels is not None
+    types = {name: _type_of(values) for name, values in columns.properties.items()}
+    return {**told, "columns": types, "commands": list(TAKEN_BY[taker])}
 
 
-@_told_of.register
-def _of_points(value: PointSet, note: Callable[[str], None]) -> Description:
-    return {
-        "kind": "points",
-        "points": len(value),
-        **_of_places(value.xy, value),
-        "has_labels": value.labels is not None,
-        "columns": _column_types(value.properties),
-        "commands": list(TAKEN_BY["points"]),
-    }
-
-
-@_told_of.register
-def _of_polygons(value: PolygonSet, note: Callable[[str], None]) -> Description:
+def _of_polygons(value: PolygonSet) -> tuple[str, Description]:
     lines = int(value.is_line.sum())
     polygons = len(value) - lines
     kind = " and ".join(name for name, count in (("polygons", polygons), ("lines", lines)) if count)
-    return {
-        "kind": kind or "polygons",
-        "features": len(set(value.feature.tolist())),
-        "polygons": polygons,
-        "holes": int((value.ring_kind == HOLE).sum()),
-        "lines": lines,
-        "vertices": len(value.xy),
-        **_of_places(value.xy, value),
-        "columns": _column_types(value.properties),
-        "commands": list(TAKEN_BY["polygons"]),
-    }
+    features = len(set(value.feature.tolist()))
+    counts = {"features": features, "polygons": polygons, "holes": _holes(value), "lines": lines}
+    return kind or "polygons", {**counts, "vertices": len(value.xy)}
 
 
-@_told_of.register
-def _of_sites(value: Sites, note: Callable[[str], None]) -> Description:
+def _of_sites(value: Sites) -> Description:
     polygons = value.polygons
     sizes = np.diff(polygons.ring_starts)[polygons.polygon_starts[:-1]]
     points = int((polygons.is_line & (sizes == 1)).sum())
     lines = int(polygons.is_line.sum()) - points
-    return {
-        "kind": "points, lines and polygons",
-        "features": value.count,
-        "points": points,
-        "polygons": len(polygons) - points - lines,
-        "holes": int((polygons.ring_kind == HOLE).sum()),
-        "lines": lines,
-        **_of_places(polygons.xy, polygons),
-        "columns": _column_types(value.properties),
-        "commands": list(TAKEN_BY["sites"]),
-    }
+    counts = {"features": value.count, "points": points, "polygons": len(polygons) - points - lines}
+    return {**counts, "holes": _holes(polygons), "lines": lines}
 
 
-@_told_of.register
-def _of_skeleton(value: Skeleton, note: Callable[[str], None]) -> Description:
-    return {
-        "kind": "skeleton",
-        "arcs": len(value),
-        "nodes": len(value.vertices),
-        "polygons": len(value.polygons),
-        **_of_places(value.vertices, value.polygons),
-        "columns": _column_types(value.polygons.properties),
-        "commands": list(TAKEN_BY["skeleton"]),
-    }
+def _holes(value: PolygonSet) -> int:
+    return int((value.ring_kind == HOLE).sum())
 
 
-@_told_of.register
-def _of_offsets(value: Offsets, note: Callable[[str], None]) -> Description:
-    return {
-        "kind": "offset curves",
-        "shapes": len(value),
-        "pieces": len(value.site),
-        "distances": sorted(set(np.asarray(value.distance).tolist())),
-        **_of_places(np.concatenate([value.start, value.end]), value.polygons),
-        "columns": _column_types(value.polygons.properties),
-        "commands": list(TAKEN_BY["offsets"]),
-    }
-
-
-@_told_of.register
-def _of_map(value: VoronoiMap, note: Callable[[str], None]) -> Description:
-    return {
-        "kind": "Voronoi map",
-        "cells": len(value),
-        "arcs": len(value.arcs),
-        **_of_places(value.vertices, value.polygons),
-        "columns": _column_types(value.properties),
-        "commands": list(TAKEN_BY["voronoi"]),
-    }
-
-
-@_told_of.register
 def _of_image(value: Raster, note: Callable[[str], None]) -> Description:
     height, width = value.shape
     told = {"kind": "", **_of_pixels(width, height, value.values.dtype, value.grid)}
@@ -328,10 +289,6 @@ def _of_places(xy: NDArray[np.float64], value: PointSet | PolygonSet) -> Descrip
         "crs": None if value.crs is None else crs_name(value.crs),
         "y": value.y_axis,
     }
-
-
-def _column_types(properties: Mapping[str, Collection[Any]]) -> dict[str, str]:
-    return {name: _type_of(values) for name, values in properties.items()}
 
 
 def _type_of(values: Collection[Any]) -> str:
@@ -382,18 +339,8 @@ def _words(name: str, value: Any, told: Description) -> str:
     return _WORDS[name](value, told) if name in _WORDS else str(value)
 
 
-def _extent(value: list[float], _: Description) -> str:
-    x0, y0, x1, y1 = map(_number, value)
-    return f"x {x0} to {x1}, y {y0} to {y1}"
-
-
-def _side(value: list[float], told: Description) -> str:
-    sides = " x ".join(dict.fromkeys(map(_number, value)))
-    return sides if told["unit"] is None else f"{sides} {told['unit']}"
-
-
-def _voxel(value: list[float], told: Description) -> str:
-    sides = " x ".join(map(_number, value))
+def _size(value: list[float], told: Description) -> str:
+    sides = " x ".join(dict.fromkeys(map(_number, value)) if len(value) == 2 else map(_number, value))
     return sides if told["unit"] is None else f"{sides} {told['unit']}"
 
 
@@ -403,9 +350,9 @@ def _number(value: float) -> str:
 
 _WORDS: dict[str, Callable[[Any, Description], str]] = {
     "y": lambda value, _: "not stated" if value == UNSTATED else str(value),
-    "bounds": _extent,
-    "pixel_size": _side,
-    "voxel_size": _voxel,
+    "bounds": lambda value, _: "x {0} to {2}, y {1} to {3}".format(*map(_number, value)),
+    "pixel_size": _size,
+    "voxel_size": _size,
     "columns": lambda value, _: ", ".join(f"{column} ({kind})" for column, kind in value.items()),
     "has_labels": lambda value, _: "the input's own",
     "foreground_pixels": lambda value, _: f"{value} pixels",

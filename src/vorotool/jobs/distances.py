@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vorotool.convert.sites import as_sites
-from vorotool.engines.distances.hausdorff import distance, hausdorff, verify_distances
 from vorotool.errors import InputError
 from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.options import Options
@@ -70,16 +69,14 @@ class DistanceProducts(Results):
 
     def _measured(self, a: PolygonSet, b: PolygonSet) -> Distances:
         o = self.options
-        far, near = {"distances", "hausdorff"} & set(o.what), {"distances", "smallest"} & set(o.what)
         found = Distances(None, None, None, (a, b), o.boundary)
         if not len(a) or not len(b):
             return found
-        if far:
-            with self.run.phase("hausdorff") as progress:
-                found = hausdorff(a, b, boundary=o.boundary, threads=o.threads, progress=progress)
-        if near:
-            with self.run.phase("smallest") as progress:
-                closest = distance(a, b, boundary=o.boundary, threads=o.threads, progress=progress)
+        if {"distances", "hausdorff"} & set(o.what):
+            found = self.call("engines.distances.hausdorff:hausdorff", a, b, boundary=o.boundary)
+        if {"distances", "smallest"} & set(o.what):
+            how = {"phase": "smallest", "boundary": o.boundary}
+            closest: Distances = self.call("engines.distances.hausdorff:distance", a, b, **how)
             found = replace(found, smallest=closest.smallest)
         return found
 
@@ -104,7 +101,7 @@ class DistanceProducts(Results):
 
     def verify(self, progress: Progress) -> None:
         """Check the distances, with nothing that they were computed by."""
-        verify_distances(self.found)
+        self.call("engines.distances.hausdorff:verify_distances", self.found, phase=None)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""

@@ -208,7 +208,7 @@ def read_voxel_points(run: Run, o: Options, given: JobInput, *, properties: bool
 def seeds_of_image(run: Run, o: Options, image: Raster, mode: SeedMode | None) -> SeedSet:
     """Find the seeds of an image, as the options say."""
     from vorotool.engines.tessellation.seeding import seeds_from_raster
-    from vorotool.jobs.masks import settled_foreground
+    from vorotool.jobs.outlined_images import settled_foreground
 
     image, threshold, invert, _ = settled_foreground(run, o, image)
     return seeds_from_raster(

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.frames import band_limits, label_dtype, require_memory
-from vorotool.engines.tessellation.tessellate import labeled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Band, SeedBands, Tessellator, with_neighbors
 from vorotool.errors import LimitError
 from vorotool.jobs.inputs import JobInput, check_columns, frame_of
@@ -25,6 +24,7 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, table_in_units
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
+from vorotool.products.formats import resolved
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import CELL, SQUARE, Frame, PixelSides
 from vorotool.types.table import Table
@@ -106,9 +106,8 @@ class Tessellated(Results):
     @cached_property
     def colors(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Labels, and the color class of each."""
-        from vorotool.engines.label_images.regions import region_colors
-
-        return region_colors(self.whole, measures=self.regions.measures)
+        measures = self.regions.measures
+        return resolved("engines.label_images.regions:region_colors")(self.whole, measures=measures)
 
     def labels(self, first: int = 0, count: int | None = None) -> NDArray[Any]:
         """Compute the labels of some rows or slices."""
@@ -119,10 +118,8 @@ class Tessellated(Results):
     @cached_property
     def regions(self) -> Regions:
         """Areas, borders and boxes of the regions: one pass that tables and colors share."""
-        from vorotool.engines.label_images.measured_regions import regions_of_parts
-
-        parts, threads = self._label_parts(), self.options.threads
-        return regions_of_parts(parts, self.frame, self.sides, self.seeds, threads=threads)
+        given = (self._label_parts(), self.frame, self.sides, self.seeds)
+        return self.call("engines.label_images.measured_regions:regions_of_parts", *given, phase=None)
 
     def _label_parts(self) -> Iterator[tuple[NDArray[Any], NDArray[Any] | None]]:
         """Give labels part by part, with squared distances where a table needs them."""
@@ -186,11 +183,8 @@ class Tessellated(Results):
             write_chunks(create_array(files, part.shape, dtype=dtype, chunks=chunks), 0, part, threads=o.threads)
             return sum(map(len, files.values()))
 
-        most, expected = (
-            int(room * prod(shape) * dtype.itemsize),
-            lambda: int(room * stream.expected(chunks[0], size_of)),
-        )
-        check_space(target.path, most, expected)
+        most = int(room * prod(shape) * dtype.itemsize)
+        check_space(target.path, most, lambda: int(room * stream.expected(chunks[0], size_of)))
         with open_store(target.path, **rules) as store:
             grid, is_labels = stream.about.get("grid"), target.what == "labels"
             folder = array_folder(store, target.path, len(shape), grid=grid, is_labels=is_labels)
@@ -218,10 +212,10 @@ class Tessellated(Results):
 
     def _diagram(self, first: int, count: int) -> NDArray[Any]:
         """Compute some rows of the diagram, which the ones beside them have a part in."""
-        from vorotool.engines.label_images.regions import diagram_of
-
         begin, whole = with_neighbors(self.frame, first, count)
-        return diagram_of(self.labels(begin, whole), threads=self.options.threads)[first - begin :][:count]
+        labels = self.labels(begin, whole)
+        made: NDArray[Any] = self.call("engines.label_images.regions:diagram_of", labels, phase=None)
+        return made[first - begin :][:count]
 
     def band(self, what: Any, dtype: np.dtype[Any], first: int, count: int) -> Band:
         """Give some rows or slices as what computes them anywhere."""
@@ -242,22 +236,20 @@ class Tessellated(Results):
 
     def verify(self, progress: Progress) -> None:
         """Check the labels of every part against an independent nearest-seed search."""
-        verify_rows(self.sweep, threads=self.options.threads, progress=progress)
+        self.call("engines.tessellation.tessellate:verify_rows", self.sweep, phase=None, progress=progress)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        seeds, frame = self.seeds, self.frame
+        seeds, frame, o = self.seeds, self.frame, self.options
         return {
             "seeds": len(seeds),
             "labels": len(seeds.site_labels) if seeds.site_labels is not None else 0,
             "largest_label": seeds.largest_label,
             "duplicates": self.sweep.duplicates,
-            "snapped": seeds.snapped,
-            "largest_move": seeds.largest_move,
+            **{"snapped": seeds.snapped, "largest_move": seeds.largest_move},
             f"steps_per_{CELL[len(frame.shape)]}": seeds.scale,
             "frame": [*frame.origin, *reversed(frame.shape)],
-            "method": self.options.method,
-            "threads": self.options.threads,
+            **{"method": o.method, "threads": o.threads},
         }
 
 
@@ -266,18 +258,11 @@ def tessellated_rows(run: Run, o: Options, seeds: SeedSet | VolumeSeeds) -> Tess
     if len(seeds) > o.max_sites:
         raise LimitError(f"the input has {len(seeds)} seeds, more than --max-sites {o.max_sites}")
     is_square = o.method == "propagation" and o.spacing is None
-    rows = labeled_rows(
-        seeds,
-        frame_of(o, seeds),
-        method=o.method,
-        passes=o.passes or 2,
-        max_distance=o.max_distance,
-        sides=SQUARE if is_square else sides_of(o, len(seeds.coordinates)),
-        strict=o.strict,
-        threads=o.threads,
-        max_pixels=o.max_pixels,
-        progress=run.progress("tessellate"),
-    )
+    sides = SQUARE if is_square else sides_of(o, len(seeds.coordinates))
+    how = {"method": o.method, "passes": o.passes or 2, "max_distance": o.max_distance, "sides": sides}
+    how["progress"] = run.progress("tessellate")
+    place = "engines.tessellation.tessellate:labeled_rows"
+    rows: Tessellator | PropagatedRows = run.call(o, place, seeds, frame_of(o, seeds), phase=None, **how)
     if isinstance(rows, Tessellator) and {"distance", "distance2"} & set(o.what):
         rows.check_distances()
     return rows

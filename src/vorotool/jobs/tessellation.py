@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.frames import require_memory, squared_limit
 from vorotool.engines.tessellation.raster_objects import PartwiseObjects
-from vorotool.engines.tessellation.seeding import seeds_in_frame
-from vorotool.engines.tessellation.streamed_image import StreamedImage
+from vorotool.engines.tessellation.seeding import seeds_from_raster, seeds_in_frame
 from vorotool.engines.tessellation.tessellate import PropagatedRows
 from vorotool.engines.tessellation.tessellator import Band, Tessellator
-from vorotool.errors import LimitError, UsageError
+from vorotool.errors import InputError, LimitError, UsageError, warn
 from vorotool.jobs.inputs import (
     JobInput,
     asked_frame,
@@ -30,25 +29,30 @@ from vorotool.jobs.inputs import (
     seeds_of_image,
     tell_outside,
 )
-from vorotool.jobs.map_cells import seeds_on_map
-from vorotool.jobs.options import Options
-from vorotool.jobs.pixel_sizes import lengths_of_image, with_pixel_size, written_grid
+from vorotool.jobs.options import Options, changed
+from vorotool.jobs.picture_world import world_of
+from vorotool.jobs.pixel_sizes import lengths_of_image, unit_of_grid, with_pixel_size, written_grid
 from vorotool.jobs.refusals import check_image_size, refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streams import Tessellated, check_chunks, scale_of_squares, tessellated_rows
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import known_length, sides_of, unit_columns, unit_text
-from vorotool.products.formats import ANIMATIONS
-from vorotool.types.fields import is_up
+from vorotool.jobs.units import PixelSize, known_length, sides_of, unit_columns, unit_stats, unit_text
+from vorotool.numeric.crs import crs_name
+from vorotool.numeric.length_units import ratio
+from vorotool.products.formats import ANIMATIONS, resolved
+from vorotool.types.box import bounds
+from vorotool.types.fields import DOWN, UNSTATED, is_up
 from vorotool.types.images import Raster
-from vorotool.types.pixels import SQUARE, PixelGrid
+from vorotool.types.pixels import SQUARE, Frame, PixelGrid, PixelSides, in_cells, map_frame
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.polygons.polygon_set import PolygonSet
 
 if TYPE_CHECKING:
+    from vorotool.engines.tessellation.streamed_image import StreamedImage
     from vorotool.formats.images.band_reader import TiffRows, ZarrRows
     from vorotool.formats.opening import Opened
+    from vorotool.numeric.length_units import InputUnit
     from vorotool.render.label_images.picture import LabelPicture
     from vorotool.render.looks import World
 
@@ -75,10 +79,8 @@ def products(run: Run, o: Options, given: JobInput) -> Products:
             large = rows_of_large(o, source)
             with_columns = "table" in o.what or o.names_columns or given.has_page
             if large is None:
-                with_unit = o.like is not None
-                o, value = read_opened(
-                    run, o, given, source, columns=o.columns, properties=with_columns, wants_unit=with_unit
-                )
+                how: dict[str, Any] = {"properties": with_columns, "wants_unit": o.like is not None}
+                o, value = read_opened(run, o, given, source, columns=o.columns, **how)
         if large is not None:
             run.grid = large.grid
             check_image_size(run, o, given.name, large.grid)
@@ -215,8 +217,6 @@ class Products(Tessellated):
     @cached_property
     def world(self) -> World:
         """Where what is drawn lies: lengths are those across the picture."""
-        from vorotool.jobs.picture_world import world_of
-
         o, frame = self.options, self.seeds.frame or self.frame
         made = world_of(self.run, o, frame=frame.box, size=o.pixel_size)
         if made.scale_bar is None or self.sides == SQUARE:
@@ -264,18 +264,11 @@ def _streamed(run: Run, o: Options, image: ZarrRows | TiffRows) -> StreamedImage
     assert o.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held
     assert o.threshold != "otsu"
     step = CHUNK[0] if o.chunk is None else max(LEAST_ROWS, o.chunk[1])
-    sweep = StreamedImage(
-        PartwiseObjects(image, o.seeds, int(o.connectivity or 8), o.threshold, o.invert, step),
-        max_sites=o.max_sites,
-        max_distance=o.max_distance,
-        sides=sides_of(o),
-        threads=o.threads,
-        strict=o.strict,
-        reading=run.progress("read"),
-        progress=run.progress("tessellate"),
-        note=run.note,
-        has_sites=bool(TABLES & set(o.what)),
-    )
+    source = PartwiseObjects(image, o.seeds, int(o.connectivity or 8), o.threshold, o.invert, step)
+    reports = {"reading": run.progress("read"), "progress": run.progress("tessellate")}
+    how = {"max_distance": o.max_distance, "sides": sides_of(o), "has_sites": bool(TABLES & set(o.what)), **reports}
+    place = "engines.tessellation.streamed_image:StreamedImage"
+    sweep: StreamedImage = run.call(o, place, source, phase=None, **how)
     if {"distance", "distance2"} & set(o.what):
         sweep.check_distances()
     return sweep
@@ -313,6 +306,124 @@ def check(o: Options, _targets: Sequence[Target]) -> None:
             raise UsageError(f"{name} {shown} has {len(sides)} numbers: give {name} {form}")
     if o.window is not None and len(o.window) != 2 * depth:
         raise UsageError("--window has four numbers: give six for a volume, X,Y,Z,W,H,D")
-    side = known_length(o.cell_size)
+    _check_side(known_length(o.cell_size))
+
+
+def _check_side(side: Fraction | None) -> None:
     if side is not None and not 1e-100 < side < 1e100:
         raise UsageError("--cell-size must be more than 0, and at most 1e100")
+
+
+MOST_NAMED = 5
+"""Features without a cell that a warning names."""
+
+
+def seeds_on_map(run: Run, o: Options, given: JobInput, value: PointSet | PolygonSet) -> tuple[Options, SeedSet]:
+    """Lay cells over a map, and find the seeds in them: points, or the cells of lines and polygons."""
+    is_empty = not len(value.xy)
+    if is_empty and o.window is None and o.like is None:
+        return o, no_seeds(run, o)
+    frame, grid = _cells(o, value) if o.like is None else _cells_of_raster(run, o, o.like, given, value)
+    run.grid = grid
+    o = changed(o, window=(frame.x, frame.y, frame.width, frame.height), size=None)
+    if grid is not None and grid.transform is not None:
+        if o.max_distance is not None:
+            o = changed(o, max_distance=o.max_distance * (1 if o.pixel_size is None else o.pixel_size.factor))
+        side = Fraction(repr(float(grid.width))) if o.cell_size is None else o.cell_size
+        o = changed(o, pixel_size=_size_of_cells(o, side, grid))
+        value = replace(value, xy=in_cells(value.xy, grid))
+    run.stats |= unit_stats(o.pixel_size)
+    if is_empty:
+        return o, replace(no_seeds(run, o), grid=grid)
+    placed = replace(value, y_axis=UNSTATED)  # pictures show the first row on top, as the image has it
+    if isinstance(placed, PointSet):
+        seeds = seeds_in_frame(placed, frame, strict=o.strict)
+    else:
+        with run.phase("rasterize"):
+            seeds = _seeds_of_features(o, placed, frame)
+    return o, replace(seeds, grid=grid)
+
+
+def _cells(o: Options, value: PointSet | PolygonSet) -> tuple[Frame, PixelGrid]:
+    """Lay cells of ``--cell-size`` over what there is, or over a window."""
+    assert o.cell_size is not None
+    _check_side(o.cell_size)
+    low, high = bounds(value.xy) if len(value.xy) else (np.zeros(2), np.zeros(2))
+    return map_frame(low, high, o.cell_size, window=o.window, y_axis=value.y_axis, crs=value.crs)
+
+
+def _cells_of_raster(
+    run: Run, o: Options, path: str, given: JobInput, value: PointSet | PolygonSet
+) -> tuple[Frame, PixelGrid | None]:
+    """Give the pixels of a raster, which lies on a map, or whose pixels are the coordinates."""
+    from vorotool.formats.io.sources import reading
+    from vorotool.jobs.second_files import in_one_crs
+
+    with reading(path):
+        header = resolved("formats.images.image_header:image_header")(path)
+        if header.note:
+            run.note(header.note)
+        frame, grid = Frame(0, 0, header.width, header.height), header.grid
+        is_stated = o.pixel_size is not None and o.pixel_size.unit is not None
+        _check_units(path, given, value.crs, None if is_stated else run.coordinates, grid)
+        if grid is None or grid.transform is None:
+            return frame, grid
+        _check_upright(path, given, value, grid)
+        a, _, c, _, e, f = grid.transform
+        corners = PointSet(np.array([(c, f), (c + a * frame.width, f + e * frame.height)]), crs=grid.crs)
+        return frame, replace(grid, crs=in_one_crs(run, (given.name, value), (path, corners)).crs)
+
+
+def _check_units(path: str, given: JobInput, crs: Any, unit: InputUnit | None, grid: PixelGrid | None) -> None:
+    """Refuse coordinates that state another unit than those of a raster, which may be its pixels."""
+    if grid is None or grid.transform is None:
+        stated = crs_name(crs) if crs is not None else None if unit is None else unit.text
+        if stated is not None:
+            raise InputError(
+                f"{given.name} is in {stated}, but {path} has no position on a map, so --like expects coordinates in "
+                "its pixels: georeference it with gdal_translate -a_srs CRS -a_ullr LEFT TOP RIGHT BOTTOM, or use "
+                "--cell-size"
+            )
+        return
+    own = unit_of_grid(grid)
+    if unit is not None and own is not None and ratio(unit.unit, own.unit) != 1:
+        raise InputError(f"{given.name} is in {unit.text}, but {path} in {own.text}: convert one of them")
+
+
+def _check_upright(path: str, given: JobInput, value: PointSet | PolygonSet, grid: PixelGrid) -> None:
+    """Refuse a raster that is turned, mirrored, has pixels that are no squares, or y the other way."""
+    if not grid.is_upright:
+        raise InputError(f"{path} is rotated or mirrored on the map: straighten it with gdalwarp {path} upright.tif")
+    if not grid.is_square:
+        raise InputError(
+            f"{path} has pixels of {grid.size_text()}, but cells are squares: resample it with gdalwarp -tr SIDE SIDE "
+            f"{path} square.tif"
+        )
+    if value.y_axis == DOWN and grid.is_north_up:
+        raise InputError(f"y goes down in {given.name}, but up in {path}: --y-up uses the numbers as they are")
+
+
+def _size_of_cells(o: Options, side: Fraction, grid: PixelGrid) -> PixelSize:
+    """Return the size by which results are in the unit of the map, times ``--pixel-size``."""
+    asked = PixelSize(Fraction(1), None) if o.pixel_size is None else o.pixel_size
+    x, y = grid.center
+    factor = float(asked.factor)
+    place: dict[str, Any] = {"origin": (x * factor, y * factor), "y_up": grid.is_north_up, "crs": grid.crs}
+    return PixelSize(Fraction(1), asked.unit, **place, sides=PixelSides((1, 1), side * asked.factor))
+
+
+def _seeds_of_features(o: Options, polygons: PolygonSet, frame: Frame) -> SeedSet:
+    """The cells of each feature are the seeds of its label; its properties are those of its first part."""
+    require_memory(frame, o.max_pixels)
+    labels = resolved("engines.tessellation.rasterized:rasterized")(polygons, frame)
+    if not labels.any():
+        raise InputError("no feature has a cell in the frame: use a smaller --cell-size, or another --window or --like")
+    seeds = seeds_from_raster(Raster(labels), mode="labels", max_sites=o.max_sites)
+    features, first = np.unique(polygons.feature, return_index=True)
+    seen = seeds.site_labels.astype(np.int64) - 1
+    known, missing = first[np.searchsorted(features, seen)].tolist(), np.setdiff1d(features, seen) + 1
+    if len(missing):
+        shown = ", ".join([*map(str, missing[:MOST_NAMED].tolist()), *(["…"] if len(missing) > MOST_NAMED else [])])
+        number = f"{len(missing)} of {len(features)}"
+        warn(f"{number} features have no cell, because they are small, covered or outside: {shown}")
+    return replace(seeds, properties={name: [column[k] for k in known] for name, column in polygons.properties.items()})

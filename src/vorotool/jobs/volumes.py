@@ -14,18 +14,17 @@ from vorotool.engines.tessellation.volume_seeding import (
     SLAB_VOXELS,
     objects_of_volume,
     seeds_from_xyz,
-    seeds_of_slabs,
 )
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.sources import reading
-from vorotool.formats.volumes.opening import kind_of_head, open_volume, read_xyz
+from vorotool.formats.volumes.opening import kind_of_head, open_volume
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
-from vorotool.jobs.inputs import JobInput, frame_of, report_no_seeds
-from vorotool.jobs.masks import report_cleaning
+from vorotool.jobs.inputs import JobInput, frame_of, read_voxel_points, report_no_seeds
 from vorotool.jobs.options import Options, changed
+from vorotool.jobs.outlined_images import report_cleaning
 from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.pixel_sizes import lengths_of_voxels, spacing_of
 from vorotool.jobs.refusals import check_voxel_size, refuse
@@ -47,21 +46,16 @@ _OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert", "min-ar
 """Options that images and volumes have, and points have not."""
 
 
-def products(run: Run, o: Options, given: JobInput) -> VolumeProducts:
-    """Read points or a volume, and prepare what labels any slices."""
-    with run.phase("read"):
-        o, seeds = read_volume_seeds(run, o, given)
-    with run.phase("prepare"):
-        rows = tessellated_rows(run, o, seeds)
-    return VolumeProducts(run, o, given, rows)
-
-
 class VolumeProducts(Tessellated):
     """Results of one tessellation."""
 
-    def __init__(self, run: Run, options: Options, given: JobInput, sweep: Any) -> None:
-        sides = sides_of(options, 3)
-        super().__init__(run, options, given, sweep, sides, _written_grid(options.pixel_size, sides, sweep.seeds.grid))
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
+        with run.phase("read"):
+            options, seeds = read_volume_seeds(run, options, given)
+        with run.phase("prepare"):
+            sweep = tessellated_rows(run, options, seeds)
+        sides, grid = sides_of(options, 3), _written_grid(options.pixel_size, sides_of(options, 3), seeds.grid)
+        super().__init__(run, options, given, sweep, sides, grid)
         self.is_held = given.has_page or "color" in options.what
 
     @cached_property
@@ -124,8 +118,8 @@ class VolumeProducts(Tessellated):
     @cached_property
     def world(self) -> World:
         """Where the slices lie in a picture."""
-        height, width = self._views.shape
-        return world_of(self.run, self.options, frame=Frame(0, 0, width, height).box, size=self._size)
+        frame = Frame(0, 0, *reversed(self._views.shape))
+        return world_of(self.run, self.options, frame=frame.box, size=self._size)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
@@ -138,9 +132,8 @@ def read_volume_seeds(run: Run, o: Options, given: JobInput) -> tuple[Options, V
     """Read a volume, or points of space; options with a unit are in that of the voxels then."""
     if not _is_volume(o, given.path):
         return _read_points(run, o, given)
-    refuse(
-        {"columns": o.columns, **o.of_frame}, "applies to lists of points, but the input is a volume with its own frame"
-    )
+    of_points = {"columns": o.columns, **o.of_frame}
+    refuse(of_points, "applies to lists of points, but the input is a volume with its own frame")
     with reading(given.path):
         source = open_volume(given.path, input_format=o.input_format)
         if source.note:
@@ -148,20 +141,11 @@ def read_volume_seeds(run: Run, o: Options, given: JobInput) -> tuple[Options, V
         check_voxel_size(run, o, given.name, source.grid)
         o = with_voxel_sides(run, lengths_of_voxels(o, source.grid), given, source.grid)
         threshold, invert = _foreground(run, o, source)
-        seeds = seeds_of_slabs(
-            source,
-            mode=o.seeds,
-            connectivity=int(o.connectivity or 26),
-            threshold=threshold,
-            invert=invert,
-            cleaning=Cleaning.of(o.min_area, o.fill_holes),
-            max_sites=o.max_sites,
-            strict=o.strict,
-            note=run.note,
-            progress=run.progress("read"),
-            slices=_slices_at_a_time(source),
-            report=lambda mask: report_cleaning(run, o, mask.filled, (mask.removed, mask.objects), "voxels"),
-        )
+        how = {"mode": o.seeds, "connectivity": int(o.connectivity or 26), "threshold": threshold, "invert": invert}
+        how |= {"cleaning": Cleaning.of(o.min_area, o.fill_holes), "slices": _slices_at_a_time(source)}
+        how |= {"report": lambda mask: report_cleaning(run, o, mask.filled, (mask.removed, mask.objects), "voxels")}
+        place, progress = "engines.tessellation.volume_seeding:seeds_of_slabs", run.progress("read")
+        seeds: VolumeSeeds = run.call(o, place, source, phase=None, progress=progress, **how)
     return o, seeds
 
 
@@ -176,14 +160,7 @@ def _read_points(run: Run, o: Options, given: JobInput) -> tuple[Options, Volume
     refuse(of_volumes, "applies to volumes, but the input is a list of points")
     run.stats |= unit_stats(o.pixel_size)
     with reading(given.path):
-        points = read_xyz(
-            given.path,
-            input_format=o.input_format,
-            columns=o.columns,
-            max_sites=o.max_sites,
-            properties=("table" in o.what or o.names_columns or given.has_page) and not o.no_properties,
-            note=run.note,
-        )
+        points = read_voxel_points(run, o, given, properties="table" in o.what or o.names_columns or given.has_page)
         seeds = seeds_from_xyz(points, strict=o.strict, check=lambda seeds: frame_of(o, seeds))
     if not len(seeds):
         frame = frame_of(o, seeds)

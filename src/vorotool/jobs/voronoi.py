@@ -20,13 +20,13 @@ from vorotool.jobs.inputs import (
     tell_empty_cells,
 )
 from vorotool.jobs.options import Options
+from vorotool.jobs.outlined_images import ReadPolygons, outlined
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
-from vorotool.jobs.skeleton_input import ReadPolygons, outlined
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, unit_columns
 from vorotool.numeric.parallel import Progress

@@ -35,7 +35,7 @@ Example:
 INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG, NPY,
 Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept. With --volume it is a volume: a
 stack (TIFF, NPY, Zarr), or points with a z.""",
-        job_in_space="jobs.volumes:products",
+        job_in_space="jobs.volumes:VolumeProducts",
         check="jobs.tessellation:check",
     ),
     "delaunay": Command(

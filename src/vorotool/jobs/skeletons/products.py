@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, Kind, Message, RepairWarning, silent
 from vorotool.jobs.inputs import JobInput, check_columns
 from vorotool.jobs.options import Options, Place
+from vorotool.jobs.outlined_images import read_polygons
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop, written_grid
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, sides_of, unit_text
 from vorotool.numeric.parallel import Progress
