@@ -314,7 +314,9 @@ class TetrahedraProducts(Results):
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         super().__init__(run, options)
         with run.phase("read"):
-            points = read_voxel_points(run, options, given, properties="table" in options.what)
+            with_columns = "table" in options.what or options.names_columns
+            points = read_voxel_points(run, options, given, properties=with_columns)
+            check_columns(options, points.properties)
             if not len(points):
                 report_no_geometry(run, options)
         self.mesh: Any = self.call(TRIANGULATE, points, phase="triangulate")
@@ -323,6 +325,13 @@ class TetrahedraProducts(Results):
     def value(self, what: str) -> Any:
         """Give the triangulation, which has all results."""
         return self.mesh
+
+    @cached_property
+    def world(self) -> World:
+        """Nothing: pictures are as seen from far away."""
+        from vorotool.render.looks import World
+
+        return World()
 
     def emptiness(self, what: str) -> str:
         """Say why there are no parts of a kind."""

@@ -98,3 +98,16 @@ def test_a_list_without_z_is_refused(run, folder):
     done = run("delaunay", "plane.csv", "--space")
     assert done.code == 3
     assert "x, y and z" in done.err
+
+
+def test_pictures_have_layers_and_names(run, tmp_path):
+    (tmp_path / "a.csv").write_text("x,y,z,name\n0,0,0,a\n4,0,0,b\n0,3,0,c\n1,1,5,<d>\n")
+    done = run("delaunay", tmp_path / "a.csv", "--space", "-o", tmp_path / "a.svg", "--label-by", "name")
+    text = (tmp_path / "a.svg").read_text()
+    assert (done.code, [name for name in ("hull", "edges", "points", "labels") if f'id="{name}"' in text]) == (
+        0,
+        ["edges", "points", "labels"],
+    )
+    assert "&lt;d&gt;" in text
+    assert run("delaunay", tmp_path / "a.csv", "--space", "-o", tmp_path / "b.svg", "--label-by", "nome").code == 2
+    assert run("delaunay", tmp_path / "a.csv", "--space", "-o", tmp_path / "b.svg", "--scale-bar").code == 2

@@ -57,7 +57,8 @@ EXCLUDING = (
         "the digital rule finds edges and triangles that may not form a triangulation",
         "use --method exact or digital-valid"),
     Rule("delaunay", "?is_of_space", "method=digital method=digital-valid graph frame clip size window page spacing "
-        "seeds connectivity threshold invert min_area fill_holes y_up input_layer input_crs crs overlay",
+        "seeds connectivity threshold invert min_area fill_holes y_up input_layer input_crs crs overlay "
+        "scale scale_bar",
         "the option applies to points in the plane, or to images"),
     Rule("alphashape", "regions", "r alpha", "--regions applies to the automatic choice of r"),
     Rule("alphashape", "what:hull", "hole_threshold region_threshold", "the hull has no thresholds"),

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from vorotool.numeric.arrays import Floats
+from vorotool.products.formats import resolved
 from vorotool.products.registry import is_of
 from vorotool.render.canvas.layers import Page, bounds_of
 from vorotool.types.box import extent_sides
@@ -20,7 +21,8 @@ _FINE = 2.0**-10
 def page_of(value: Any, *, width: int = 1000, bounds: tuple[float, float, float, float] | None = None) -> Page:
     """Make the page of a picture: with all that is drawn of a value, or with other bounds."""
     shown = next((places for name, places in _SHOWN.items() if is_of(value, name)), lambda mesh: [mesh.points])
-    return Page(bounds or bounds_of(*shown(value)), width=width, y_up=is_up(value))
+    y_up = is_up(value) or is_of(value, "Tetrahedralization")
+    return Page(bounds or bounds_of(*shown(value)), width=width, y_up=y_up)
 
 
 def _of_skeleton(skeleton: Any) -> list[Floats]:
@@ -53,6 +55,7 @@ _SHOWN: dict[str, Callable[[Any], list[Floats]]] = {
     "LedOn": lambda lines: _of_skeleton(lines.path),
     "SmoothLines": lambda lines: _of_skeleton(lines.path),
     "SkeletonPoints": lambda points: _of_skeleton(points.skeleton),
+    "Tetrahedralization": lambda mesh: [resolved("render.layers.space:seen")(mesh.points)],
     "Necks": lambda necks: _of_skeleton(necks.skeleton),
 }
 """Places that are drawn of values, by their types; of others these are points."""

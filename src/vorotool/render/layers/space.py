@@ -1,0 +1,77 @@
+"""The layers of pictures of triangulations in space, as seen from far away."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.numeric.arrays import Floats
+from vorotool.render.canvas.layers import Layer, Lines, Makers, Page, Points, Polygons, Texts, made_layers
+from vorotool.render.canvas.names import column_texts, without_empty
+from vorotool.render.canvas.styles import CELLS, INK, WHITE
+from vorotool.types.mesh.tetrahedralization import Tetrahedralization, cross
+
+_TO_RIGHT = 3 / sqrt(13), 2 / sqrt(13), 0.0
+_UPWARDS = -4 / sqrt(221), 6 / sqrt(221), 13 / sqrt(221)
+_TO_VIEWER = 2 / sqrt(17), -3 / sqrt(17), 2 / sqrt(17)
+_TO_LIGHT = 1 / 3, -2 / 3, 2 / 3
+_SHADES = 32
+
+
+def seen(places: Floats) -> Floats:
+    """Give (n, 2) places to the right and upwards, for a viewer in front, on the right and above; z goes upwards."""
+    return np.stack([_along(places, _TO_RIGHT), _along(places, _UPWARDS)], axis=1)
+
+
+def _along(ways: Floats, axis: tuple[float, float, float]) -> Floats:
+    """Give the components of (n, 3) vectors along an axis, each sum in the same order on all machines."""
+    x, y, z = ways.T
+    made: Floats = x * axis[0] + y * axis[1] + z * axis[2]
+    return made
+
+
+def space_layers(mesh: Tetrahedralization, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of a triangulation in space; lines and discs get finer where points are crowded."""
+    names, places = list(layers), seen(mesh.points)
+    crowd = page.spacing(len(places))
+    texts = column_texts(mesh.properties, page.style.label_by, mesh.label_array.tolist())
+    size = min(max(crowd / 4, 2.0), 16.0)
+    make: Makers = {
+        "hull": lambda: [_shaded("hull", mesh.points, mesh.hull, is_sheer=len(names) > 1)],
+        "edges": lambda: [Lines("edges", places, mesh.edges, INK, min(max(crowd / 48, 0.1), 1.0))],
+        "points": lambda: [Points("points", places, radius=min(max(crowd / 16, 0.3), 3.0))],
+        "labels": lambda: [without_empty(Texts("labels", places, texts, size=size, halo=WHITE))],
+    }
+    return made_layers(names, make)
+
+
+def _shaded(name: str, points: Floats, triangles: NDArray[np.int32], *, is_sheer: bool) -> Polygons:
+    """Fill the triangles that show their front, those behind first, the darker the more they turn from the light."""
+    exponent = -int(np.frexp(np.abs(points).max(initial=0.0))[1])  # of sizes whose products are doubles
+    a, b, c = np.moveaxis(np.ldexp(points, exponent)[triangles], 1, 0)
+    normals = cross((b - a).T, (c - a).T).T
+    facing = np.flatnonzero(_along(normals, _TO_VIEWER) > 0)
+    order = facing[np.argsort(_along((a + b + c)[facing], _TO_VIEWER), kind="stable")]
+    lengths = np.sqrt((normals[order] ** 2).sum(axis=1))
+    light = np.clip(_along(normals[order], _TO_LIGHT) / lengths, 0, 1)
+    return Polygons(
+        name,
+        seen(points),
+        triangles[order].reshape(-1).astype(np.int32),
+        3 * np.arange(len(order) + 1),
+        colors=[_shade(k / (_SHADES - 1)) for k in range(_SHADES)],
+        color_of=np.rint(light * (_SHADES - 1)).astype(np.int64),
+        edge=INK,
+        width=0.3,
+        is_alone=np.ones(len(order), dtype=bool),
+        is_sheer=is_sheer,
+    )
+
+
+def _shade(light: float) -> str:
+    """Give the color of a face."""
+    channels = (int(CELLS[0][k : k + 2], 16) for k in (1, 3, 5))
+    return "#" + "".join(f"{round(channel * (0.35 + 0.65 * light)):02x}" for channel in channels)
