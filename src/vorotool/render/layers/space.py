@@ -9,8 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.arrays import Floats
-from vorotool.render.canvas.layers import Layer, Lines, Makers, Page, Points, Polygons, Texts, made_layers
-from vorotool.render.canvas.names import column_texts, without_empty
+from vorotool.render.canvas.layers import (
+    Layer,
+    Lines,
+    Makers,
+    Page,
+    Points,
+    Polygons,
+    Texts,
+    column_texts,
+    made_layers,
+    without_empty,
+)
 from vorotool.render.canvas.styles import CELLS, INK, WHITE
 from vorotool.types.mesh.tetrahedralization import Tetrahedralization, cross
 
