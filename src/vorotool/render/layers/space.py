@@ -22,7 +22,7 @@ from vorotool.render.canvas.layers import (
     without_empty,
 )
 from vorotool.render.canvas.styles import CELLS, INK, WHITE
-from vorotool.types.mesh.tetrahedralization import Tetrahedralization, cross
+from vorotool.types.mesh.tetrahedralization import Tetrahedralization
 
 _TO_RIGHT = 3 / sqrt(13), 2 / sqrt(13), 0.0
 _UPWARDS = -4 / sqrt(221), 6 / sqrt(221), 13 / sqrt(221)
@@ -62,7 +62,7 @@ def _shaded(name: str, points: Floats, triangles: NDArray[np.int32], *, is_sheer
     """Fill the triangles that show their front, those behind first, the darker the more they turn from the light."""
     exponent = -int(np.frexp(np.abs(points).max(initial=0.0))[1])  # of sizes whose products are doubles
     a, b, c = np.moveaxis(np.ldexp(points, exponent)[triangles], 1, 0)
-    normals = cross((b - a).T, (c - a).T).T
+    normals = np.cross(b - a, c - a)
     facing = np.flatnonzero(_along(normals, _TO_VIEWER) > 0)
     order = facing[np.argsort(_along((a + b + c)[facing], _TO_VIEWER), kind="stable")]
     lengths = np.sqrt((normals[order] ** 2).sum(axis=1))
