@@ -60,6 +60,20 @@ def within(lengths: Lengths) -> Indices:
     return ranges(np.zeros(np.size(lengths), dtype=np.int64), lengths)
 
 
+def mask_of(chosen: NDArray[Any], count: int) -> Booleans:
+    """Tell of so many numbers from 0 which are chosen."""
+    mask = np.zeros(count, dtype=bool)
+    mask[chosen] = True
+    return mask
+
+
+def ranks_of(chosen: NDArray[Any], count: int, dtype: DTypeLike = np.int64) -> NDArray[Any]:
+    """The place of each of so many numbers from 0 in a list; -1 of those that it lacks."""
+    ranks = np.full(count, -1, dtype=dtype)
+    ranks[chosen] = np.arange(len(chosen))
+    return ranks
+
+
 def ranges(first: NDArray[Any], lengths: Lengths) -> Indices:
     """Indices of the items of chosen rows, row after row: first, first + 1, … of each."""
     starts = starts_of(lengths)

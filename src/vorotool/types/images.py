@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.numeric.arrays import mask_of
 from vorotool.numeric.checks import is_masked_array
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
@@ -110,8 +111,7 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
         largest = int(self.labels.max(initial=0))
         if max(self.labels.size, largest) > COUNTED:
             return f"labels up to {largest}"
-        occurs = np.zeros(largest + 1, dtype=bool)
-        occurs[np.maximum(self.labels, 0)] = True
+        occurs = mask_of(np.maximum(self.labels, 0), largest + 1)
         return counted(int(np.count_nonzero(occurs[1:])), "label")
 
 

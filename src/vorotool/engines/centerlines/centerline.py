@@ -18,7 +18,7 @@ from vorotool.engines.centerlines.twigs import around_edges
 from vorotool.engines.from_skeleton.points_along import first_hits
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError, UsageError, warn
-from vorotool.numeric.arrays import Booleans, Floats, Numbers, starts_of
+from vorotool.numeric.arrays import Booleans, Floats, Numbers, mask_of, starts_of
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
@@ -181,8 +181,7 @@ def _without_ends(path: Skeleton) -> Centerlines:
 def _without_places(path: Skeleton) -> Skeleton:
     """Leave out lines that go nowhere: pruning leaves single places of round shapes as arcs."""
     source, target = path.vertices[path.arcs].swapaxes(0, 1)
-    goes_on = np.zeros(int(path.branch.max(initial=-1)) + 1, dtype=bool)
-    goes_on[path.branch[(source != target).any(axis=1)]] = True
+    goes_on = mask_of(path.branch[(source != target).any(axis=1)], int(path.branch.max(initial=-1)) + 1)
     return with_arcs(path, goes_on[path.branch])
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.engines.from_skeleton.points_along import first_crossings, first_hits
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
-from vorotool.numeric.arrays import Booleans, Floats, Numbers, owners, starts_of, within
+from vorotool.numeric.arrays import Booleans, Floats, Numbers, mask_of, owners, starts_of, within
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
@@ -58,8 +58,7 @@ def end_pieces(skeleton: Skeleton, *, keeps_sides: bool) -> EndPieces:
     is_fixed = skeleton.touches_frame if skeleton.border == "open" else np.zeros(count, dtype=bool)
     is_fixed[roots] = True
     is_removed = _removed(skeleton, is_fixed, keeps_sides)
-    is_left = np.zeros(count, dtype=bool)
-    is_left[component[skeleton.arcs[~is_removed, 0]]] = True
+    is_left = mask_of(component[skeleton.arcs[~is_removed, 0]], count)
     lone = roots[~is_left[component[roots]]]
     first = np.full(count, -1, dtype=np.intp)
     first[skeleton.arcs.reshape(-1)[::-1]] = np.repeat(np.arange(len(skeleton)), 2)[::-1]

@@ -14,7 +14,7 @@ from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.centerlines.extended_ends import TIP, Reaches
 from vorotool.engines.centerlines.twigs import TIE
 from vorotool.engines.skeleton.parts import core_skeleton
-from vorotool.numeric.arrays import Booleans, Columns, Floats, owners, starts_of
+from vorotool.numeric.arrays import Booleans, Columns, Floats, owners, ranks_of, starts_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
@@ -77,8 +77,7 @@ class Network:
         self.arc = axis.arcs.astype(np.int32)
         node, self.leaves = _numbered(self.skeleton, axis.arcs, by_edge=by_edge)
         self.node = node
-        number = np.empty(len(node), dtype=np.int32)
-        number[node] = np.arange(len(node))
+        number = ranks_of(node, len(node), np.int32)
         self.ends = number[self.skeleton.arcs[self.arc]]
         self.first, self.last = np.zeros(len(self.arc)), np.ones(len(self.arc))
         self.length = axis.reach[self.arc]

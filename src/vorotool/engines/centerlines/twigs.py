@@ -12,7 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.parts import with_straight_arcs
-from vorotool.numeric.arrays import Booleans, Columns, Floats, Numbers, owners, ranges, starts_of, within
+from vorotool.numeric.arrays import (
+    Booleans,
+    Columns,
+    Floats,
+    Numbers,
+    mask_of,
+    owners,
+    ranges,
+    ranks_of,
+    starts_of,
+    within,
+)
 from vorotool.numeric.numbers import difference, is_among, product
 from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -99,8 +110,7 @@ def _ends(skeleton: Skeleton, edges: Numbers) -> Floats:
 
 def around_edges(polygons: PolygonSet, vertex: Numbers) -> Floats:
     """(…, 4, 2) the ends of edges, by the vertices where they begin, between those before and behind."""
-    before = np.empty(len(polygons.xy), dtype=np.intp)
-    before[polygons.following] = np.arange(len(before))
+    before = ranks_of(polygons.following, len(polygons.xy), np.intp)
     end = polygons.following[vertex]
     return polygons.xy[np.stack([before[vertex], vertex, end, polygons.following[end]], axis=-1)]
 
@@ -379,8 +389,7 @@ def _with_arcs(
     skeleton: Skeleton, parted: Numbers, places: Floats, radius: Floats, ends: Numbers, sites: Numbers, like: Numbers
 ) -> Skeleton:
     """Straight lines behind all arcs, each a branch in the polygon of another arc; nodes are parted."""
-    is_parted = np.zeros(len(skeleton.vertices), dtype=bool)
-    is_parted[parted] = True
+    is_parted = mask_of(parted, len(skeleton.vertices))
     begins = (np.diff(skeleton.branch, prepend=-1) != 0) | is_parted[skeleton.arcs[:, 0]]
     skeleton = replace(skeleton, branch=np.cumsum(begins) - 1)
     return with_straight_arcs(skeleton, places, radius, ends, sites, like)

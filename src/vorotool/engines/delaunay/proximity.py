@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.delaunay.delaunay import core_mesh, triangulated
 from vorotool.errors import InputError, UsageError, VerificationError
+from vorotool.numeric.arrays import mask_of
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
@@ -139,8 +140,7 @@ def verify_proximity_graph(graph: ProximityGraph) -> None:
         raise VerificationError(f"the kind {graph.kind!r} is not one of {', '.join(KINDS)}")
     if len(index) and not (index[0] >= 0 and index[-1] < count and (np.diff(index) > 0).all()):
         raise VerificationError("the indices of edges are not increasing, or out of range")
-    kept = np.zeros(count, dtype=bool)
-    kept[index] = True
+    kept = mask_of(index, count)
     wrong = np.flatnonzero(kept != (_tree(graph) if graph.kind == "mst" else _by_rule(graph)))
     if len(wrong):
         a, b = (graph.mesh.edges[wrong[0]] + 1).tolist()

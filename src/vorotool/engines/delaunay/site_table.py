@@ -13,6 +13,7 @@ from vorotool.engines.delaunay.cells import voronoi_cells
 from vorotool.engines.delaunay.delaunay import triangulated
 from vorotool.engines.delaunay.proximity import proximity_graph
 from vorotool.errors import InputError, UsageError
+from vorotool.numeric.arrays import mask_of
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.parallel import Progress
@@ -190,8 +191,7 @@ def site_table(
     with np.errstate(over="ignore"):  # beyond the largest double: infinite
         step = mesh.points - mesh.points[nearest]
         distance = hypotenuse(step[:, 0], step[:, 1])
-    on_hull = np.zeros(len(mesh.points), dtype=bool)
-    on_hull[mesh.hull] = True
+    on_hull = mask_of(mesh.hull, len(mesh.points))
     rings, polygons, of_cells = cells.nesting
     area, perimeter, reach, touches = _core.cells.measure_cells(
         cells.sites, cells.coordinates, rings, polygons[of_cells], cells.frame.sides, threads, progress

@@ -24,7 +24,7 @@ from vorotool.engines.arrangement.planar_graph import (
 )
 from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes, with_flat_shells_as_lines
 from vorotool.errors import LimitError, warn
-from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
+from vorotool.numeric.arrays import Indices, mask_of, owners, ranges, starts_of
 from vorotool.numeric.checks import available_threads
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, in_threads
@@ -353,8 +353,7 @@ def own_corners(polygons: PolygonSet) -> OwnCorners | None:
     straight = candidates[(ux * vy == uy * vx) & (ux * vx + uy * vy > 0)]
     if not straight.size:
         return None
-    is_straight = np.zeros(len(polygons.xy), dtype=bool)
-    is_straight[straight] = True
+    is_straight = mask_of(straight, len(polygons.xy))
     start = polygons.ring_starts
     kept = np.flatnonzero(~is_straight)
     sizes = np.add.reduceat(~is_straight, start[:-1])

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes
-from vorotool.numeric.arrays import Indices, owners, starts_of, within
+from vorotool.numeric.arrays import Indices, owners, ranks_of, starts_of, within
 from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
@@ -86,8 +86,7 @@ def stacked(columns: Sequence[NDArray[Any]]) -> NDArray[Any]:
 
 
 def _inverse(order: Indices) -> Indices:
-    place = np.empty_like(order)
-    place[order] = np.arange(len(order))
+    place = ranks_of(order, len(order))
     return place
 
 

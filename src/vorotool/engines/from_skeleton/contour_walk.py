@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.clearance import SitePlaces
-from vorotool.numeric.arrays import Floats, Indices, following, owners
+from vorotool.numeric.arrays import Floats, Indices, following, mask_of, owners, ranks_of
 from vorotool.numeric.curves.inverse_functions import angle_of
 from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
@@ -158,8 +158,7 @@ def _unit(way: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _unmatched(following: Indices) -> tuple[Indices, Indices]:
     """Half-edges that have no follower, and those that follow none."""
-    is_taken = np.zeros(len(following), dtype=bool)
-    is_taken[following[following >= 0]] = True
+    is_taken = mask_of(following[following >= 0], len(following))
     return np.flatnonzero(following < 0), np.flatnonzero(~is_taken)
 
 
@@ -173,8 +172,7 @@ def _keyed(node: Indices, keys: NDArray[np.integer], chosen: Indices) -> tuple[I
 def _cycles(walk: _HalfEdges) -> tuple[Indices, Indices]:
     """Half-edges contour by contour, each from the beginning of a run if there are several; where each begins."""
     following = walk.following()
-    previous = np.empty_like(following)
-    previous[following] = np.arange(len(following))
+    previous = ranks_of(following, len(following))
     starts = np.flatnonzero(walk.site != walk.site[previous]).tolist()
     step = following.tolist()
     seen = bytearray(len(step))
@@ -217,8 +215,7 @@ def repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:
     known = np.flatnonzero(point >= 0)
     known = known[np.lexsort((point[known], contour[known]))]
     twice = (np.diff(point[known]) == 0) & (np.diff(contour[known]) == 0)
-    found = np.zeros(len(start) - 1, dtype=bool)
-    found[contour[known[1:][twice]]] = True
+    found = mask_of(contour[known[1:][twice]], len(start) - 1)
     return found
 
 

@@ -12,7 +12,7 @@ from vorotool.convert.sites import as_sites
 from vorotool.engines.from_skeleton.largest_discs import Axis, Candidates, bernstein_roots, check_count
 from vorotool.engines.skeleton.diagrams import diagram_of_all, skeleton_in
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import Floats, Numbers, starts_of
+from vorotool.numeric.arrays import Floats, Numbers, mask_of, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.types.box import Box, Extent, as_extent, bounds, corners_of, default_frame, extent_sides, is_extent
@@ -131,8 +131,7 @@ class _Space(Axis):
         self._shapes = shapely.union_all(used_shapes(skeleton.polygons)[~skeleton.polygons.is_line])
         shapely.prepare([self._area, self._shapes])
         self._crossings = self._on_border()
-        crossed = np.zeros(len(self.middles), dtype=bool)
-        crossed[self.plateau[skeleton.arcs[self._crossings.arc].ravel()]] = True
+        crossed = mask_of(self.plateau[skeleton.arcs[self._crossings.arc].ravel()], len(self.middles))
         self._is_whole = ~crossed
         if len(self.middles):
             self._is_whole &= self._is_near(self.middles.xy)

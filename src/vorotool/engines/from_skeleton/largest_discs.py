@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.engines.skeleton.clearance import SitePlaces, clearance_course, is_maximum, plateaus
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Columns, Floats, Numbers, starts_of, within
+from vorotool.numeric.arrays import Columns, Floats, Numbers, mask_of, starts_of, within
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import whole_number
 from vorotool.numeric.parallel import Progress
@@ -387,8 +387,7 @@ class Axis:
         keys = np.column_stack([np.repeat(disc, 2), ends.reshape(-1, 2)])
         place = np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1, 2)
         is_edge = self.sites.is_edge[site]
-        is_vertex = np.zeros(len(keys), dtype=bool)
-        is_vertex[place[~is_edge, 0]] = True
+        is_vertex = mask_of(place[~is_edge, 0], len(keys))
         return np.asarray(~(is_edge & is_vertex[place].any(axis=1)))
 
 
@@ -451,8 +450,7 @@ class _MoreDiscs:
         rest = away - share[:, None] * way
         apart = np.sqrt((rest * rest).sum(axis=1)) - (own.radius + last.radius[disc])
         touched = (disc >= 0) & (apart < -axis.rounding)
-        is_new = np.zeros(len(axis.middles), dtype=bool)
-        is_new[self.whole[touched]] = True
+        is_new = mask_of(self.whole[touched], len(axis.middles))
         self.whole = self.whole[~touched]
         return axis.nodes[np.flatnonzero(is_new[axis.plateau])]
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.engines.skeleton.clearance import clearance_course, plateaus
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError, option
-from vorotool.numeric.arrays import Columns, Floats, Indices
+from vorotool.numeric.arrays import Columns, Floats, Indices, mask_of
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
@@ -241,8 +241,7 @@ def _has(course: ClearanceCourse, signs: tuple[int, int]) -> NDArray[np.bool_]:
 def _rising_pairs(skeleton: Skeleton, flow: Flow) -> tuple[Indices, Indices]:
     """(n, 2) arcs along which the clearance grows from plateaus that it does not shrink from, and their ends there."""
     slope, plateau = flow.course.slope, flow.plateau[skeleton.arcs]
-    falls = np.zeros(len(flow.top), dtype=bool)
-    falls[plateau[slope < 0]] = True
+    falls = mask_of(plateau[slope < 0], len(flow.top))
     falls[flow.plateau[skeleton.radius == 0]] = True
     arc, end = np.nonzero((slope > 0) & ~falls[plateau])
     own = plateau[arc, end]

@@ -17,7 +17,7 @@ from vorotool.engines.from_skeleton.contour_walk import (
     twice_areas,
 )
 from vorotool.engines.necks.necks import Feet, FoundNecks, Ways, check_neck, found_necks, whole_skeleton
-from vorotool.numeric.arrays import Floats, Indices, following, owners, ranges
+from vorotool.numeric.arrays import Floats, Indices, following, owners, ranges, ranks_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import moved_feet, places_as_given
@@ -166,8 +166,7 @@ def _parts_of(axis: CutAxis, outlines: Outlines, necks: Necks) -> Parts:
     columns = (center[part, 1], center[part, 0], low[:, 1], low[:, 0], rings.polygon[shells])
     order = np.lexsort(columns)
     part, source = part[order], rings.polygon[shells][order]
-    piece = np.full(len(skeleton.vertices), -1)
-    piece[part] = np.arange(len(part))
+    piece = ranks_of(part, len(skeleton.vertices))
     is_hole = np.ones(len(areas), dtype=bool)
     is_hole[shells] = False
     ring_order = np.lexsort((corner[:, 1], corner[:, 0], is_hole, piece[rings.part]))

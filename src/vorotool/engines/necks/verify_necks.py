@@ -13,7 +13,7 @@ from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.errors import silent
-from vorotool.numeric.arrays import Floats, owners
+from vorotool.numeric.arrays import Floats, owners, ranks_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
@@ -162,8 +162,7 @@ def _elements(
     """Vertices and edges of some polygons, as the lattice has them."""
     rings = np.concatenate([np.arange(*polygons.polygon_starts[[k, k + 1]]) for k in chosen.tolist()])
     vertices = np.concatenate([np.arange(*polygons.ring_starts[[k, k + 1]]) for k in rings.tolist()])
-    number = np.full(len(polygons.xy), -1)
-    number[vertices] = np.arange(len(vertices))
+    number = ranks_of(vertices, len(polygons.xy))
     points = np.rint((polygons.xy[vertices] - skeleton.origin) / (skeleton.scale or 1.0)).astype(np.int32)
     is_last = np.zeros(len(polygons.xy), dtype=bool)
     is_last[polygons.ring_starts[1:] - 1] = polygons.is_line[polygons.ring_polygon]

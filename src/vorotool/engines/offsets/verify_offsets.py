@@ -18,7 +18,7 @@ from vorotool.engines.offsets.offsets import listed_distances
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, verify_segment_voronoi
 from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
 from vorotool.errors import VorotoolWarning
-from vorotool.numeric.arrays import Floats, following, ranges, starts_of
+from vorotool.numeric.arrays import Floats, following, ranges, ranks_of, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.flatten import middles_of
 from vorotool.numeric.numbers import distinct, finite_double
@@ -90,8 +90,7 @@ def _check_features(offsets: Offsets, wanted: set[float], tolerance: float, thre
         _check_in_graph(outside, outwards, tolerance, graph, threads, progress)
 
     def check(shapes: BatchShapes, threads: int, poll: Progress) -> None:
-        number = np.full(len(offsets.polygons), -1, dtype=np.int32)
-        number[shapes.batch.polygons] = np.arange(len(shapes.batch.polygons))
+        number = ranks_of(shapes.batch.polygons, len(offsets.polygons), np.int32)
         is_own = (offsets.distance < 0) & (offsets.polygon >= 0) & (number[offsets.polygon] >= 0)
         own = with_shapes(offsets, np.flatnonzero(is_own))
         sites = distinct(own.site).astype(np.intp)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.skeleton.parts import PER_ARC, core_skeleton
-from vorotool.numeric.arrays import Floats, Indices, ranges
+from vorotool.numeric.arrays import Floats, Indices, ranges, ranks_of
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
@@ -95,8 +95,7 @@ def merged_junctions(skeleton: Skeleton, branches: Branches) -> tuple[Indices, N
     nodes = np.unique(branches.ends[:, short])
     x, y = skeleton.vertices[nodes].T
     nodes = nodes[np.lexsort((y, x, -skeleton.radius[nodes]))]
-    rank = np.empty(len(skeleton.vertices), dtype=np.int64)
-    rank[nodes] = np.arange(len(nodes))
+    rank = ranks_of(nodes, len(skeleton.vertices))
     beside: list[list[tuple[float, int, int]]] = [[] for _ in range(len(nodes))]
     pairs = rank[branches.ends[:, short]].T.tolist()
     for (a, b), length, branch in zip(pairs, branches.length[short].tolist(), short.tolist(), strict=True):
@@ -213,8 +212,7 @@ def _with_cuts(
     parts = np.flatnonzero((span != [0.0, 1.0]).any(axis=1))
     made = _core.pruning.part_geometry(core_skeleton(skeleton), parts.astype(np.int32), *span[parts].T.copy())
     columns["control"][parts], columns["length"][parts] = made["control"], made["length"]
-    row = np.full(len(skeleton), -1)
-    row[parts] = np.arange(len(parts))
+    row = ranks_of(parts, len(skeleton))
     nodes = []
     for cut in cuts:
         outer = branches.first[cut.branch] if cut.end == 0 else branches.last[cut.branch]

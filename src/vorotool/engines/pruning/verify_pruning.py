@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
-from vorotool.numeric.arrays import Floats, owners, ranges
+from vorotool.numeric.arrays import Floats, mask_of, owners, ranges
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.arc_measures import ArcMeasures
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -62,8 +62,7 @@ def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
 def are_parts(made: Skeleton, skeleton: Skeleton) -> NDArray[np.bool_]:
     """(a,) whether each arc of a skeleton is a part of an arc of another one, between the same sites."""
     own, other = _candidates(made, skeleton)
-    is_part = np.zeros(len(made), dtype=bool)
-    is_part[own[_is_part(made, own, skeleton, other)]] = True
+    is_part = mask_of(own[_is_part(made, own, skeleton, other)], len(made))
     return is_part
 
 
@@ -192,8 +191,7 @@ def _check_arcs(joined: Skeleton, skeleton: Skeleton) -> None:
     is_part = are_parts(joined, skeleton)
     known = _places(skeleton, skeleton.degree > 2)
     is_junction = np.array([node in known for node in _rows(joined)], dtype=bool)
-    on_part = np.zeros(len(joined.vertices), dtype=bool)
-    on_part[joined.arcs[is_part]] = True
+    on_part = mask_of(joined.arcs[is_part], len(joined.vertices))
     any_node = _places(skeleton, skeleton.degree > 0)
     on_part |= np.array([node in any_node for node in _rows(joined)], dtype=bool)
     a, b = joined.arcs.T

@@ -13,7 +13,7 @@ from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi, unwanted_sides
 from vorotool.errors import InputError, Kind, Message, UsageError, VorotoolWarning, option, warn
-from vorotool.numeric.arrays import Indices
+from vorotool.numeric.arrays import Indices, ranks_of
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress
@@ -336,8 +336,7 @@ def opened(graph: PlanarGraph, frame: Extent) -> Opening:
     is_inner = np.bincount(graph.segments[kept_segments].ravel(), minlength=count) > 0
     is_gone = (np.bincount(graph.segments[border].ravel(), minlength=count) > 0) & ~is_inner
     kept_points = np.flatnonzero(~is_gone)
-    number = np.full(count, -1, dtype=np.int64)
-    number[kept_points] = np.arange(len(kept_points))
+    number = ranks_of(kept_points, count)
     far = _FarAway(graph, border, side[border], box, number)
     made = [
         (number[graph.segments[kept_segments].astype(np.int64)], graph.segment_faces[kept_segments].astype(np.int64)),

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.arrays import Indices
+from vorotool.numeric.arrays import Indices, mask_of, ranks_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -36,16 +36,14 @@ def with_polygons(skeleton: Skeleton, chosen: NDArray[np.int64]) -> Skeleton:
     polygons = skeleton.polygons
     if len(chosen) == len(polygons) and skeleton.site_table.ends is None:
         return with_arcs(skeleton, skeleton.polygon >= 0)
-    number = np.full(len(polygons) + 1, -1, dtype=np.int32)  # the last one is for -1
-    number[chosen] = np.arange(len(chosen))
+    number = ranks_of(chosen, len(polygons) + 1, np.int32)  # the last one is for -1
     made = with_arcs(skeleton, number[skeleton.polygon] >= 0)
     table = skeleton.site_table
     is_inside = number[table.polygon] >= 0
     if table.ends is not None:
         is_inside &= np.isnan(table.ends[:, 0, 0])
     sites = np.flatnonzero(is_inside)
-    place = np.full(len(table), -1, dtype=np.int32)
-    place[sites] = np.arange(len(sites))
+    place = ranks_of(sites, len(table), np.int32)
     own = table.taken(sites)
     return replace(
         made,
@@ -62,8 +60,7 @@ def outside_of(skeleton: Skeleton) -> Skeleton:
     if table.ends is None:
         return made
     sites = np.flatnonzero(~np.isnan(table.ends[:, 0, 0]))
-    place = np.full(len(table), -1, dtype=np.int32)
-    place[sites] = np.arange(len(sites))
+    place = ranks_of(sites, len(table), np.int32)
     return replace(made, sites=place[made.sites], site_table=table.taken(sites))
 
 
@@ -147,8 +144,7 @@ def contraction(skeleton: Skeleton) -> Contraction | None:
     columns: dict[str, Any] = {name: getattr(skeleton, name)[kept] for name in PER_ARC}
     made, row, is_reversed = _numbered(replace(skeleton, **(columns | {"arcs": arcs[kept], "radius": radius})))
     original = kept[row]
-    number = np.full(len(skeleton), -1)
-    number[original] = np.arange(len(original))
+    number = ranks_of(original, len(skeleton))
     beside = np.full(count, -1)
     for end in (0, 1):
         beside[root[skeleton.arcs[kept, end]]] = number[kept]
@@ -159,10 +155,8 @@ def contraction(skeleton: Skeleton) -> Contraction | None:
 def _single_places(skeleton: Skeleton, is_equal: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(a,) the first arc of each connected part of which nothing has a length."""
     part = connected_roots(skeleton.arcs, len(skeleton.vertices))[skeleton.arcs[:, 0]]
-    has_length = np.zeros(len(skeleton.vertices), dtype=bool)
-    has_length[part[~is_equal]] = True
-    first = np.zeros(len(skeleton), dtype=bool)
-    first[np.unique(part, return_index=True)[1]] = True
+    has_length = mask_of(part[~is_equal], len(skeleton.vertices))
+    first = mask_of(np.unique(part, return_index=True)[1], len(skeleton))
     return first & ~has_length[part]
 
 

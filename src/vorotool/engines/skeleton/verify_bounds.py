@@ -13,7 +13,7 @@ from vorotool.engines.skeleton.diagrams import batch_diagram
 from vorotool.engines.skeleton.exact import diagram_of_graph, interior_skeleton, skeleton_of
 from vorotool.engines.skeleton.parts import outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.verify_regions import border_components, with_corners_apart
-from vorotool.numeric.arrays import owners
+from vorotool.numeric.arrays import mask_of, owners
 from vorotool.numeric.parallel import Progress
 from vorotool.types.box import widened
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -99,12 +99,10 @@ def _check_sides(skeleton: Skeleton) -> None:
     shapes = np.array(to_shapely(polygons), dtype=object)[area]
     middle = shapely.points(skeleton.vertices[skeleton.arcs].mean(axis=1))
     arc, shape = shapely.STRtree(shapes).query(middle, predicate="intersects")
-    inside = np.zeros(len(skeleton), dtype=bool)
-    inside[arc] = True
+    inside = mask_of(arc, len(skeleton))
     if (at := first_wrong(inside != (skeleton.side == INTERIOR))) is not None:
         fail(f"arc {at} is {('inside' if inside[at] else 'outside')}, but is listed on the other side")
-    own = np.zeros(len(skeleton), dtype=bool)
-    own[arc[area[shape] == skeleton.polygon[arc]]] = True
+    own = mask_of(arc[area[shape] == skeleton.polygon[arc]], len(skeleton))
     if (at := first_wrong(~own & (skeleton.side != EXTERIOR))) is not None:
         fail(f"arc {at} is not in polygon {skeleton.polygon[at]}")
 

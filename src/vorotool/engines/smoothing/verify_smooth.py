@@ -7,7 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.errors import VerificationError
-from vorotool.numeric.arrays import Floats, owners
+from vorotool.numeric.arrays import Floats, mask_of, owners
 from vorotool.numeric.curves.flatten import chained, places_at
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.lines import LedOn, SmoothLines, ends_of_lines
@@ -118,8 +118,7 @@ def _check_places(
     tree = shapely.STRtree(shapely.linestrings(np.stack([others[begin], others[begin + 1]], axis=1)))
     place, piece = tree.query(shapely.points(places), predicate="dwithin", distance=distance[line])
     own = owners(np.diff(other_start))[begin]
-    is_near = np.zeros(len(places), dtype=bool)
-    is_near[place[own[piece] == line[place]]] = True
+    is_near = mask_of(place[own[piece] == line[place]], len(places))
     wrong = np.flatnonzero(~is_near)
     if len(wrong):
         x, y = places[wrong[0]].tolist()

@@ -10,7 +10,7 @@ from vorotool.engines.voronoi.borders import Borders, sites_beside_segments
 from vorotool.engines.voronoi.crossings import Crossings, Drawn, crossings_between, crossings_of
 from vorotool.engines.voronoi.cut_curves import NO_REGION, SLACK, CutEdges, controls_of, cut_curves
 from vorotool.engines.voronoi.regions import LocalDiagrams, faces_of_sides
-from vorotool.numeric.arrays import Floats, Indices, owners, ranges
+from vorotool.numeric.arrays import Floats, Indices, mask_of, owners, ranges
 from vorotool.numeric.numbers import rows_of
 from vorotool.plain import plain
 from vorotool.types.box import Extent, corners_of
@@ -268,8 +268,7 @@ class RegionOverlay(Overlay):
         group = group.reshape(-1)
         groups = int(group.max(initial=-1)) + 1
         middle, length = self._middles(pieces)
-        reaches = np.zeros(groups, dtype=bool)
-        reaches[group[(pieces.ends < 0).any(axis=1)]] = True
+        reaches = mask_of(group[(pieces.ends < 0).any(axis=1)], groups)
         order = np.lexsort((length, group))
         longest = order[np.append(np.diff(group[order]) > 0, True)] if count else order
         names, shapes = faces_of_sides(self.edges.lines, self.edges.regions)

@@ -11,7 +11,7 @@ from vorotool import _core
 from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay, RegionOverlay
 from vorotool.engines.voronoi.regions import NearestElements
 from vorotool.errors import VerificationError
-from vorotool.numeric.arrays import Floats, Indices, following, ranges, starts_of
+from vorotool.numeric.arrays import Floats, Indices, following, mask_of, ranges, ranks_of, starts_of
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
@@ -295,13 +295,11 @@ class CutMap:
         is_kept[count:] = self.sites[count:, 0] != self.sites[count:, 1]
         made = self.ends, self.sites, self.parts, self.order
         ends, sites, parts, order = made if is_kept.all() else (each[is_kept] for each in made)
-        used = np.zeros(len(self.places), dtype=bool)
-        used[ends] = True
+        used = mask_of(ends, len(self.places))
         along = self.ends[count:].ravel()
         along = along[np.sort(np.unique(along, return_index=True)[1])]
         chosen = np.concatenate([np.flatnonzero(used & ~self.is_cut), along[used[along]]])
-        number = np.full(len(self.places), -1, dtype=np.int64)
-        number[chosen] = np.arange(len(chosen))
+        number = ranks_of(chosen, len(self.places))
         at = np.flatnonzero((self.given != self.places).any(axis=1))
         at = at[number[at] >= 0]
         moves = number[at], self.given[at]

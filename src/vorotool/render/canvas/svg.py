@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.numeric.arrays import mask_of
 from vorotool.numeric.curves.flatten import middles_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.xml_text import xml_characters
@@ -224,8 +225,7 @@ def _curved_polygons(
     side, is_back = np.abs(layer.along) - 1, layer.along < 0
     bends = curves.control[side] >= 0
     rings = np.asarray(layer.rings, dtype=np.int64)
-    is_first = np.zeros(len(side), dtype=bool)
-    is_first[rings[:-1][rings[1:] > rings[:-1]]] = True
+    is_first = mask_of(rings[:-1][rings[1:] > rings[:-1]], len(side))
     last = np.cumsum(1 + is_first + bends) - 1  # the row of the end of each side
     rows = int(last[-1]) + 1 if len(last) else 0
     place, token = np.empty((2, rows), dtype=np.int32)

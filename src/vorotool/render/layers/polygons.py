@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.arrays import starts_of
+from vorotool.numeric.arrays import mask_of, starts_of
 from vorotool.render.canvas.layers import (
     Arcs,
     Layer,
@@ -73,8 +73,7 @@ def covered(polygons: PolygonSet) -> NDArray[np.bool_] | None:
     several = graph["face_polygon"][np.repeat(counts > 1, counts)]
     if not several.size:
         return None
-    found = np.zeros(len(polygons), dtype=bool)
-    found[several] = True
+    found = mask_of(several, len(polygons))
     return found
 
 

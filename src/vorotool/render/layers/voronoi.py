@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.arrays import Indices
+from vorotool.numeric.arrays import Indices, mask_of
 from vorotool.render.canvas.layers import (
     CurvedPolygons,
     Curves,
@@ -90,8 +90,7 @@ def _objects(cells: VoronoiMap, width: float, radius: float) -> list[Layer]:
     assert isinstance(areas, Polygons)
     if len(areas.corners):
         made.append(replace(areas, colors=[WHITE], is_sheer=True))
-    is_end = np.zeros(len(polygons.xy), dtype=bool)
-    is_end[polygons.ring_starts[1:][polygons.is_line[polygons.ring_polygon]] - 1] = True
+    is_end = mask_of(polygons.ring_starts[1:][polygons.is_line[polygons.ring_polygon]] - 1, len(polygons.xy))
     pairs = np.stack([np.flatnonzero(~is_end), polygons.following[~is_end]], axis=1).astype(np.int32)
     if len(pairs):
         made.append(Lines("objects", polygons.xy, pairs, INK, max(width, 0.2)))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.numeric.arrays import mask_of
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.features import Corners, Rows, chosen, point_rows, without_places
@@ -107,8 +108,7 @@ def point_table(mesh: Triangulation) -> Table:
 def _point_columns(mesh: Triangulation) -> dict[str, Any]:
     count = len(mesh.points)
     is_duplicate = mesh.first != np.arange(count)
-    on_hull = np.zeros(count, dtype=bool)
-    on_hull[mesh.hull] = True
+    on_hull = mask_of(mesh.hull, count)
     labels = mesh.label_array
     return {
         "label": labels,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import Floats, owners
+from vorotool.numeric.arrays import Floats, mask_of, owners
 from vorotool.numeric.curves.flatten import chained, cubic_polylines, curve_tolerances
 from vorotool.numeric.numbers import checked_flatten, difference, product
 from vorotool.plain import plain
@@ -276,8 +276,7 @@ class Centerlines(LedOn):
 def without_centerline(lines: Centerlines) -> NDArray[np.int64]:
     """Polygons that have none; open lines are not counted."""
     polygons = lines.path.polygons
-    has = np.zeros(len(polygons), dtype=bool)
-    has[lines.polygon] = True
+    has = mask_of(lines.polygon, len(polygons))
     return np.flatnonzero(~has & ~polygons.is_line)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
+from vorotool.numeric.arrays import mask_of
 from vorotool.numeric.checks import described, is_choice
 from vorotool.numeric.curves.flatten import chained
 from vorotool.numeric.numbers import distinct, shown_number
@@ -325,8 +326,7 @@ def _components(
     """Connected components of the skeleton in each polygon: of its branches, each counted at its first node."""
     inner = skeleton.side[starts] == INTERIOR
     ends = skeleton.branch_ends[:, inner]
-    is_end = np.zeros(len(skeleton.vertices), dtype=bool)
-    is_end[ends] = True
+    is_end = mask_of(ends, len(skeleton.vertices))
     number = np.cumsum(is_end) - 1
     nodes = np.flatnonzero(is_end)
     root = connected_roots(number[ends].T, len(nodes))
