@@ -17,6 +17,8 @@ constexpr Room rooms[] = {
     {"arrangement", bind_arrangement, "Placement on the lattice, planar graphs, and their check."},
     {"cells", bind_cells,
      "Voronoi cells, and what is computed of them: a frame is left, bottom, right, top."},
+    {"cells_in_space", bind_cells_in_space,
+     "Voronoi cells of points in space: a box is low x, y, z, high x, y, z."},
     {"compression", bind_compression, "Compressed bytes of TIFF files."},
     {"delaunay", bind_delaunay, "Delaunay triangulations, and their check: points are finite."},
     {"digital", bind_digital, "The digital triangulation, to the letter and repaired."},

@@ -8,6 +8,7 @@ namespace vorotool::bindings {
 void bind_alpha(nanobind::module_& room);
 void bind_arrangement(nanobind::module_& room);
 void bind_cells(nanobind::module_& room);
+void bind_cells_in_space(nanobind::module_& room);
 void bind_compression(nanobind::module_& room);
 void bind_delaunay(nanobind::module_& room);
 void bind_digital(nanobind::module_& room);

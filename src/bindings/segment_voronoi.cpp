@@ -78,7 +78,7 @@ auto unwanted_sides(const PlanarGraph& graph, const Vector<const std::uint8_t>& 
   return to_numpy(core::segment_voronoi::build::unwanted_sides(graph.view(), view(is_wanted)));
 }
 
-Columns counts_of(const SegmentVoronoi& diagram) {
+Columns diagram_counts(const SegmentVoronoi& diagram) {
   const core::segment_voronoi::build::SegmentVoronoiCounts& counts = diagram.counts();
   Columns result;
   result["visited"] = counts.visited;
@@ -96,7 +96,7 @@ void bind_segment_voronoi(nb::module_& room) {
   nb::class_<SegmentVoronoi>(room, "SegmentVoronoi")
       .def("__init__", &make_diagram, "points"_a, "segments"_a, "threads"_a, "progress"_a.none(),
            "within"_a = nb::none())
-      .def_prop_ro("counts", &counts_of)
+      .def_prop_ro("counts", &diagram_counts)
       .def("take_arrays", &take_arrays, "unwanted"_a.none(), "threads"_a, "progress"_a.none(),
            "The arrays of a Diagram that are not of its graph: once.");
   nb::class_<SegmentDiagram>(room, "Diagram")
