@@ -40,15 +40,15 @@ DyadicGrid grid_of(const std::array<Point3, n>& points) {
 
 // Coordinates have 64 limbs - 3 bits: their differences are below 2^m, m = 64 limbs - 2, sums of three squares of them
 // below 2^(2 m + 2), minors below 2^(2 m + 1), and sums of three products of both below 2^(4 m + 5) = 2^(256 limbs - 3).
-constexpr int spare_bits = 3;
+constexpr int spare_bits_of_measures = 3;
 
 // Calls body(the number of limbs, a constant) with enough of them for coordinates of so many bits.
 template <class Body>
 auto with_limbs(int bits, const Body& body) {
-  if (bits + spare_bits <= 64) return body(std::integral_constant<std::size_t, 1>{});
-  if (bits + spare_bits <= 2 * 64) return body(std::integral_constant<std::size_t, 2>{});
-  if (bits + spare_bits <= 8 * 64) return body(std::integral_constant<std::size_t, 8>{});
-  static_assert(2098 + spare_bits <= 33 * 64);
+  if (bits + spare_bits_of_measures <= 64) return body(std::integral_constant<std::size_t, 1>{});
+  if (bits + spare_bits_of_measures <= 2 * 64) return body(std::integral_constant<std::size_t, 2>{});
+  if (bits + spare_bits_of_measures <= 8 * 64) return body(std::integral_constant<std::size_t, 8>{});
+  static_assert(2098 + spare_bits_of_measures <= 33 * 64);
   return body(std::integral_constant<std::size_t, 33>{});
 }
 

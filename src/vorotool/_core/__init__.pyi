@@ -4,6 +4,7 @@ from vorotool._core import (
     alpha as alpha,
     arrangement as arrangement,
     cells as cells,
+    cells_in_space as cells_in_space,
     compression as compression,
     delaunay as delaunay,
     digital as digital,
