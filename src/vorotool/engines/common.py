@@ -49,6 +49,15 @@ def described(array: Any) -> str:
     return f"{array.dtype} of shape {array.shape}" if isinstance(array, np.ndarray) else f"a {type(array).__name__}"
 
 
+def off_segments(places: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n,) how far each place is from a segment, which may have no length."""
+    way = b - a
+    square = (way * way).sum(axis=1)
+    share = np.divide(((places - a) * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
+    away = places - a - np.clip(share, 0, 1)[:, None] * way
+    return np.sqrt((away * away).sum(axis=1))
+
+
 def fail(message: str) -> None:
     """Raise VerificationError."""
     raise VerificationError(message)

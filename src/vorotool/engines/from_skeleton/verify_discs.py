@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
 from vorotool.numeric.arrays import Floats, mask_of
 from vorotool.numeric.parallel import Progress
@@ -91,11 +91,7 @@ def _check_feet(discs: Discs, tolerance: float) -> None:
     from vorotool.types.skeleton.skeleton import ends_of_sites
 
     ends = ends_of_sites(discs.polygons, discs.site_table, discs.foot_site)
-    way, from_end = ends[:, 1] - ends[:, 0], discs.feet - ends[:, 0]
-    square = (way * way).sum(axis=1)
-    share = np.divide((from_end * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
-    rest = from_end - np.clip(share, 0, 1)[:, None] * way
-    if (at := first_wrong(~(np.sqrt((rest * rest).sum(axis=1)) <= tolerance))) is not None:
+    if (at := first_wrong(~(off_segments(discs.feet, *ends.swapaxes(0, 1)) <= tolerance))) is not None:
         fail(f"a foot of disc {disc[at]} is not on its site {discs.foot_site[at]}")
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.common import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.errors import silent
@@ -203,18 +203,10 @@ def _check_discs(parts: Parts, threads: int, progress: Progress) -> None:
     right = crosses & (((x - px) * (v - y) - (y - py) * (u - x) > 0) == (v > y))
     # a maximum may be as near to a neck as rounding
     off = np.full(len(parts), np.inf)
-    np.minimum.at(off, corner, _off_edges(parts.center[corner], polygons.xy, polygons.xy[after]))
+    np.minimum.at(off, corner, off_segments(parts.center[corner], polygons.xy, polygons.xy[after]))
     is_out = np.bincount(corner, right, minlength=len(parts)) % 2 == 0
     if (at := first_wrong(is_out & (off > SitePlaces(skeleton).tolerance))) is not None:
         fail(f"piece {at}: the center of its largest disc, {parts.center[at].tolist()}, is not in it")
-
-
-def _off_edges(places: Floats, a: Floats, b: Floats) -> Floats:
-    """How far each place is from an edge."""
-    way = b - a
-    square = np.square(way).sum(axis=1)
-    t = np.divide(((places - a) * way).sum(axis=1), square, out=np.zeros(len(a)), where=square > 0)
-    return _norm(places - a - np.clip(t, 0, 1)[:, None] * way)
 
 
 def _directed(parts: Parts) -> tuple[Floats, NDArray[np.int64]]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.common import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.offsets.offsets import listed_distances
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, verify_segment_voronoi
@@ -157,18 +157,9 @@ def _check_sites(offsets: Offsets, tolerance: float) -> None:
         fail(f"arc {at} is about {_place(offsets.center[at])}, which is not its vertex")
     distance = np.abs(offsets.piece_distance)
     for place in (offsets.start, offsets.end):
-        apart = np.abs(_distances(ends, place) - distance)
+        apart = np.abs(off_segments(place, *ends.swapaxes(0, 1)) - distance)
         if (at := first_wrong(~(apart <= tolerance))) is not None:
             fail(f"piece {at} has an end that is {apart[at]:g} too near to its site, or too far from it")
-
-
-def _distances(ends: Floats, place: Floats) -> Floats:
-    """Of places from closed sites."""
-    way = ends[:, 1] - ends[:, 0]
-    square = (way * way).sum(axis=1)
-    share = np.divide(((place - ends[:, 0]) * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
-    apart = place - ends[:, 0] - np.clip(share, 0, 1)[:, None] * way
-    return np.asarray(np.sqrt((apart * apart).sum(axis=1)))
 
 
 def _inner_places(offsets: Offsets) -> Floats:

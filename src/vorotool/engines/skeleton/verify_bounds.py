@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.common import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.diagrams import batch_diagram
 from vorotool.engines.skeleton.exact import diagram_of_graph, interior_skeleton, skeleton_of
@@ -191,7 +191,7 @@ def distances_to(skeleton: Skeleton, places: Places) -> NDArray[np.float64]:
         own = skeleton.is_parabola[arc] == is_bent
         r, a = row[own], arc[own]
         curve = source[a], control[a], target[a]
-        found = _from_parabola(places[r], *curve) if is_bent else _from_segment(places[r], curve[0], curve[2])
+        found = _from_parabola(places[r], *curve) if is_bent else off_segments(places[r], curve[0], curve[2])
         np.minimum.at(nearest, r, found)
     return nearest
 
@@ -199,14 +199,6 @@ def distances_to(skeleton: Skeleton, places: Places) -> NDArray[np.float64]:
 def _bezier(skeleton: Skeleton) -> tuple[Places, Places, Places]:
     source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
     return source, np.where(skeleton.is_parabola[:, None], skeleton.control, (source + target) / 2), target
-
-
-def _from_segment(x: Places, a: Places, b: Places) -> NDArray[np.float64]:
-    way = b - a
-    square = (way * way).sum(axis=1)
-    t = np.divide(((x - a) * way).sum(axis=1), square, out=np.zeros(len(x)), where=square > 0)
-    away = x - a - np.clip(t, 0, 1)[:, None] * way
-    return np.asarray(np.sqrt((away * away).sum(axis=1)))
 
 
 def _from_parabola(x: Places, source: Places, control: Places, target: Places) -> NDArray[np.float64]:

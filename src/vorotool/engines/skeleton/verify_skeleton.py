@@ -14,7 +14,7 @@ from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.engines.skeleton.exact import ShapeDiagram, kept_edges
 from vorotool.engines.skeleton.parts import PER_ARC, outside_of, with_arcs, with_polygons
-from vorotool.engines.skeleton.verify_bounds import check_approximation
+from vorotool.engines.skeleton.verify_bounds import check_approximation, places_on_arcs
 from vorotool.engines.skeleton.verify_regions import (
     AREA,
     AREA_ULPS,
@@ -153,12 +153,6 @@ _INSIDE = (0.25, 0.5, 0.75)
 """Where arcs are looked at between their ends, in the parameter of the Bezier curve."""
 
 
-def _inner_places(skeleton: Skeleton, t: float) -> Floats:
-    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
-    control = np.where(skeleton.is_parabola[:, None], skeleton.control, (source + target) / 2)
-    return np.square(1 - t) * source + 2 * t * (1 - t) * control + t * t * target
-
-
 def check_equal_distances(skeleton: Skeleton, sites: SitePlaces) -> None:
     """Raise unless nodes are as far from the sites of their arcs as they say, and the insides of arcs from both."""
     for end in (0, 1):
@@ -173,7 +167,7 @@ def check_equal_distances(skeleton: Skeleton, sites: SitePlaces) -> None:
                     f"but its radius is {skeleton.radius[k]}"
                 )
     for t in _INSIDE:
-        place = _inner_places(skeleton, t)
+        place = places_on_arcs(skeleton, np.array([t]))[:, 0]
         left, right = (sites.distances(skeleton.sites[:, hand], place) for hand in (0, 1))
         # moved along the curve by the rounding of a far control point, a place is still on it
         if (at := first_wrong(~(np.abs(left - right) <= sites.tolerance * _looseness(skeleton, sites)))) is not None:
@@ -193,7 +187,7 @@ def check_nothing_nearer(
     skeleton: Skeleton, sites: SitePlaces, graph: PlanarGraph, threads: int, progress: Progress
 ) -> None:
     """Nodes and places inside arcs: no site within their distance from their own."""
-    inner = [_inner_places(skeleton, t) for t in _INSIDE]
+    inner = [places_on_arcs(skeleton, np.array([t]))[:, 0] for t in _INSIDE]
     nodes = distinct(skeleton.arcs)
     places = np.concatenate([skeleton.vertices[nodes], *inner])
     distance = np.concatenate(
