@@ -29,7 +29,7 @@ def main() -> None:
 def _leave(code: str | int | None) -> None:
     """End the process: what Python does in the end, object by object, takes a fifth of a small job and changes nothing.
 
-    All output is flushed. Where threads still run, or something is left to be told, Python ends as ever.
+    Where threads still run, or something is left to be told or written, Python ends as ever.
     """
     import atexit
     import threading
@@ -37,6 +37,12 @@ def _leave(code: str | int | None) -> None:
     if not isinstance(code, int) or threading.active_count() > 1:
         sys.exit(code)
     atexit._run_exitfuncs()
+    try:
+        for stream in (sys.stdout, sys.stderr):
+            if stream is not None:
+                stream.flush()
+    except (OSError, ValueError):  # Python knows what to say of it
+        sys.exit(code)
     os._exit(code)
 
 
