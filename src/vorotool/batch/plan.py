@@ -63,8 +63,8 @@ def plan_batch(o: Options, several: str) -> Plan:
     else:
         source = o.inputs[0] if is_alone else "input"
         targets = plan_targets(o, source)
-    if is_alone:
-        check_cluster(o, targets)
+    if is_alone and o.cluster is not None:
+        check_cluster(targets)
     tasks = _tasks(o, targets, notes, is_alone=is_alone)
     manifest = None if o.out_dir is None or is_alone else _manifest(o, targets)
     if manifest is not None and o.resume:

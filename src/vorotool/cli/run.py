@@ -28,11 +28,14 @@ STEPS = 1000
 def run_command(command: str, values: Mapping[str, Any], sources: Mapping[str, str]) -> None:
     """Do what a command line asks for: the values of options, and whether each is typed or of the environment."""
     o = options_of_line(command, values, sources)
-    check_streams([*(("the input", name) for name in o.inputs), *o.files_read().items()])
+    read = [*(("the input", name) for name in o.inputs), *o.files_read().items()]
+    if len(read) > 1:
+        check_streams(read)
     from_environment = [name for name in ("jobs", "cluster") if o.sources.get(name) == "environment"]
     if from_environment:
         o = _workers_chosen(o, from_environment)
-    o = with_spacing(o)
+    if o.spacing is not None:
+        o = with_spacing(o)
     several = _several(o)
     if not o.inputs and not several:
         raise UsageError("no input given: name a file, a folder, or - for standard input")
@@ -43,8 +46,10 @@ def run_command(command: str, values: Mapping[str, Any], sources: Mapping[str, s
         return
     (path,) = o.inputs
     targets = plan_targets(o, path)
-    check_stats(o, targets, path)
-    check_cluster(o, targets)
+    if o.stats is not None:
+        check_stats(o, targets, path)
+    if o.cluster is not None:
+        check_cluster(targets)
     check_units(o, targets)
     o = lengths_in_pixels(o, o.unit)
     check_options(o, targets)

@@ -277,10 +277,8 @@ def window_of(o: Options, seeds: SeedSet) -> tuple[int, int, int, int] | None:
     return None if frame is None else (frame.x, frame.y, frame.width, frame.height)
 
 
-def read_backdrop(o: Options) -> Backdrop | None:
-    """Read the image of ``--overlay``, if there is one."""
-    if o.overlay is None:
-        return None
+def read_backdrop(o: Options) -> Backdrop:
+    """Read the image of ``--overlay``."""
     import io
 
     from vorotool.formats.images.png_writer import write_png
@@ -342,7 +340,8 @@ def check_column(label_by: str | None, columns: Mapping[str, Any], option: str =
 
 def check_columns(o: Options, columns: Mapping[str, Any]) -> None:
     """Refuse columns that options name and the input does not have."""
-    check_column(o.label_by, columns)
+    if o.label_by is not None:
+        check_column(o.label_by, columns)
     for name in o.with_columns or ():
         chosen_column(columns, name, "--with")
 

@@ -54,7 +54,8 @@ def process_input(run: Run, options: Options, path: str, targets: Sequence[Targe
     check_targets(options, targets, path)
     with run.phase("read"):
         has_units, has_page = shows_units(targets) or options.scale_bar, any(each.fmt == "html" for each in targets)
-        given = JobInput(path, read_backdrop(options), has_units, has_page)
+        backdrop = None if options.overlay is None else read_backdrop(options)
+        given = JobInput(path, backdrop, has_units, has_page)
     with naming(given):
         products: Results = resolved(options.job)(run, options, given)
     check_system(run, products.options, targets)
@@ -84,9 +85,11 @@ def process_input(run: Run, options: Options, path: str, targets: Sequence[Targe
                 _note_system(run, target, written.system_unread)
             if written.has_y_down:
                 _note_y_down(run, target)
-            if target.fmt == "wkt" or (target.fmt in ("csv", "tsv") and written.has_places):
+            has_places = target.fmt == "wkt" or (target.fmt in ("csv", "tsv") and written.has_places)
+            if has_places and (written.crs or system) is not None:
                 in_crs[spoken(target.path)] = written.crs or system
-    _note_no_system(run, {name: crs for name, crs in in_crs.items() if crs is not None})
+    if in_crs:
+        _note_no_system(run, in_crs)
     if options.stats is not None:
         with run.phase("count"):
             run.stats.update({**products.stats(), **unit_stats(options.unit)})
@@ -109,10 +112,9 @@ def _note_no_system(run: Run, crs: Mapping[str, Any]) -> None:
     """Say once which files do not state the coordinate reference system that their coordinates are in."""
     from vorotool.numeric.crs import crs_name
 
-    if crs:
-        verb, them = ("states", "it") if len(crs) == 1 else ("state", "them")
-        name = crs_name(next(iter(crs.values())))
-        run.note(f"{', '.join(crs)} {verb} no coordinate reference system: read {them} as {name} (--input-crs)")
+    verb, them = ("states", "it") if len(crs) == 1 else ("state", "them")
+    name = crs_name(next(iter(crs.values())))
+    run.note(f"{', '.join(crs)} {verb} no coordinate reference system: read {them} as {name} (--input-crs)")
 
 
 def _note_y_down(run: Run, target: Target) -> None:

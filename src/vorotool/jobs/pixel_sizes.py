@@ -172,12 +172,12 @@ def in_steps(o: Options, points: PointSet | SeedSet) -> PointSet:
     from vorotool.types.pixels import SQUARE
     from vorotool.types.points.point_set import PointSet
 
-    sides = sides_of(o)
-    if sides == SQUARE and isinstance(points, PointSet):
+    if isinstance(points, PointSet) and (o.pixel_size is None or sides_of(o) == SQUARE):
         return replace(points, xy=points.xy + 0.0)  # there is no -0
     from vorotool.convert.points import as_points
     from vorotool.types.scaling import stretched
 
+    sides = sides_of(o)
     return stretched(as_points(points), sides.x, sides.y)
 
 

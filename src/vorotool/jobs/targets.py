@@ -79,8 +79,6 @@ def plan_targets(o: Options, source: str) -> list[Target]:
 def check_stats(options: Options, targets: Sequence[Target], source: str) -> None:
     """Refuse statistics that would go where the input, another file that is read, or a result is."""
     stats = options.stats
-    if stats is None:
-        return
     is_open = stats == STANDARD or descriptor_of(stats) is not None
     for role, path in () if is_open else (("the input", source), *options.files_read().items()):
         if is_same_file(stats, path):
@@ -93,9 +91,9 @@ def check_stats(options: Options, targets: Sequence[Target], source: str) -> Non
         raise UsageError(f"--stats {stats} is also the output of {target.what}: choose another name")
 
 
-def check_cluster(options: Options, targets: Sequence[Target]) -> None:
+def check_cluster(targets: Sequence[Target]) -> None:
     """Refuse a cluster for one input unless it computes all outputs."""
-    if options.cluster is not None and {target.fmt for target in targets} != {"zarr"}:
+    if {target.fmt for target in targets} != {"zarr"}:
         raise UsageError("--cluster with -o writes a Zarr store: name it .zarr, or a folder with --out-dir")
 
 
@@ -204,7 +202,7 @@ def _several_format(products: Mapping[str, Product], what: str, fmt: str | None,
 
 def _named(stem: Path, what: str | None, fmt: str) -> str:
     middle = f".{what}" if what else ""
-    return f"{stem}{middle}{FORMATS[fmt].endings[0]}"
+    return f"{stem}{middle}{FORMATS[fmt].ending}"
 
 
 def _text(possible: Sequence[str]) -> str:

@@ -63,15 +63,12 @@ _NUMBERS = {2: "two numbers, SX,SY", 3: "three numbers, SX,SY,SZ"}
 
 def with_spacing(o: Options) -> Options:
     """Give options in which ``--spacing`` is the size of pixels."""
-    spacing: PixelSize | None = o.spacing
-    if spacing is None:
-        return o
     if o.unit is not None:
         raise UsageError(
             "--spacing changes distances, --pixel-size only scales what is written: give only one, --spacing if "
             "pixels are not squares"
         )
-    return changed(o, pixel_size=spacing)
+    return changed(o, pixel_size=o.spacing)
 
 
 def sides_of(o: Options, axes: int = 2) -> PixelSides:

@@ -42,14 +42,9 @@ class Format(NamedTuple):
     parts: tuple[str, ...] = ()  # extensions of further files that each consists of
 
     @property
-    def endings(self) -> tuple[str, ...]:
-        """Extensions with their dots."""
-        return tuple(f".{extension}" for extension in self.extensions or (self.name,))
-
-
-def _of_objects(name: str, title: str, extensions: tuple[str, ...], maker: str) -> Format:
-    """Give a format of what a result has as features in GeoJSON, or else of the rows of its table."""
-    return Format(name, title, extensions, has_digits=True, flattens=True, made_from=("geojson", "json"), maker=maker)
+    def ending(self) -> str:
+        """The extension that files are given, with its dot."""
+        return f".{(self.extensions or (self.name,))[0]}"
 
 
 def _of_maps(name: str, title: str, maker: str, sources: tuple[str, ...] = ("geojson",), **more: Any) -> Format:
@@ -82,7 +77,15 @@ _ALL = (
     Format("wkt", "WKT", has_digits=True, flattens=True, is_map=True),
     Format("poly", "Triangle", has_digits=True),
     Format("graphml", "GraphML", has_digits=True, flattens=True, writers={"skeleton": _GRAPHML}),
-    _of_objects("jsonl", "JSON lines", ("jsonl", "ndjson"), "formats.text.tables:JsonLines"),
+    Format(
+        "jsonl",
+        "JSON lines",
+        ("jsonl", "ndjson"),
+        has_digits=True,
+        flattens=True,
+        made_from=("geojson", "json"),
+        maker="formats.text.tables:JsonLines",
+    ),
     _of_maps("gpkg", "GeoPackage", "geopackage:GeoPackage", ("geojson", "json")),
     _of_maps("fgb", "FlatGeobuf", "vector_files:FlatGeobuf"),
     _of_maps("shp", "Shapefile", "vector_files:Shapefile", parts=(".shx", ".dbf", ".prj", ".cpg")),
@@ -98,7 +101,7 @@ _ALL = (
 )
 FORMATS = {each.name: each for each in _ALL}
 """By name."""
-EXTENSIONS = {ending: each.name for each in _ALL for ending in each.endings}
+EXTENSIONS = {f".{extension}": each.name for each in _ALL for extension in each.extensions or (each.name,)}
 """The format that an extension stands for."""
 PICTURES = ("svg", "png")
 """Formats of pictures."""

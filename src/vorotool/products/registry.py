@@ -268,24 +268,13 @@ _DISTANCE = tuple(
 )
 
 
-def _beside_exact(product: Product) -> Product:
-    """Beside approximate skeletons pictures can show exact ones."""
-    shown = {fmt: (*layers, "exact") for fmt, layers in _ARCS.layers.items()}
-    return product._replace(layers=shown) if product.layers is _ARCS.layers else product
-
-
-def _drawn() -> Product:
-    """The picture of a result that was written before: the layers of all that is read again."""
-    of_labels = {"png": ("cells", "diagram"), "svg": ("cells",)}
-    return Product(
-        "picture",
-        layers={
-            fmt: tuple(dict.fromkeys((*layers, *_ARCS.layers[fmt], "offset", "shape", *_MAP_LAYERS.layers[fmt])))
-            for fmt, layers in of_labels.items()
-        },
-        has_page=True,
-    )
-
+_BESIDE_EXACT = {fmt: (*layers, "exact") for fmt, layers in _ARCS.layers.items()}
+"""Beside approximate skeletons pictures can show exact ones."""
+_OF_ALL = {
+    fmt: tuple(dict.fromkeys((*layers, *_ARCS.layers[fmt], "offset", "shape", *_MAP_LAYERS.layers[fmt])))
+    for fmt, layers in {"png": ("cells", "diagram"), "svg": ("cells",)}.items()
+}
+"""Layers of pictures of results that were written before: those of all that is read again."""
 
 _BY_COMMAND: dict[str, Sequence[Product]] = {
     "tessellate": _TESSELLATE,
@@ -293,9 +282,13 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
     "alphashape": _ALPHASHAPE,
     "voronoi": _VORONOI,
     "skeleton-exact": (*_SKELETONS, *_OF_WHOLE_AXIS),
-    "skeleton-approx": tuple(_beside_exact(each) for each in _SKELETONS if each.what not in _WITHOUT_SAMPLES),
+    "skeleton-approx": tuple(
+        each._replace(layers=_BESIDE_EXACT) if each.layers is _ARCS.layers else each
+        for each in _SKELETONS
+        if each.what not in _WITHOUT_SAMPLES
+    ),
     "distance": _DISTANCE,
-    "draw": (_drawn(),),
+    "draw": (Product("picture", layers=_OF_ALL, has_page=True),),
 }
 PRODUCTS = {command: {each.what: each for each in products} for command, products in _BY_COMMAND.items()}
 """Products of each command, by name."""

@@ -137,7 +137,8 @@ Placed = TypeVar("Placed", PointSet, "PolygonSet")
 
 def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
     """Return the coordinate reference system of an input: its own, else the declared one, else the wanted one."""
-    value = declared_in(value, name, options.crs)
+    if options.crs is not None:
+        value = declared_in(value, name, options.crs)
     if options.to_crs is not None:
         if value.crs is None:
             raise InputError(
@@ -147,7 +148,8 @@ def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
         if not same_crs(value.crs, options.to_crs):
             value = replace(value, xy=reprojected(value.xy, name, value.crs, options.to_crs))
         value = replace(value, crs=options.to_crs, y_axis=UP)
-    note_degrees(value, name, options.note)
+    if value.crs is not None:
+        note_degrees(value, name, options.note)
     return value
 
 
@@ -161,8 +163,6 @@ def with_stated_axis(value: Any, name: str, axis: YAxis) -> Any:
 
 def declared_in(value: Placed, name: str, declared: Any) -> Placed:
     """Give an input that names no coordinate reference system the one that is declared, if one is."""
-    if declared is None:
-        return value
     if value.crs is None:
         return replace(value, crs=declared, y_axis=UP)
     if not same_crs(value.crs, declared):
