@@ -131,8 +131,9 @@ class MeshProducts(Results):
 
     def emptiness(self, what: str) -> str:
         """Say why there are no edges or triangles."""
-        if what not in ("edges", "triangles") or len(getattr(self.edged, what)):
-            return ""
+        return "" if what not in ("edges", "triangles") or len(getattr(self.edged, what)) else self._shape()
+
+    def _shape(self) -> str:
         count = len(self.mesh.points) - self.mesh.duplicates
         if count < 3:
             return f"{count} distinct point{'s' * (count != 1)}"
@@ -265,9 +266,8 @@ class DigitalProducts(MeshProducts):
         """Give what the digital rule finds, or how it differs."""
         return self.comparison.differences if what == "compare" else super().value(what)
 
-    def emptiness(self, what: str) -> str:
-        """Say why there are no edges or triangles."""
-        return super().emptiness(what) and f"of {len(self.mesh.points)} regions too few touch"
+    def _shape(self) -> str:
+        return f"of {len(self.mesh.points)} regions too few touch"
 
     def verify(self, progress: Progress) -> None:
         """Check labels, edges and triangles by another way."""
@@ -297,7 +297,7 @@ class DigitalProducts(MeshProducts):
 class RepairedProducts(DigitalProducts):
     """Results of the certified repair (``--method digital-valid``): those of the exact triangulation."""
 
-    emptiness, verify = MeshProducts.emptiness, MeshProducts.verify
+    _shape, verify = MeshProducts._shape, MeshProducts.verify
 
     def stats(self) -> dict[str, Any]:
         """Counts, and what each step of the repair did."""

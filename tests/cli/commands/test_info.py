@@ -252,5 +252,5 @@ def test_types_are_those_of_values_in_json():
         "array": np.array([1.5, 2]),
         "lists": [[1], {"a": 1}],
     }
-    found = description._column_types(columns)
+    found = {name: description._type_of(values) for name, values in columns.items()}
     assert found == {"whole": "integer", "broken": "number", "text": "text", "array": "number", "lists": "other"}

@@ -55,9 +55,8 @@ class SkeletonProducts(Results, ABC):
             self._polygons, self.is_mask, options, self.frame, self.grid = read_polygons(run, options, given)
         super().__init__(run, options)
         if self.frame is None:
-            refuse(
-                {"what thickness": "thickness" in options.what}, "applies to images, but the input is polygons or lines"
-            )
+            of_images = {"what thickness": "thickness" in options.what}
+            refuse(of_images, "applies to images, but the input is polygons or lines")
         self.backdrop = placed_backdrop(run, options, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_columns(options, self._polygons.properties)
@@ -314,16 +313,19 @@ class SkeletonProducts(Results, ABC):
         what = target.what
         if what in DERIVED:
             self.derived(what)
-            super().check(target)
-            return
-        value = self.centerlines.path if what == "centerline" else self.diagram if what == "diagram" else self.joined
+        elif what == "centerline":
+            _ = self.centerlines
+        elif what == "diagram":
+            _ = self.diagram
+        else:
+            _ = self.joined
         super().check(target)
-        if target.fmt == "html":
-            from vorotool.render.pages.html import check_skeleton_size
-
-            check_skeleton_size(self.whole)
-        if not len(value) and what in ("skeleton", "branches") and self.options.side == "exterior":
+        if what in ("skeleton", "branches") and self.options.side == "exterior" and not len(self.joined):
             self.run.warn(Message("the exterior skeleton is empty", Kind.EMPTY_RESULT))
+
+    def check_page(self) -> None:
+        """Refuse a page of too many arcs."""
+        resolved("render.pages.html:check_skeleton_size")(self.whole)
 
     def written(self, what: str, fmt: str) -> Any:
         """Give a result in the units of files: the table tells of centerlines, too."""
@@ -378,19 +380,15 @@ class SkeletonProducts(Results, ABC):
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        found: dict[str, Any] = {
-            **self._shape_stats(),
-            **self._diagram_stats(),
-            "side": self.options.side,
-            "threads": self.options.threads,
-        }
+        o, found = self.options, self._shape_stats() | self._diagram_stats()
+        found |= {"side": o.side, "threads": o.threads}
         if self.is_mask:
-            found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
-        if self.options.wants_skeleton:
+            found |= {"outline": o.outline or "crack", "connectivity": int(o.connectivity or 8)}
+        if o.wants_skeleton:
             found |= self._skeleton_stats(self.joined)
-        if self.options.smooth is not None:
+        if o.smooth is not None:
             made = self._all_lines()
-            found |= {"smooth": self.options.smooth, "curves": sum(len(each.control) for each in made)}
+            found |= {"smooth": o.smooth, "curves": sum(len(each.control) for each in made)}
             found["largest_error"] = max((float(each.error.max(initial=0.0)) for each in made), default=0.0)
         for what in self._all_derived():
             found |= self._derived_stats(what)
