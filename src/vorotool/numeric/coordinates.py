@@ -131,36 +131,21 @@ class Written:
     system_unread: Any = None  # the coordinate reference system of a file whose readers assume another one
 
 
-_WRITTEN: ContextVar[Written | None] = ContextVar("written", default=None)
+_WRITTEN: ContextVar[Written] = ContextVar("written", default=Written())  # noqa: B039, where nobody asks
+current_written = _WRITTEN.get
 
 
 def record_deviation(distances: Floats) -> None:
     """Record how far lines that are written are from their curves."""
     written = _WRITTEN.get()
-    if written is not None:
-        written.deviation = max(written.deviation, float(distances.max(initial=0)))
-
-
-def record_system_unread(crs: Any) -> None:
-    """Record that readers of what is written do not look at its coordinate reference system."""
-    written = _WRITTEN.get()
-    if written is not None:
-        written.system_unread = crs
-
-
-def record_places() -> None:
-    """Record that a table that is written has coordinates."""
-    written = _WRITTEN.get()
-    if written is not None:
-        written.has_places = True
+    written.deviation = max(written.deviation, float(distances.max(initial=0)))
 
 
 def record_value(value: Any) -> None:
     """Record the coordinate reference system of a value that is written, and whether its y goes down."""
     written = _WRITTEN.get()
-    if written is not None:
-        written.crs = getattr(value, "crs", None)
-        written.has_y_down = written.has_y_down or getattr(value, "y_axis", None) == "down"
+    written.crs = getattr(value, "crs", None)
+    written.has_y_down = written.has_y_down or getattr(value, "y_axis", None) == "down"
 
 
 @contextmanager

@@ -21,7 +21,7 @@ from vorotool.formats.text.tables import (
     write_npz,
 )
 from vorotool.numeric.arrays import Nesting, owners, within
-from vorotool.numeric.coordinates import current_decimals, on_grid, record_places
+from vorotool.numeric.coordinates import current_decimals, current_written, on_grid
 from vorotool.types.features import Areas, Corners, Lines, Mixture, Rows, features_of, parts_of, rows_of
 from vorotool.types.fields import MEMBER as Y_AXIS
 from vorotool.types.mesh.cells import CellSet
@@ -106,7 +106,7 @@ def geometry_text(rows: Rows, style: str) -> GeometryText:
 
 def with_shapes(rows: Rows) -> Rows:
     """Add a column with the geometry as well-known text."""
-    record_places()
+    current_written().has_places = True
     (shapes,) = geometry_text(rows, "wkt").columns
     return rows.with_columns(wkt=shapes.values)
 

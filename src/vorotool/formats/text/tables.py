@@ -23,7 +23,7 @@ from vorotool.formats.text.row_writer import (
     write_list_rows,
     write_rows,
 )
-from vorotool.numeric.coordinates import on_grid, record_places, record_system_unread
+from vorotool.numeric.coordinates import current_written, on_grid
 from vorotool.numeric.length_units import ascii_unit, is_known
 from vorotool.numeric.numbers import NumberText
 from vorotool.numeric.parallel import in_order
@@ -61,7 +61,7 @@ def placed_column(column: Column) -> Column:
     values = column.values
     if column.name.removeprefix("voro_") not in _PLACES:
         return column
-    record_places()
+    current_written().has_places = True
     if isinstance(values, Lookup) and isinstance(values.values, np.ndarray) and values.values.dtype.kind == "f":
         return replace(column, values=Lookup(on_grid(values.values), values.index), is_place=True)
     if isinstance(values, np.ndarray) and values.dtype.kind == "f":
@@ -389,7 +389,7 @@ class JsonLines(JsonItems):
     def take(self, items: bytes) -> None:
         """Write some items."""
         members = self.members
-        record_system_unread(members.get("crs"))
+        current_written().system_unread = members.get("crs")
         if members:
             member = json_text(members)[1:-1].encode() + b","
             items = (b"\n" + items).replace(b"\n" + _FEATURE, b"\n" + _FEATURE + member)[1:]

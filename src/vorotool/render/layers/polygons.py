@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.arrays import mask_of, starts_of
+from vorotool.numeric.arrays import Indices, mask_of, starts_of
 from vorotool.render.canvas.layers import (
     Arcs,
     Layer,
@@ -97,24 +97,27 @@ def feature_names(polygons: PolygonSet, page: Page) -> list[str]:
     return column_texts(chosen, page.style.label_by, names)
 
 
-def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
-    """Names of features: inside the largest polygon, in the middle of the longest line, on the first point."""
+def name_places(shapes: NDArray[np.object_], owner: NDArray[np.integer]) -> tuple[NDArray[np.float64], Indices]:
+    """Choose a place for each owner in order, and the shape that it is in: the largest area, else the longest line."""
     import shapely
 
+    dimension = shapely.get_dimensions(shapes)
+    measure = np.where(dimension == 1, shapely.length(shapes), shapely.area(shapes))
+    order = np.lexsort((np.arange(len(shapes)), -measure, -dimension, owner))
+    chosen = order[np.unique(owner[order], return_index=True)[1]]
+    inside, is_line = shapely.point_on_surface(shapes[chosen]), dimension[chosen] == 1
+    inside[is_line] = shapely.line_interpolate_point(shapes[chosen[is_line]], 0.5, normalized=True)
+    return np.stack([shapely.get_x(inside), shapely.get_y(inside)], axis=1), chosen
+
+
+def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
+    """Names of features: inside the largest polygon, in the middle of the longest line, on the first point."""
     from vorotool.types.polygons.shapely_geometry import to_shapely
 
-    shapes = np.asarray(to_shapely(polygons), dtype=object)
-    measure = np.where(polygons.is_line, shapely.length(shapes), shapely.area(shapes))
-    order = np.lexsort((np.arange(len(shapes)), -measure, polygons.is_line, polygons.feature))
-    _, best = np.unique(polygons.feature[order], return_index=True)
-    chosen, is_line = shapes[order[best]], polygons.is_line[order[best]]
-    inside = np.empty(len(chosen), dtype=object)
-    inside[is_line] = shapely.line_interpolate_point(chosen[is_line], 0.5, normalized=True)
-    inside[~is_line] = shapely.point_on_surface(chosen[~is_line])
-    places = np.stack([shapely.get_x(inside), shapely.get_y(inside)], axis=1)
+    places, chosen = name_places(to_shapely(polygons), polygons.feature)
     has_none = np.isnan(places).any(axis=1)  # of a polygon without area
     corners = polygons.xy[polygons.ring_starts[polygons.polygon_starts[:-1]]]
-    places[has_none] = corners[order[best]][has_none]
+    places[has_none] = corners[chosen][has_none]
     names = feature_names(polygons, page)
     return without_empty(Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centered=True))
 

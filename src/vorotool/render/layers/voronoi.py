@@ -28,7 +28,7 @@ from vorotool.render.canvas.layers import (
 )
 from vorotool.render.canvas.styles import EDGE, INK, WHITE, cell_color
 from vorotool.render.layers.mesh import cell_ids
-from vorotool.render.layers.polygons import polygon_layers
+from vorotool.render.layers.polygons import name_places, polygon_layers
 from vorotool.types.voronoi.tables import neighbor_pairs, site_shapes
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
@@ -123,11 +123,5 @@ def _places_of_names(cells: VoronoiMap) -> tuple[NDArray[np.float64], Indices, N
     while (shapely.get_type_id(parts) > shapely.GeometryType.POLYGON).any():
         parts, index = shapely.get_parts(parts, return_index=True)
         site = site[index]
-    size = shapely.get_dimensions(parts)
-    measure = np.where(size == 1, shapely.length(parts), shapely.area(parts))
-    order = np.lexsort((np.arange(len(parts)), -measure, -size, site))
-    site, first = np.unique(site[order], return_index=True)
-    chosen, size = parts[order[first]], size[order[first]]
-    inside = shapely.point_on_surface(chosen)
-    inside[size == 1] = shapely.line_interpolate_point(chosen[size == 1], 0.5, normalized=True)
-    return np.stack([shapely.get_x(inside), shapely.get_y(inside)], axis=1), site, size
+    places, chosen = name_places(parts, site)
+    return places, site[chosen], shapely.get_dimensions(parts[chosen])
