@@ -13,10 +13,11 @@ from hypothesis.extra import numpy as hnp
 
 import vorotool
 from vorotool import LimitError, UsageError
-from vorotool.render.canvas.styles import CELLS, picture_palette
+from vorotool.render.canvas.styles import CELLS, PictureStyle, picture_palette
+from vorotool.render.label_images.picture import LabelPicture
 from vorotool.render.label_images.png import disc_radius, picture_bands
 from vorotool.render.label_images.slices import SlicePicture
-from vorotool.render.label_images.svg import crack_loops, write_label_svg
+from vorotool.render.label_images.svg import crack_loops
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
@@ -189,7 +190,9 @@ IMAGE = LabelImage(FEW_LABELS, Frame(10, 20, 4, 3), FEW_SEEDS)
 
 def drawn(image: LabelImage = IMAGE, **options: object) -> bytes:
     out = io.BytesIO()
-    write_label_svg(out, image, color_of_label=FEW_COLORS, **options)
+    labels = np.unique(image.labels[image.labels > 0])
+    picture = LabelPicture(image, (labels, FEW_COLORS[labels]), ("cells", "labels", "seeds"), PictureStyle(), **options)
+    picture.write(out, "svg")
     return out.getvalue()
 
 

@@ -138,18 +138,8 @@ def _write_svg(out: BinaryIO, picture: LabelPicture) -> None:
 
     is_numbered = "labels" in picture.layers and has_numbers(picture.image.shape) and picture.texts is None
     objects = None if is_numbered else _objects(picture)
-    write_label_svg(
-        out,
-        picture.image,
-        color_of_label=dict(zip(picture.colors[0].tolist(), picture.colors[1].tolist(), strict=True)),
-        width=picture.width,
-        layers=picture.layers,
-        backdrop=picture.backdrop,
-        names=None if is_numbered else _names(picture),
-        objects=None if objects is None else objects.labels,
-        style=picture.style,
-        insets=_insets(picture, _page(picture), has_outlines=objects is not None),
-    )
+    insets = _insets(picture, _page(picture), has_outlines=objects is not None)
+    write_label_svg(out, picture, names=None if is_numbered else _names(picture), objects=objects, insets=insets)
 
 
 def _page(picture: LabelPicture) -> Page:

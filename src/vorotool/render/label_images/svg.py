@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from html import escape
 from itertools import groupby
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +14,14 @@ from numpy.typing import NDArray
 from vorotool.errors import LimitError
 from vorotool.products.formats import AS_PNG
 from vorotool.render.canvas.insets import PixelPage
-from vorotool.render.canvas.layers import Backdrop, Layer, Page, checked_layers, halo_width
-from vorotool.render.canvas.styles import EDGE, FAINT, INK, SEED, PictureStyle, cell_color, edge_color
+from vorotool.render.canvas.layers import Layer, Page, checked_layers, halo_width
+from vorotool.render.canvas.styles import EDGE, FAINT, INK, SEED, cell_color, edge_color
 from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element, layer_parts
 from vorotool.render.label_images.png import Names, disc_radius
 from vorotool.types.images import LabelImage
+
+if TYPE_CHECKING:
+    from vorotool.render.label_images.picture import LabelPicture
 
 LAYERS = ("cells", "labels", "objects", "seeds")
 MOST_PIXELS = 1_000_000
@@ -30,22 +33,13 @@ _MARGIN = 0.02
 
 
 def write_label_svg(
-    out: BinaryIO,
-    image: LabelImage,
-    *,
-    color_of_label: NDArray[Any] | Mapping[int, int],
-    width: int = 1000,
-    layers: Iterable[str] = LAYERS,
-    backdrop: Backdrop | None = None,
-    names: Names | None = None,
-    objects: NDArray[np.integer] | None = None,
-    style: PictureStyle | None = None,
-    insets: Iterable[Layer] = (),
+    out: BinaryIO, picture: LabelPicture, *, names: Names | None, objects: LabelImage | None, insets: Iterable[Layer]
 ) -> None:
     """Draw a label image with one path a label, and numbers in the pixels of images of at most 40 x 40."""
+    image, backdrop = picture.image, picture.backdrop
     check_size(image.shape)
-    wanted = checked_layers(layers, LAYERS)
-    page = _Page(image, width, backdrop, style or PictureStyle())
+    wanted = checked_layers(picture.layers, LAYERS)
+    page = _Page(picture)
     numbered = "labels" in wanted and has_numbers(image.shape) and names is None
     size = f'width="{page.width}" height="{page.height}"'
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {page.width} {page.height}">']
@@ -55,11 +49,11 @@ def write_label_svg(
         parts.append(image_element(backdrop).decode().rstrip())
         parts.append(f'<g transform="translate({image.frame.x} {image.frame.y})">')
     if "cells" in wanted:
-        parts += _cells(page, color_of_label)
+        parts += _cells(page, dict(zip(*(each.tolist() for each in picture.colors), strict=True)))
     if numbered:
         parts += _numbers(page, "seeds" in wanted)
     if objects is not None:
-        parts += _outlines(page, objects, wanted)
+        parts += _outlines(page, objects.labels, wanted)
     elif "seeds" in wanted and image.seeds is not None and not numbered:
         parts += _discs(page)
     if "labels" in wanted and names is not None and not numbered:
@@ -90,11 +84,12 @@ def check_size(shape: tuple[int, int], fmt: str = "SVG") -> None:
 class _Page:
     """Where pixels are on the page: it is as wide as the image and 2 % of its larger side as a margin."""
 
-    def __init__(self, image: LabelImage, width: int, backdrop: Backdrop | None, style: PictureStyle) -> None:
+    def __init__(self, picture: LabelPicture) -> None:
+        image, width, backdrop = picture.image, picture.width, picture.backdrop
         rows, columns = image.shape
         aspect = aspect_of(image)
         margin = _MARGIN * max(rows * aspect, columns)
-        self.image, self.width, self.backdrop, self.style = image, width, backdrop, style
+        self.image, self.width, self.backdrop, self.style = image, width, backdrop, picture.style
         if backdrop is not None:
             self.height, self.width = backdrop.pixels.shape[:2]
             self.scale = self.scale_down = 1.0
@@ -130,12 +125,12 @@ def _short(value: float) -> str:
     return f"{value:.2f}".rstrip("0").rstrip(".")
 
 
-def _cells(page: _Page, color_of_label: NDArray[Any] | Mapping[int, int]) -> Iterator[str]:
+def _cells(page: _Page, color_of_label: Mapping[int, int]) -> Iterator[str]:
     # page coordinates, not a transform: not every renderer knows strokes that do not scale
     style = fill_style(page.backdrop)
     yield f'<g id="cells" fill-rule="evenodd"{style}{_stroke(page, "cells", EDGE)}>'
     for label, path in _paths(page, page.image.labels):
-        color = cell_color(int(color_of_label[label]))
+        color = cell_color(color_of_label[label])
         yield f'<path id="cell-{label}" fill="{color}" vector-effect="non-scaling-stroke" d="{path}"/>'
     yield "</g>"
 
