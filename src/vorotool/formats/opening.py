@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -153,9 +152,7 @@ def _begins_as_tiff(name: str) -> bool:
 
 def open_zarr(name: str, input_format: str | None = None, page: int | None = None) -> ZarrRows | None:
     """Open what is, or should be, a Zarr array: a folder that holds one, or is named or said to; None if it is none."""
-    if input_format not in (None, "zarr") or not is_folder(name):
-        return None
-    if input_format is None and not is_store(name) and not name.rstrip(os.sep).lower().endswith(".zarr"):
+    if not is_store(name) if input_format is None else input_format != "zarr" or not is_folder(name):
         return None
     if page not in (None, 0):
         raise InputError(f"{name} has a single page: {option(f'--page {page}')} does not exist")

@@ -170,7 +170,7 @@ def is_pattern(name: str) -> bool:
 
 def is_searched(path: str | os.PathLike[str]) -> bool:
     """Return whether a path is a folder of inputs: a Zarr store is one input."""
-    return is_folder(path) and not is_store(path) and not os.fspath(path).lower().rstrip("/").endswith(".zarr")
+    return is_folder(path) and not is_store(path)
 
 
 def refuse_several(named: Mapping[str, str]) -> None:

@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool import _core
 from vorotool.errors import InputError
 from vorotool.formats.drawing.curves import Arc, Bezier, Curve, Line, Piece, Point, extent_of
 from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.polygons.poly import chains_of
-from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.length_units import ratio
 from vorotool.types.box import Box
 from vorotool.types.fields import DOWN, YAxis
@@ -215,29 +215,17 @@ def joined(curves: Sequence[Curve], tolerance: float) -> list[Curve]:
     return made
 
 
-def _places(ends: np.ndarray, tolerance: float) -> list[int]:
+def _places(ends: NDArray[np.float64], tolerance: float) -> list[int]:
     """Numbers of places: ends that are near each other have the same, and so have those near these."""
     import shapely
 
-    parent = list(range(len(ends)))
-
-    def root(k: int) -> int:
-        while parent[k] != k:
-            parent[k] = parent[parent[k]]
-            k = parent[k]
-        return k
-
-    unique, number = np.unique(ends, axis=0, return_inverse=True) if len(ends) else (ends, np.zeros(0, dtype=int))
-    first = starts_of(np.ones(len(unique), dtype=int))[:-1]
-    parent = first.tolist()
+    unique, number = np.unique(ends, axis=0, return_inverse=True)
+    pairs = np.empty((0, 2), dtype=np.int32)
     if tolerance > 0 and len(unique):
         points = shapely.points(unique)
-        pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=tolerance)
-        for a, b in pairs.T.tolist():
-            ra, rb = root(a), root(b)
-            if ra != rb:
-                parent[max(ra, rb)] = min(ra, rb)
-    return [root(k) for k in number.reshape(-1).tolist()]
+        found = shapely.STRtree(points).query(points, predicate="dwithin", distance=tolerance)
+        pairs = np.ascontiguousarray(found.T, dtype=np.int32)
+    return _core.graphs.connected_components(pairs, len(unique))[number.reshape(-1)].tolist()
 
 
 def _chain(curves: Sequence[Curve], is_closed: bool) -> Curve:

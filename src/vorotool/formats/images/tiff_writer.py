@@ -103,7 +103,9 @@ def _encoded(strips: Iterable[NDArray[Any]], compressed: bool, threads: int) -> 
     return in_order(deflated, strips, threads) if compressed else (strip[1:].tobytes() for strip in strips)
 
 
-def _strips(bands: Iterable[NDArray[Any]], shape: tuple[int, ...], kind: np.dtype[Any]) -> Iterator[NDArray[Any]]:
+def _strips(
+    bands: Iterable[NDArray[Any]], shape: tuple[int, ...], kind: np.dtype[Any], rows: int | None = None
+) -> Iterator[NDArray[Any]]:
     """Regroup bands into the rows of strips; each comes after the row before it, and none has rows of two pages."""
 
     def encode(rows: NDArray[Any], out: NDArray[Any]) -> None:
@@ -111,36 +113,17 @@ def _strips(bands: Iterable[NDArray[Any]], shape: tuple[int, ...], kind: np.dtyp
 
     pages = [bands] if len(shape) == 2 else ([image] for slab in checked(bands, shape) for image in slab)
     for page in pages:
-        yield from blocks(page, shape[-2:], columns=shape[-1], dtype=kind, encode=encode)
+        yield from blocks(page, shape[-2:], columns=shape[-1], dtype=kind, encode=encode, rows=rows)
 
 
 def _tiles(bands: Iterable[NDArray[Any]], shape: tuple[int, ...], kind: np.dtype[Any]) -> Iterator[NDArray[Any]]:
     """Tiles row by row, from left to right; those at the right and lower sides are filled up with zeros."""
-    for rows in _rows_of_tiles(bands, shape, kind):
+    for rows in _strips(bands, shape, kind, TILE):
         for left in range(0, shape[1], TILE):
-            part = rows[:, left : left + TILE]
+            part = rows[1:, left : left + TILE]
             tile = np.zeros((1 + TILE, TILE), kind)  # as a strip has it, after the row before
             tile[1 : 1 + len(part), : part.shape[1]] = part
             yield tile
-
-
-def _rows_of_tiles(
-    bands: Iterable[NDArray[Any]], shape: tuple[int, ...], kind: np.dtype[Any]
-) -> Iterator[NDArray[Any]]:
-    """Regroup bands into rows of tiles."""
-    held: list[NDArray[Any]] = []
-    count = 0
-    for band in checked(bands, shape):
-        start = 0
-        while start < len(band):
-            part = band[start : start + TILE - count]
-            held.append(stored(part, kind))
-            start, count = start + len(part), count + len(part)
-            if count == TILE:
-                yield np.concatenate(held)
-                held, count = [], 0
-    if held:
-        yield np.concatenate(held)
 
 
 def deflated(strip: NDArray[Any]) -> bytes:

@@ -124,10 +124,11 @@ def blocks(
     columns: int,
     dtype: DTypeLike,
     encode: Callable[[NDArray[Any], NDArray[Any]], None],
+    rows: int | None = None,
 ) -> Iterator[NDArray[Any]]:
-    """Regroup bands into blocks whose limits depend on the shape alone, so that the bytes written do too."""
-    row_bytes = max(1, columns * np.dtype(dtype).itemsize)
-    rows = max(1, min(shape[0], BLOCK_BYTES // row_bytes))
+    """Regroup bands into blocks, each after the row before it; by default of a size that depends on the shape alone."""
+    if rows is None:
+        rows = max(1, min(shape[0], BLOCK_BYTES // max(1, columns * np.dtype(dtype).itemsize)))
     block, filled = np.zeros((1 + rows, columns), dtype), 1
     for band in checked(bands, shape):
         start = 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from dataclasses import replace
 from os import PathLike, fspath
@@ -66,7 +65,7 @@ def read_volume(
 
 def _opened(name: str, said: str | None) -> VolumeSource:
     if is_folder(name) and (said in (None, "zarr")):
-        if said is None and not is_store(name) and not name.rstrip(os.sep).lower().endswith(".zarr"):
+        if said is None and not is_store(name):
             raise InputError(f"{name} is a directory: name the files in it, for example {name}/*")
         return ZarrVolume(name, str(Path(name).absolute()))
     spool, path = None, name

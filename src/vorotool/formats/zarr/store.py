@@ -20,8 +20,10 @@ _METADATA = ("zarr.json", ".zarray", ".zgroup")
 
 
 def is_store(path: str | os.PathLike[str]) -> bool:
-    """Whether a path is a folder that holds a Zarr array or group."""
-    return any(os.path.isfile(os.path.join(path, name)) for name in _METADATA)
+    """Whether a path is a folder that holds a Zarr array or group, or should by its name."""
+    name = os.fspath(path)
+    is_named = is_folder(name) and name.rstrip(os.sep).lower().endswith(".zarr")
+    return is_named or any(os.path.isfile(os.path.join(name, each)) for each in _METADATA)
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:

@@ -83,10 +83,12 @@ ALPHA_PAGE = "alpha_page.html"
 
 def check_family_size(family: AlphaComplex) -> None:
     """Refuse a page that no browser would draw."""
-    if len(family.points) > MOST_POINTS:
-        raise LimitError(
-            f"{len(family.points)} points are too many for a page, at most {MOST_POINTS}: use {AS_PICTURE}"
-        )
+    _check_count(len(family.points), MOST_POINTS, "points", f"use {AS_PICTURE}")
+
+
+def _check_count(count: int, most: int, what: str, instead: str) -> None:
+    if count > most:
+        raise LimitError(f"{count} {what} are too many for a page, at most {most}: {instead}")
 
 
 def write_alpha_html(out: BinaryIO, family: AlphaComplex, curves: Table, *, r: Radius | None = None) -> None:
@@ -216,8 +218,7 @@ def columns_of(table: Table, labels: NDArray[Any]) -> dict[str, Sequence[Any]]:
 def check_cells_size(cells: int, vertices: int = 0) -> None:
     """Refuse a page that no browser would draw."""
     for count, most, what in ((cells, MOST_CELLS, "cells"), (vertices, MOST_VERTICES, "vertices of cells")):
-        if count > most:
-            raise LimitError(f"{count} {what} are too many for a page, at most {most}: use {AS_SVG} or png")
+        _check_count(count, most, what, f"use {AS_SVG} or png")
 
 
 MOST_VOXELS = 1 << 26
@@ -260,8 +261,7 @@ def check_volume_page(shape: tuple[int, ...], labels: int = 0, runs: int = 0) ->
         size = f"{width} x {height} x {depth}"
         raise LimitError(f"{size} voxels are too many for a page, at most {MOST_VOXELS}: {instead}")
     for count, most, what in ((labels, MOST_CELLS, "labels"), (runs, MOST_RUNS, "runs of voxels")):
-        if count > most:
-            raise LimitError(f"{count} {what} are too many for a page, at most {most}: {instead}")
+        _check_count(count, most, what, instead)
 
 
 def write_volume_html(
@@ -304,8 +304,7 @@ SKELETON_PAGE = "skeleton_page.html"
 def check_skeleton_size(skeleton: Skeleton) -> None:
     """Refuse a page that no browser would draw."""
     for count, what in ((len(skeleton), "arcs"), (len(skeleton.polygons.xy), "vertices of polygons")):
-        if count > MOST_ARCS:
-            raise LimitError(f"{count} {what} are too many for a page, at most {MOST_ARCS}: use {AS_PICTURE}")
+        _check_count(count, MOST_ARCS, what, f"use {AS_PICTURE}")
 
 
 def write_skeleton_html(
