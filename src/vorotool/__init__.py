@@ -127,6 +127,8 @@ _HOME = {
     "color_regions": "vorotool.engines.label_images.regions",
     "AlphaComplex": "vorotool.types.alpha.complex",
     "AlphaShape": "vorotool.types.alpha.shape",
+    "SpaceAlphaComplex": "vorotool.types.alpha.space",
+    "SpaceAlphaShape": "vorotool.types.alpha.space",
     "alpha_complex": "vorotool.engines.alpha.alpha_shape",
     "alpha_curves": "vorotool.engines.alpha.alpha_shape",
     "alpha_edges": "vorotool.engines.alpha.alpha_shape",

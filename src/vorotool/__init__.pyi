@@ -251,6 +251,12 @@ from vorotool.types.alpha.shape import (
 from vorotool.types.alpha.shape import (
     AlphaShape as AlphaShape,
 )
+from vorotool.types.alpha.space import (
+    SpaceAlphaComplex as SpaceAlphaComplex,
+)
+from vorotool.types.alpha.space import (
+    SpaceAlphaShape as SpaceAlphaShape,
+)
 from vorotool.types.box import (
     Box as Box,
 )

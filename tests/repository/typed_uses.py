@@ -99,6 +99,8 @@ def results_by_arguments() -> None:
     assert_type(vorotool.tessellate([[1, 1, 1]], window=(0, 0, 0, 3, 3, 3)), vorotool.LabelVolume)
     assert_type(vorotool.tessellate(vorotool.VolumePoints(np.ones((1, 3)))), vorotool.LabelVolume)
     assert_type(vorotool.delaunay(vorotool.VolumePoints(np.ones((1, 3)))), vorotool.Tetrahedralization)
+    assert_type(vorotool.alpha_complex(vorotool.VolumePoints(np.ones((2, 3)))), vorotool.SpaceAlphaComplex)
+    assert_type(vorotool.alpha_shape(vorotool.VolumePoints(np.ones((2, 3))), r=1), vorotool.SpaceAlphaShape)
     assert_type(masks.medial_axis(MASK), npt.NDArray[np.bool_])
     assert_type(masks.medial_axis(MASK, return_distance=True), tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]])
 

@@ -23,7 +23,7 @@ WANTED = {"delta": 1, "every": 1.0, "r": 1.0, "columns": {}, "distances": [1.0],
 
 
 def test_there_are_such_functions():
-    assert {"prune", "centerline", "alpha_curves", "edge_table", "verify_cells"} <= TAKING.keys()
+    assert {"prune", "centerline", "alpha_edges", "edge_table", "verify_cells"} <= TAKING.keys()
 
 
 @pytest.mark.parametrize("name", TAKING)

@@ -9,6 +9,7 @@
 
 #include "core/alpha/exact_radius.hpp"
 #include "core/alpha/radius_ranks.hpp"
+#include "core/base/indices.hpp"
 #include "core/numbers/big_integer.hpp"
 #include "core/numbers/dyadic_grid.hpp"
 #include "core/numbers/fixed_integer.hpp"
@@ -316,15 +317,15 @@ std::array<int, 4> exact_heights(const Simplex& s) {
 }
 
 // ---- points ----
-bool move_to_integers(std::span<const Point3> given, ScaledPoints& out) {
-  Point3 least = given[0], most = given[0];
+bool move_to_integers(ScaledPoints& out) {
+  Point3 least = out.points[0], most = out.points[0];
   int exponent = 1024;
-  const auto look = [&](double value, double& smallest_value, double& largest_value) {
-    smallest_value = std::min(smallest_value, value), largest_value = std::max(largest_value, value);
+  const auto look = [&](double value, double& lowest, double& highest) {
+    lowest = std::min(lowest, value), highest = std::max(highest, value);
     const numbers::OddMantissa parts(value);
     if (parts.mantissa != 0) exponent = std::min(exponent, parts.exponent);
   };
-  for (const Point3& p : given) {
+  for (const Point3& p : out.points) {
     look(p.x, least.x, most.x), look(p.y, least.y, most.y), look(p.z, least.z, most.z);
   }
   if (exponent == 1024) return false;  // all are 0
@@ -332,30 +333,22 @@ bool move_to_integers(std::span<const Point3> given, ScaledPoints& out) {
   if (!(size < std::ldexp(1.0, exponent + 52))) return false;
   // Differences of multiples of 2^exponent below 2^(exponent + 53) are doubles, and so is the scaling.
   const auto moved = [&](double value, double from) { return std::ldexp(value - from, -exponent); };
-  std::transform(given.begin(), given.end(), out.points.begin(), [&](const Point3& p) {
-    return Point3{moved(p.x, least.x), moved(p.y, least.y), moved(p.z, least.z)};
-  });
+  for (Point3& p : out.points) p = {moved(p.x, least.x), moved(p.y, least.y), moved(p.z, least.z)};
   out.exponent = exponent;
   return true;
 }
 
-void scale(std::span<const Point3> given, ScaledPoints& out) {
+void scale(ScaledPoints& out) {
   double most = 0;
-  for (const Point3& p : given) most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  for (const Point3& p : out.points) most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   const int exponent = most == 0 ? 0 : std::ilogb(most);
-  bool is_same = true;
-  const auto scaled = [&](double value) {
-    const double result = std::ldexp(value, -exponent);
-    is_same &= std::ldexp(result, exponent) == value;
-    return result;
-  };
-  std::transform(given.begin(), given.end(), out.points.begin(),
-                 [&](const Point3& p) { return Point3{scaled(p.x), scaled(p.y), scaled(p.z)}; });
-  if (is_same) {
-    out.exponent = exponent;
-  } else {
-    std::copy(given.begin(), given.end(), out.points.begin());
-  }
+  const auto scaled = [&](double value) { return std::ldexp(value, -exponent); };
+  const auto is_same = [&](double value) { return std::ldexp(scaled(value), exponent) == value; };
+  if (!std::all_of(out.points.begin(), out.points.end(),
+                   [&](const Point3& p) { return is_same(p.x) && is_same(p.y) && is_same(p.z); }))
+    return;
+  for (Point3& p : out.points) p = {scaled(p.x), scaled(p.y), scaled(p.z)};
+  out.exponent = exponent;
 }
 
 double settled_radius(const Estimate& found, const Simplex& s) {
@@ -368,10 +361,12 @@ double settled_radius(const Estimate& found, const Simplex& s) {
 
 }  // namespace
 
-ScaledPoints::ScaledPoints(std::span<const Point3> given) : points(given.size()) {
-  if (given.empty()) return;
-  are_integers = move_to_integers(given, *this);
-  if (!are_integers) scale(given, *this);
+ScaledPoints::ScaledPoints(std::span<const Point3> given, std::span<const std::int32_t> chosen) {
+  if (chosen.empty()) return;
+  points.reserve(chosen.size());
+  for (const std::int32_t v : chosen) points.push_back(given[base::at(v)]);
+  are_integers = move_to_integers(*this);
+  if (!are_integers) scale(*this);
 }
 
 double ranked_radius(const Simplex& simplex, bool are_integers) {

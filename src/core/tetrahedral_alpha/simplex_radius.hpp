@@ -31,7 +31,8 @@ struct ScaledPoints {
   int exponent = 0;  // a radius is that of these points times 2^exponent
   bool are_integers = false;
 
-  explicit ScaledPoints(std::span<const Point3> given);
+  // The points of these numbers.
+  ScaledPoints(std::span<const Point3> given, std::span<const std::int32_t> chosen);
 };
 
 // Radii, with a relative error of less than 2^-40: doubles that have the same bits but `open_bits` if rounded by these

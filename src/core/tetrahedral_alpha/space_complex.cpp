@@ -44,21 +44,22 @@ class Builder {
 
   Builder(std::span<const Point3> points, std::span<const Cell> cells, std::span<const Row> neighbors,
           unsigned threads, const Monitor& monitor)
-      : scaled_(points),
-        cells_(cells),
-        count_(width == 2 ? 0 : cells.size()),
+      : count_(width == 2 ? 0 : cells.size()),
         neighbors_(neighbors),
         threads_(threads),
         monitor_(monitor),
-        cut_(width == 4 ? cells.size() : 0),
-        stars_(cells, points.size(), threads, monitor) {}
+        stars_(cells, points.size(), threads, monitor),
+        scaled_(points, stars_.order()),
+        cut_(width == 4 ? count_ : 0) {}
 
   SpaceArrays run() {
     if constexpr (width == 4) find_facets();
+    const LargeArray<std::uint8_t> edge_is_cut =
+        stars_.find_edges([&](const Visit& visit) { return is_edge_cut(visit); });
     value_ = LargeArray<double>(count_ + facet_.size() + stars_.size());
     measure_cells();
     measure_facets();
-    measure_edges();
+    measure_edges(edge_is_cut);
     const auto compare = [&](std::uint32_t p, std::uint32_t q) {
       return compare_radii(simplex_of(p), simplex_of(q), scaled_.are_integers);
     };
@@ -73,11 +74,11 @@ class Builder {
     Simplex s;
     const auto put = [&](std::int32_t v) { s.corner[s.size++] = &point(v); };
     if (item < count_) {
-      for (const std::int32_t v : cells_[item]) put(v);
+      for (const std::int32_t v : stars_.cell(item)) put(v);
     } else if (item < count_ + facet_.size()) {
       const std::size_t facet = at(facet_[item - count_]);
       if constexpr (width == 4) {
-        for (const std::size_t k : facets[facet % 4]) put(cells_[facet / 4][k]);
+        for (const std::size_t k : facets[facet % 4]) put(stars_.cell(facet / 4)[k]);
       }
     } else {
       for (const std::int32_t v : stars_.ends(item - count_ - facet_.size())) put(v);
@@ -96,14 +97,14 @@ class Builder {
   }
 
   void find_facets() {
-    std::vector<std::size_t> start(base::piece_count(cells_.size(), simplices_a_piece) + 1);
-    for_pieces(cells_.size(), simplices_a_piece, threads_, monitor_,
+    std::vector<std::size_t> start(base::piece_count(count_, simplices_a_piece) + 1);
+    for_pieces(count_, simplices_a_piece, threads_, monitor_,
                [&](std::size_t piece, std::size_t begin, std::size_t end) {
                  visit_facets(begin, end, [&](std::size_t) { ++start[piece + 1]; });
                });
     std::partial_sum(start.begin(), start.end(), start.begin());
     facet_ = LargeArray<std::int32_t>(start.back());
-    for_pieces(cells_.size(), simplices_a_piece, threads_, monitor_,
+    for_pieces(count_, simplices_a_piece, threads_, monitor_,
                [&](std::size_t piece, std::size_t begin, std::size_t end) {
                  std::size_t next = start[piece];
                  visit_facets(begin, end,
@@ -149,7 +150,7 @@ class Builder {
   // Each corner opposite to an edge is that of one or two cells around it: of tetrahedra it is looked at where it is the
   // first of two around the edge, or where no other follows.
   bool is_edge_cut(const Visit& visit) const {
-    const Cell& cell = cells_[visit.cell];
+    const Cell& cell = stars_.cell(visit.cell);
     const auto holds = [&](std::size_t corner) {
       return is_inside_diametral_sphere(point(cell[visit.first]), point(cell[visit.second]),
                                         point(cell[corner]), scaled_.are_integers);
@@ -165,15 +166,10 @@ class Builder {
     }
   }
 
-  void measure_edges() {
-    double* const value = value_.data() + count_ + facet_.size();
-    std::fill(value, value + stars_.size(), 0.0);
-    stars_.for_visits([&](std::size_t e, const Visit& visit) {
-      if (value[e] == 0 && is_edge_cut(visit)) value[e] = left_out;
-    });
+  void measure_edges(const LargeArray<std::uint8_t>& is_cut) {
     for_items(stars_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
-      if (value[e] == 0)
-        value[e] = ranked_radius(simplex_of(count_ + facet_.size() + e), scaled_.are_integers);
+      const std::size_t item = count_ + facet_.size() + e;
+      value_[item] = is_cut[e] != 0 ? left_out : ranked_radius(simplex_of(item), scaled_.are_integers);
     });
   }
 
@@ -218,25 +214,30 @@ class Builder {
     std::copy(ranks.rank.data(), ranks.rank.data() + count_,
               (width == 4 ? out.tetrahedron_rank : out.triangle_min).data());
     out.facet = std::move(facet_);
-    out.edges = stars_.release();
+    out.edges = LargeArray<Ends>(stars_.size());
+    for_items(stars_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
+      const auto [a, b] = stars_.ends(e);
+      const std::int32_t p = stars_.order()[at(a)], q = stars_.order()[at(b)];
+      out.edges[e] = {std::min(p, q), std::max(p, q)};
+    });
+    const double scale = std::ldexp(1.0, scaled_.exponent);
     double so_far = 0;
     for (std::size_t i = 0; i < ranks.value.size(); ++i) {
       so_far = std::max(so_far, ranks.value[i]);
-      ranks.value[i] = std::ldexp(so_far, scaled_.exponent);
+      ranks.value[i] = so_far * scale;
     }
     out.spectrum = std::move(ranks.value);
     out.witness = std::move(ranks.witness);
     return out;
   }
 
-  ScaledPoints scaled_;
-  std::span<const Cell> cells_;
-  std::size_t count_;  // of those that are ranked
+  std::size_t count_;  // of cells that are ranked
   std::span<const Row> neighbors_;
   unsigned threads_;
   const Monitor& monitor_;
-  LargeArray<std::uint8_t> cut_;  // [tetrahedra] TetrahedronMeasure::cut
   EdgeStars<width> stars_;
+  ScaledPoints scaled_;           // by the new numbers
+  LargeArray<std::uint8_t> cut_;  // [tetrahedra] TetrahedronMeasure::cut
   LargeArray<std::int32_t> facet_;
   LargeArray<double> value_;  // [cells + facets + edges] radii at which shapes change, or left out
 };

@@ -26,7 +26,8 @@ from vorotool.numeric.numbers import nearest_double
 from vorotool.numeric.parallel import Progress
 from vorotool.products.registry import OF_ONE_SHAPE, PLOTS
 from vorotool.render.drawing import Drawing, Plot, drawing_of
-from vorotool.types.alpha.complex import Radius, RegionPersistence
+from vorotool.types.alpha.complex import RegionPersistence
+from vorotool.types.alpha.radii import Radius
 from vorotool.types.alpha.shape import AlphaShape
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet

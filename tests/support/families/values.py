@@ -117,6 +117,8 @@ def volume_values():
         "VolumeSeeds": labels.seeds,
         "LabelVolume": labels,
         "Tetrahedralization": vorotool.delaunay(points),
+        "SpaceAlphaComplex": vorotool.alpha_complex(points),
+        "SpaceAlphaShape": vorotool.alpha_shape(points, r=3),
     }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +18,15 @@ from vorotool.engines.alpha.few_points import (
     report_too_few,
     unjoined,
 )
-from vorotool.engines.delaunay.delaunay import triangulated
+from vorotool.engines.delaunay.delaunay import is_of_space, triangulated
 from vorotool.errors import InputError, UsageError, option
 from vorotool.numeric.arrays import ranges, starts_of
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import nearest_double, real_number, shown_number, whole_number
 from vorotool.numeric.parallel import Progress
-from vorotool.types.alpha.complex import AlphaComplex, Radius, checked_radius
+from vorotool.products.formats import resolved
+from vorotool.types.alpha.complex import AlphaComplex
+from vorotool.types.alpha.radii import Radius, checked_radius
 from vorotool.types.alpha.shape import AlphaShape
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.triangulation import DigitalTriangulation, Triangulation
@@ -33,21 +35,54 @@ from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.table import Table
 
 if TYPE_CHECKING:
+    from vorotool.types.alpha.space import SpaceAlphaComplex, SpaceAlphaShape
+    from vorotool.types.mesh.tetrahedralization import Tetrahedralization
+    from vorotool.types.volumes.volume import VolumeSeeds
+    from vorotool.types.volumes.volume_points import VolumePoints
     from vorotool.typing import AlphaRule, MeshLike, RealLike
 
+    SpaceLike = VolumePoints | VolumeSeeds | Tetrahedralization
+
 RULES = ("corrected", "printed")
+_IN_SPACE = "engines.alpha.space_shape"
+"""What does the same for points in space."""
+
+
+@overload
+def alpha_complex(
+    points: SpaceLike,
+    *,
+    strict: bool = ...,
+    allow_empty: bool | None = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+) -> SpaceAlphaComplex: ...
+
+
+@overload
+def alpha_complex(
+    points: DigitalTriangulation | MeshLike,
+    *,
+    rule: AlphaRule = ...,
+    strict: bool = ...,
+    allow_empty: bool | None = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+) -> AlphaComplex: ...
 
 
 def alpha_complex(
-    points: DigitalTriangulation | MeshLike,
+    points: DigitalTriangulation | MeshLike | SpaceLike,
     *,
     rule: AlphaRule = "corrected",
     strict: bool = False,
     allow_empty: bool | None = None,
     threads: int = 0,
     progress: Progress = None,
-) -> AlphaComplex:
+) -> AlphaComplex | SpaceAlphaComplex:
     """Compute the alpha shapes of all radii: the interval of radii of each Delaunay edge.
+
+    Of points in space it has the intervals of edges, triangles and tetrahedra.
 
     Every decision is exact: which edges are Gabriel edges, which radii are equal, and the order of the radii. Radii are
     correctly rounded. The diagonals of cocircular polygons in the triangulation do not affect the result.
@@ -56,7 +91,7 @@ def alpha_complex(
     ----------
     points : PointSet, SeedSet, Triangulation, DigitalTriangulation, (n, 2) array, data frame, GeoSeries, …
         At least two distinct points, unless `allow_empty`. A triangulation is used unchanged; for a digital one only
-        the edges are right.
+        the edges are right. Points in space: VolumePoints, VolumeSeeds, Tetrahedralization or an (n, 3) array.
     rule : {"corrected", "printed"}
         ``printed`` follows the paper's text, which is wrong where an edge is no Gabriel edge; intervals are open.
     strict : bool
@@ -73,13 +108,15 @@ def alpha_complex(
     -------
     AlphaComplex
         The edges, each with its interval of radii.
+    SpaceAlphaComplex
+        Of points in space.
 
     Raises
     ------
     InputError
         If there are fewer than two distinct points, unless `allow_empty`, or a coordinate is not finite.
     UsageError
-        If the rule is unknown.
+        If the rule is unknown, or ``printed`` for points in space, of which the text has none.
 
     Warns
     -----
@@ -102,8 +139,26 @@ def alpha_complex(
     corrected 2.5 2.9
     printed 2.0 2.9
     """
+    _check_rule(rule)
+    if is_of_space(points):
+        _refuse_in_space(rule=None if rule == "corrected" else rule)
+        made: SpaceAlphaComplex = resolved(f"{_IN_SPACE}:space_complex")(
+            points, strict=strict, allow_empty=allow_empty, threads=threads, progress=progress
+        )
+        return made
+    how: Any = {"strict": strict, "allow_empty": allow_empty, "threads": threads, "progress": progress}
+    return _plane_complex(points, rule=rule, **how)
+
+
+def _check_rule(rule: Any) -> None:
     if not is_choice(rule, RULES):
         raise UsageError(f"rule is {rule!r}: use corrected, or printed for the rule as the paper prints it")
+
+
+def _plane_complex(
+    points: Any, *, rule: AlphaRule, strict: bool, allow_empty: bool | None, threads: int, progress: Progress
+) -> AlphaComplex:
+    _check_rule(rule)
     threads = checked_threads(threads)
     if isinstance(points, DigitalTriangulation):
         mesh, edges, sides = linked_digital(points)
@@ -118,6 +173,12 @@ def alpha_complex(
     core_rule = _core.alpha.AlphaRule[rule]
     arrays = _core.alpha.alpha_complex(mesh.points, mesh.triangles, edges, sides, core_rule, threads, progress)
     return AlphaComplex(mesh, edges, sides, rule=rule, **arrays)
+
+
+def _refuse_in_space(**given: Any) -> None:
+    name = next((name for name, value in given.items() if value is not None), None)
+    if name is not None:
+        raise UsageError(f"{name}={given[name]!r} is for points in the plane: leave it out for points in space")
 
 
 def _edges_and_sides(
@@ -192,8 +253,39 @@ def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
     return None if r is None else checked_radius(r)
 
 
+@overload
+def alpha_shape(
+    points: SpaceAlphaComplex | SpaceLike,
+    *,
+    r: RealLike | None = ...,
+    alpha: RealLike | None = ...,
+    regions: int = ...,
+    strict: bool = ...,
+    allow_empty: bool | None = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+) -> SpaceAlphaShape: ...
+
+
+@overload
 def alpha_shape(
     points: AlphaComplex | DigitalTriangulation | MeshLike,
+    *,
+    r: RealLike | None = ...,
+    alpha: RealLike | None = ...,
+    regions: int = ...,
+    hole_threshold: RealLike | None = ...,
+    region_threshold: RealLike | None = ...,
+    rule: AlphaRule = ...,
+    strict: bool = ...,
+    allow_empty: bool | None = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+) -> AlphaShape: ...
+
+
+def alpha_shape(
+    points: AlphaComplex | DigitalTriangulation | MeshLike | SpaceAlphaComplex | SpaceLike,
     *,
     r: RealLike | None = None,
     alpha: RealLike | None = None,
@@ -205,15 +297,16 @@ def alpha_shape(
     allow_empty: bool | None = None,
     threads: int = 0,
     progress: Progress = None,
-) -> AlphaShape:
+) -> AlphaShape | SpaceAlphaShape:
     """Compute the alpha shape of points for one radius: classified edges, regions and polygons.
 
-    The default radius is the smallest r whose shape is one region that contains every point.
+    The default radius is the smallest r whose shape is one region that contains every point. Points in space have
+    tetrahedra, whose surface is closed, and singular triangles and edges.
 
     Parameters
     ----------
     points : AlphaComplex, PointSet, SeedSet, Triangulation, (n, 2) array, data frame, GeoSeries, …
-        Points, or a complex to compute several shapes from.
+        Points, or a complex to compute several shapes from. Points in space, as for `alpha_complex`.
     r : float or Fraction, optional
         The radius, in input units.
     alpha : float or Fraction, optional
@@ -221,7 +314,8 @@ def alpha_shape(
     regions : int
         Largest number of regions allowed by the automatic choice of the radius.
     hole_threshold, region_threshold : number, optional
-        Cavities of at most the first area are filled; then regions of at most the second area are dropped.
+        Cavities of at most the first area are filled; then regions of at most the second area are dropped. In the
+        plane only.
     rule, strict : optional
         As for `alpha_complex`.
     allow_empty : bool, optional
@@ -233,6 +327,8 @@ def alpha_shape(
     -------
     AlphaShape
         The shape, with its radius, edges, regions and polygons.
+    SpaceAlphaShape
+        Of points in space.
 
     Raises
     ------
@@ -250,13 +346,23 @@ def alpha_shape(
     >>> shape = alpha_shape([[0, 0], [2, 0], [2, 2], [0, 2], [9, 1]])
     >>> round(shape.r, 3), shape.region_count, shape.area
     (3.571, 1, 11.0)
+    >>> cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    >>> shape = alpha_shape(cube)
+    >>> round(shape.r, 3), round(shape.volume, 9), shape.area, len(shape.surface)
+    (0.866, 1.0, 6.0, 12)
     """
     radius = chosen_radius(r, alpha)
+    if is_of_space(points):
+        own = None if rule == "corrected" else rule
+        _refuse_in_space(hole_threshold=hole_threshold, region_threshold=region_threshold, rule=own)
+        how: dict[str, Any] = {"strict": strict, "allow_empty": allow_empty, "threads": threads, "progress": progress}
+        made: SpaceAlphaShape = resolved(f"{_IN_SPACE}:space_shape")(points, radius, regions=regions, **how)
+        return made
     if isinstance(points, AlphaComplex):
         family = points
     else:
-        wanted: dict[str, Any] = {"rule": rule, "strict": strict, "allow_empty": allow_empty}
-        family = alpha_complex(points, **wanted, threads=threads, progress=progress)
+        wanted: Any = {"rule": rule, "strict": strict, "allow_empty": allow_empty}
+        family = _plane_complex(points, **wanted, threads=threads, progress=progress)
     reason = unjoined(family) if radius is None else None
     if reason is not None:
         if len(family):  # else it has been told that there are too few points
@@ -350,14 +456,14 @@ def automatic_rank(family: AlphaComplex, *, regions: int = 1, progress: Progress
     return covered + int(found[0])
 
 
-def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
+def alpha_curves(family: AlphaComplex | SpaceAlphaComplex, *, progress: Progress = None) -> Table:
     """Compute area, perimeter and counts of the alpha shapes of all radii in one sweep.
 
     Row k holds from radius k of the spectrum to the next one; below the first radius all points are isolated.
 
     Parameters
     ----------
-    family : AlphaComplex
+    family : AlphaComplex or SpaceAlphaComplex
         The shapes of all radii, by the corrected rule.
     progress : callable, optional
         Called with the fraction done.
@@ -368,6 +474,11 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
         ``r, area, perimeter, regions, cavities, edges``: the area of the triangles, the length of the boundary edges,
         the regions (triangles joined through edges), the bounded components of their complement, and the number of
         singular and boundary edges.
+
+        In space ``r, volume, area, regions, parts, cavities, tunnels``: the volume of the tetrahedra, the area of their
+        surface, the regions (tetrahedra joined through triangles), the parts (all that is joined through edges, single
+        points too), the bounded components of the complement of the shape, singular triangles included, and its
+        tunnels, by Euler's relation.
 
     Raises
     ------
@@ -380,7 +491,10 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
     >>> curves["r"].tolist(), curves["area"].tolist(), curves["edges"].tolist()
     ([1.5, 2.0, 2.5], [0.0, 0.0, 6.0], [1, 2, 3])
     """
-    check_value(family, "family", "AlphaComplex")
+    check_value(family, "family", "AlphaComplex", "SpaceAlphaComplex")
+    if not isinstance(family, AlphaComplex):
+        in_space: Table = resolved(f"{_IN_SPACE}:space_curves")(family, progress=progress)
+        return in_space
     if family.rule != "corrected":
         raise UsageError("curves and the automatic radius need the corrected rule: leave out rule=printed")
     curves = _core.alpha.alpha_curves(

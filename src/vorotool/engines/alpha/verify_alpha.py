@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import inf
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +14,15 @@ from vorotool.errors import VerificationError
 from vorotool.numeric.arrays import owners
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress
-from vorotool.types.alpha.complex import CLASSES, AlphaComplex, Radius
+from vorotool.products.formats import resolved
+from vorotool.types.alpha.complex import CLASSES, AlphaComplex
+from vorotool.types.alpha.radii import Radius
 from vorotool.types.alpha.shape import AlphaShape
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.triangulation import Triangulation
+
+if TYPE_CHECKING:
+    from vorotool.types.alpha.space import SpaceAlphaShape
 
 # Relative error of a squared radius in floating point: a few roundings, and those of the cross product many times as
 # much where it cancels. What is closer to r than this is decided in rational numbers.
@@ -26,15 +32,16 @@ _SMALL = 2.0**-900
 """Far above what loses digits because it is near the smallest number."""
 
 
-def verify_alpha_shape(shape: AlphaShape, *, threads: int = 0, progress: Progress = None) -> None:
+def verify_alpha_shape(shape: AlphaShape | SpaceAlphaShape, *, threads: int = 0, progress: Progress = None) -> None:
     """Check an alpha shape exactly from its triangulation.
 
     The checks: the triangulation; each circumradius against r, unless small holes or regions were changed; for each
-    edge the Gabriel property, half its length against r, and so its class; regions and polygon rings.
+    edge the Gabriel property, half its length against r, and so its class; regions and polygon rings. In space the
+    same of tetrahedra, triangles and edges, and that the surface is closed.
 
     Parameters
     ----------
-    shape : AlphaShape
+    shape : AlphaShape or SpaceAlphaShape
         A shape by the corrected rule.
     threads : int
         Number of threads; 0 uses all.
@@ -57,7 +64,10 @@ def verify_alpha_shape(shape: AlphaShape, *, threads: int = 0, progress: Progres
         ...
     vorotool.errors.VerificationError: triangle 0 is in the shape, but its circumradius is greater than r
     """
-    check_value(shape, "shape", "AlphaShape")
+    check_value(shape, "shape", "AlphaShape", "SpaceAlphaShape")
+    if not isinstance(shape, AlphaShape):
+        resolved("engines.alpha.verify_space:verify_space_shape")(shape, threads=threads, progress=progress)
+        return
     family = shape.family
     verify_triangulation(family.mesh, threads=threads, progress=progress)
     _check_sides(family)

@@ -102,7 +102,7 @@ def delaunay(
     >>> len(delaunay([[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2], [1, 1, 0.5]]).tetrahedra)
     4
     """
-    if _is_of_space(points):
+    if is_of_space(points):
         make = resolved(f"{_IN_SPACE}:tetrahedralization")
         return make(points, strict=strict, threads=threads, progress=progress)
     return triangulated(points, strict=strict, threads=threads, progress=progress)
@@ -130,11 +130,11 @@ def _point_set(points: Any) -> PointSet:
     return as_points(points)
 
 
-def _is_of_space(points: Any) -> bool:
-    """Whether points have three coordinates: by their type, or as arrays and lists of triples."""
+def is_of_space(points: Any) -> bool:
+    """Tell whether points have three coordinates: by their type, or as arrays and lists of triples."""
     if isinstance(points, PointSet | SeedSet):
         return False
-    if is_of(points, "VolumePoints", "VolumeSeeds"):
+    if is_of(points, "VolumePoints", "VolumeSeeds", "Tetrahedralization", "SpaceAlphaComplex"):
         return True
     width: int | None = resolved("convert.volumes:row_width")(points)
     return width == 3

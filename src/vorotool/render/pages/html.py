@@ -20,7 +20,8 @@ from vorotool.products.formats import AS_PICTURE, AS_SVG
 from vorotool.render.canvas.styles import cell_color
 from vorotool.render.label_images.svg import crack_loops
 from vorotool.render.pages.plots import CURVES
-from vorotool.types.alpha.complex import AlphaComplex, Radius
+from vorotool.types.alpha.complex import AlphaComplex
+from vorotool.types.alpha.radii import Radius
 from vorotool.types.box import bounds
 from vorotool.types.fields import is_up
 from vorotool.types.images import LabelImage

@@ -5,32 +5,26 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from math import floor, inf, isqrt
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.numeric.numbers import nearest_double, real_number, shown_number
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
+from vorotool.types.alpha.radii import Radius, RankedRadii, checked_radius
 from vorotool.types.features import Corners, Rows
 from vorotool.types.fields import record
 from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.table import Table
 from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted
 
-Radius = float | Fraction
-"""A radius: a double, or an exact fraction such as a decimal number."""
-
 CLASSES = ("outside", "singular", "boundary", "interior")
 """Classes of edges by number: outside of a shape, alone in it, on one triangle of it, between two."""
 
 
 @record
-class AlphaComplex(Value, Tabular, Geometric, Pictured):
+class AlphaComplex(Value, RankedRadii, Tabular, Geometric, Pictured):
     """Family of alpha shapes: the radii at which each Delaunay edge enters, bounds and leaves the shape.
 
     The paper's α is -1/r. An edge is in the shape for r_min ≤ r < r_max. r_min is half its length, if it is a Gabriel
@@ -99,27 +93,9 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
         """(n, 2) coordinates, in the order of the input."""
         return self.mesh.points
 
-    def reached(self, r: Radius) -> int:
-        """Return the exact number of critical radii that are at most r: lower ranks are reached."""
-        return self._count(r, or_equal=True)
-
     def entered(self, r: Radius) -> int:
         """Return the number of critical radii reached at r; with open intervals, of those below r."""
         return self._count(r, or_equal=self.rule != "printed")
-
-    def _count(self, r: Radius, *, or_equal: bool) -> int:
-        """Doubles that differ compare as the exact values do; among equal ones the exact squares are compared."""
-        rounded = nearest_double(r)
-        low, high = (int(np.searchsorted(self.spectrum, rounded, side=side)) for side in ("left", "right"))
-        square = None if r == inf else Fraction(r) ** 2
-        while low < high:
-            middle = (low + high) // 2
-            exact = self.squared_radius(middle)
-            if square is None or exact < square or (or_equal and exact == square):
-                low = middle + 1
-            else:
-                high = middle
-        return low
 
     def squared_radius(self, rank: int) -> Fraction:
         """Return the exact square of a radius of the spectrum."""
@@ -134,30 +110,6 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
         vx, vy = places[2][0] - ax, places[2][1] - ay
         product = (ux * ux + uy * uy) * (vx * vx + vy * vy) * ((vx - ux) ** 2 + (vy - uy) ** 2)
         return product / (4 * (ux * vy - uy * vx) ** 2)
-
-    def radius_from(self, rank: int) -> Radius:
-        """Return a radius for the shape of a rank: at least the critical radius, less than the next.
-
-        The radius is the least such double, or a decimal fraction if there is none.
-        """
-        square = self.squared_radius(rank)
-        rounded = float(self.spectrum[rank])
-        if rounded < inf and Fraction(rounded) ** 2 < square:
-            rounded = float(np.nextafter(rounded, inf))
-        if rounded < inf and self.reached(rounded) == rank + 1:
-            return rounded
-        return self._fraction_from(rank, square)
-
-    def _fraction_from(self, rank: int, square: Fraction) -> Fraction:
-        """Return a decimal at least as large as a radius that another one follows within the spacing of doubles."""
-        bits = square.numerator.bit_length() - square.denominator.bit_length()
-        digits = 17 - floor(bits / 2 * 0.30103)  # behind the point: at least 16 significant ones
-        while True:
-            step = Fraction(10) ** -digits
-            root = _ceiling_root(square / step**2) * step
-            if self.reached(root) == rank + 1:
-                return root
-            digits += 5
 
     def classes(self, r: Radius) -> NDArray[np.uint8]:
         """Return the (e,) indices of the classes of the edges in `CLASSES` for the shape of r.
@@ -201,22 +153,6 @@ def classes_of(family: AlphaComplex, reached: int, entered: int) -> NDArray[np.u
     classes[family.rank_min >= entered] = 0
     classes[family.rank_max < reached] = 3
     return classes
-
-
-def checked_radius(r: Any) -> Radius:
-    """Return a radius that is positive; infinity is one."""
-    value = real_number(r, "r")
-    if not value > 0:
-        raise UsageError(
-            f"r is {shown_number(value)}: a radius must be positive; "
-            "leave it out for the smallest that joins all points"
-        )
-    return value
-
-
-def _ceiling_root(value: Fraction) -> int:
-    """Return the least integer whose square is at least this positive number."""
-    return isqrt(-(-value.numerator // value.denominator) - 1) + 1
 
 
 @record

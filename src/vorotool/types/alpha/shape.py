@@ -15,7 +15,8 @@ from vorotool.numeric.curves.inverse_functions import PI, cosine_and_sine, hypot
 from vorotool.numeric.numbers import nearest_double
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
-from vorotool.types.alpha.complex import CLASSES, AlphaComplex, Radius
+from vorotool.types.alpha.complex import CLASSES, AlphaComplex
+from vorotool.types.alpha.radii import Radius
 from vorotool.types.features import Mixture, Rows, of_points
 from vorotool.types.fields import record
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet, set_of_rings

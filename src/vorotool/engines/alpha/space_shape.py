@@ -1,0 +1,118 @@
+"""Alpha shapes of points in space."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.alpha.few_points import GIVE_R, refuse_or_warn, report_too_few
+from vorotool.engines.delaunay.tetrahedralization import tetrahedralization
+from vorotool.errors import InputError, UsageError
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.numeric.parallel import Progress
+from vorotool.types.alpha.radii import Radius
+from vorotool.types.alpha.space import SpaceAlphaComplex, SpaceAlphaShape
+from vorotool.types.mesh.tetrahedralization import Tetrahedralization
+from vorotool.types.table import Table
+
+
+def space_complex(
+    points: Any, *, strict: bool = False, allow_empty: bool | None = None, threads: int = 0, progress: Progress = None
+) -> SpaceAlphaComplex:
+    """Compute the alpha shapes of all radii of points in space, as `vorotool.alpha_complex` does."""
+    threads = checked_threads(threads)
+    if isinstance(points, Tetrahedralization):
+        mesh = points
+    else:
+        mesh = tetrahedralization(points, strict=strict, threads=threads, progress=progress)
+    if len(mesh.points) - mesh.duplicates < 2:
+        report_too_few(len(mesh.points), allow_empty=bool(allow_empty), strict=strict)
+    chain = mesh.edges if mesh.dimension == 1 else np.empty((0, 2), dtype=np.int32)
+    cells = mesh.points, mesh.tetrahedra, mesh.neighbors, mesh.planar, chain
+    return SpaceAlphaComplex(mesh, **_core.tetrahedral_alpha.space_complex(*cells, threads, progress))
+
+
+def space_shape(
+    points: Any,
+    radius: Radius | None,
+    *,
+    regions: int = 1,
+    strict: bool = False,
+    allow_empty: bool | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> SpaceAlphaShape:
+    """Compute the alpha shape of points in space for one radius, as `vorotool.alpha_shape` does."""
+    family = points
+    if not isinstance(points, SpaceAlphaComplex):
+        family = space_complex(points, strict=strict, allow_empty=allow_empty, threads=threads, progress=progress)
+    reason = unjoined(family) if radius is None else None
+    if reason is not None:
+        if len(family.edges):  # else it has been told that there are too few points
+            refuse_or_warn(reason, GIVE_R, allow_empty=bool(allow_empty), strict=strict)
+        radius = float(np.nextafter(family.spectrum[0] * (1 - family.doubt), 0)) if len(family.spectrum) else 1.0
+    elif radius is None:
+        radius = family.radius_from(automatic_rank(family, regions=regions, progress=progress))
+    elif regions != 1:
+        raise UsageError("regions applies to the automatic radius: leave out r and alpha")
+    return SpaceAlphaShape(family, radius, _regions(family, family.reached(radius)))
+
+
+def _regions(family: SpaceAlphaComplex, reached: int) -> NDArray[np.int32]:
+    """(t,) regions of tetrahedra that are joined through triangles, numbered in the order of their first ones."""
+    inside = family.tetrahedron_rank < reached
+    sides = family.sides
+    is_joined = np.append(inside, False)[sides].all(axis=1)  # side -1 is none
+    root = _core.graphs.connected_components(np.ascontiguousarray(sides[is_joined]), len(inside))
+    is_first = inside & (root == np.arange(len(root)))
+    numbers = np.cumsum(is_first, dtype=np.int32) - np.int32(1)
+    return np.where(inside, numbers[root], np.int32(-1))
+
+
+def unjoined(family: SpaceAlphaComplex) -> str | None:
+    """Say why no radius gives a region that holds every point; None where one does."""
+    if len(family):
+        return None
+    count = len(family.points) - family.mesh.duplicates
+    where = {2: " in a plane", 1: " on a line"}.get(family.mesh.dimension, "") if count > 2 else ""
+    held = f"{count} points{where} span" if count != 1 else "one point spans"
+    return f"{held} no tetrahedron, so no radius gives a region that holds all points"
+
+
+def automatic_rank(family: SpaceAlphaComplex, *, regions: int = 1, progress: Progress = None) -> int:
+    """Give the first rank whose shape has at most so many regions, which contain every point."""
+    if whole_number(regions, "regions") < 1:
+        raise UsageError(f"regions is {shown_number(regions)}: use 1 or more")
+    if (reason := unjoined(family)) is not None:
+        raise InputError(f"{reason}{GIVE_R}")
+    covered = family.covered
+    found = np.flatnonzero(space_curves(family, progress=progress)["regions"][covered:] <= regions)
+    return covered + int(found[0])
+
+
+def space_curves(family: SpaceAlphaComplex, *, progress: Progress = None) -> Table:
+    """Compute measures of the alpha shapes of all radii in one sweep, as `vorotool.alpha_curves` does."""
+    mesh, count = family.mesh, len(family.spectrum)
+    places = len(mesh.points) - mesh.duplicates
+    ranks = {"edges": family.edge_min, "triangles": family.triangle_min, "tetrahedra": family.tetrahedron_rank}
+    found = _core.tetrahedral_alpha.space_curves(
+        count,
+        places,
+        family.tetrahedron_rank,
+        np.ascontiguousarray(family.sides),
+        family.triangle_min,
+        family.edges,
+        family.edge_min,
+        mesh.volumes,
+        family.areas(family.triangles),
+        progress,
+    )
+    edges, triangles, tetrahedra = (np.cumsum(np.bincount(rank, minlength=count)[:count]) for rank in ranks.values())
+    euler = places - edges + triangles - tetrahedra
+    tunnels = (found["parts"] + found["cavities"] - euler).astype(np.int32)
+    sizes = {name: found[name] for name in ("volume", "area", "regions", "parts", "cavities")}
+    return Table({"r": family.spectrum, **sizes, "tunnels": tunnels})
