@@ -37,8 +37,8 @@ from vorotool.types.table import Table
 if TYPE_CHECKING:
     from vorotool.types.alpha.space import SpaceAlphaComplex, SpaceAlphaShape
     from vorotool.types.mesh.tetrahedralization import Tetrahedralization
+    from vorotool.types.points.point_set import VolumePoints
     from vorotool.types.volumes.volume import VolumeSeeds
-    from vorotool.types.volumes.volume_points import VolumePoints
     from vorotool.typing import AlphaRule, MeshLike, RealLike
 
     SpaceLike = VolumePoints | VolumeSeeds | Tetrahedralization
