@@ -15,8 +15,7 @@ from vorotool.numeric.arrays import Booleans, Floats
 from vorotool.numeric.parallel import Progress
 from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.alpha.radii import Radius
-from vorotool.types.alpha.space import SpaceAlphaComplex, SpaceAlphaShape
-from vorotool.types.mesh.tetrahedralization import cross, dot
+from vorotool.types.alpha.space import SpaceAlphaComplex, SpaceAlphaShape, cross
 
 _ROUNDING = 2.0**-46
 """Relative error of a sum or product of a few numbers, times the sum of the sizes of its terms."""
@@ -122,30 +121,36 @@ def _squares(places: Floats) -> tuple[Floats, Floats]:
     a, *others = np.moveaxis(places, 0, 2)
     ways = [other - a for other in others]
     with np.errstate(all="ignore"):
-        sizes = np.stack([dot(way, way) for way in ways])
+        sizes = np.stack([_dot(way, way) for way in ways])
         known = (sizes.min(axis=0) > _SMALL**2) & (sizes.max(axis=0) < _LARGE**2)
         if len(ways) == 1:
             return sizes[0] / 4, np.where(known, _ROUNDING, inf)
         b, c = ways[:2]
-        third = dot(c - b, c - b)
+        third = _dot(c - b, c - b)
         if len(ways) == 2:
             square, terms = _square_of_cross(b, c)
             return sizes[0] * sizes[1] * third / (4 * square), np.where(known, _ROUNDING * (4 + terms / square), inf)
         d = ways[2]
-        p, q, r = sizes * np.stack([dot(d - c, d - c), dot(d - b, d - b), third])
+        p, q, r = sizes * np.stack([_dot(d - c, d - c), _dot(d - b, d - b), third])
         value, squares = 2 * (p * q + q * r + r * p), p * p + q * q + r * r
-        determinant = dot(b, cross(c, d))
-        terms = dot(np.abs(b), np.stack([np.abs(c[i - 2] * d[i - 1]) + np.abs(c[i - 1] * d[i - 2]) for i in range(3)]))
+        determinant = _dot(b, cross(c, d))
+        terms = _dot(np.abs(b), np.stack([np.abs(c[i - 2] * d[i - 1]) + np.abs(c[i - 1] * d[i - 2]) for i in range(3)]))
         spread = (value + squares) / (value - squares) + terms / np.abs(determinant)
         is_doubted = ~(known & (terms > _SMALL**3) & (spread > 0))
         return (value - squares) / (16 * determinant * determinant), np.where(is_doubted, inf, _ROUNDING * (4 + spread))
+
+
+def _dot(p: Floats, q: Floats) -> Floats:
+    """Scalar products of (3, n) vectors."""
+    products: Floats = p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+    return products
 
 
 def _square_of_cross(b: Floats, c: Floats) -> tuple[Floats, Floats]:
     """The square of the cross product of (3, n) vectors, and that of what its terms are, all with the same sign."""
     normal = cross(b, c)
     terms = np.stack([np.abs(b[i - 2] * c[i - 1]) + np.abs(b[i - 1] * c[i - 2]) for i in range(3)])
-    return dot(normal, normal), dot(terms, terms)
+    return _dot(normal, normal), _dot(terms, terms)
 
 
 def _squared_radius(places: list[list[float]]) -> Fraction:

@@ -18,10 +18,12 @@ from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.alpha.radii import Radius, RankedRadii, checked_radius
 from vorotool.types.features import Rows
 from vorotool.types.fields import record
-from vorotool.types.mesh.tetrahedralization import BLOCK, EDGES, FACES, Tetrahedralization, cross, norms
+from vorotool.types.mesh.tetrahedralization import EDGES, FACES, Tetrahedralization, norms
 from vorotool.types.table import Computed, Lookup, Table
 from vorotool.types.values import Tabular, Value, counted
 
+_BLOCK = 1 << 13
+"""Triangles that are measured at a time."""
 SIMPLICES = ("points", "edges", "triangles", "tetrahedra")
 """What alpha shapes in space consist of, by how many corners it has."""
 
@@ -164,10 +166,10 @@ class SpaceAlphaComplex(Value, RankedRadii, Tabular):
     def areas(self, triangles: NDArray[np.int32]) -> Floats:
         """Return the areas of triangles."""
         areas = np.empty(len(triangles))
-        for begin in range(0, len(triangles), BLOCK):
-            a, b, c = np.moveaxis(self.points[triangles[begin : begin + BLOCK]], 0, 2)
+        for begin in range(0, len(triangles), _BLOCK):
+            a, b, c = np.moveaxis(self.points[triangles[begin : begin + _BLOCK]], 0, 2)
             with np.errstate(over="ignore"):
-                areas[begin : begin + BLOCK] = norms(cross(b - a, c - a).T) / 2
+                areas[begin : begin + _BLOCK] = norms(cross(b - a, c - a).T) / 2
         return areas
 
     def squared_radius(self, rank: int) -> Fraction:
@@ -207,6 +209,11 @@ class SpaceAlphaComplex(Value, RankedRadii, Tabular):
     def _summary(self) -> str:
         radii = counted(len(self.spectrum), "critical radius", "critical radii")
         return f"{counted(len(self.points), 'point')}, {counted(len(self), 'tetrahedron', 'tetrahedra')}, {radii}"
+
+
+def cross(p: Floats, q: Floats) -> Floats:
+    """Cross products of (3, n) vectors."""
+    return np.stack([p[i - 2] * q[i - 1] - p[i - 1] * q[i - 2] for i in range(3)])
 
 
 def _checked(what: str) -> str:
