@@ -10,6 +10,7 @@ from vorotool.products.writing import chosen_part
 
 POINTS = [[0, 0], [4, 0], [0, 3], [5, 5]]
 SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]]
+IN_SPACE = [[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2]]
 WAIST = [[0, 0], [4, 1], [8, 0], [8, 4], [4, 3], [0, 4]]
 
 
@@ -23,7 +24,7 @@ def values():
         mesh,
         vorotool.digital_triangulation([[1, 1], [5, 3], [2, 6]], shape=(8, 8)),
         vorotool.proximity_graph(mesh, "mst"),
-        vorotool.delaunay([[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2]]),
+        vorotool.delaunay(IN_SPACE),
         vorotool.voronoi_cells(POINTS),
         vorotool.cell_statistics(POINTS),
         vorotool.persistence(POINTS),
@@ -43,6 +44,7 @@ def values():
         vorotool.largest_discs(SQUARE, count=2),
         vorotool.hausdorff(SQUARE, POINTS),
     ]
+    found += [vorotool.alpha_complex(IN_SPACE), vorotool.alpha_shape(IN_SPACE)]
     return {type(value).__name__: value for value in found}
 
 

@@ -219,7 +219,7 @@ class ShapeProducts(Results):
         if not self.has_shape:
             return counts
         shape, is_known = self.shape, not self.is_unjoined
-        counts |= {"r": _json_number(shape.r) if is_known else None, "alpha": shape.alpha if is_known else None}
+        counts |= {"r": json_number(shape.r) if is_known else None, "alpha": shape.alpha if is_known else None}
         counts["automatic"] = self.radius is None
         counts |= {"singular_edges": int((shape.kind == 1).sum()), "boundary_edges": int((shape.kind == 2).sum())}
         if o.method == "digital":
@@ -244,7 +244,7 @@ def radius_text(r: Radius) -> str:
         return f"{(Decimal(r.numerator) / Decimal(r.denominator)).normalize()}"
 
 
-def _json_number(r: Radius) -> float | str:
+def json_number(r: Radius) -> float | str:
     """A number where it says all; JSON has no infinity."""
     number = nearest_double(r)
     return number if number == r and number != inf else radius_text(r)

@@ -75,7 +75,10 @@ or labels count as points at their centroids; - is standard input. Label i is th
 kept.
 
 --what family, spectrum, curves and persistence are about the shapes of all radii. -f html makes a page with a slider
-over r.""",
+over r.
+
+With --space points have a z: their shape consists of tetrahedra, and --what surface is its closed surface.""",
+        job_in_space="jobs.space_shape:SpaceShapeProducts",
         instead=(
             (
                 "--spacing",

@@ -171,6 +171,20 @@ _HULL_LAYERS = _SHAPE_LAYERS._replace(drawn_by="render.layers.mesh:hull")
 _EDGES = ("AlphaShape", "csv tsv json geojson npz npy", _SHAPE_LAYERS)
 _POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE_LAYERS)
 _GENERAL = ("AlphaShape", "geojson wkt", _SHAPE_LAYERS)
+_SURFACE = _product("surface", "SpaceAlphaShape", f"{_TABLES} npy obj ply stl vtu", own=_SOLID,
+    usual_for=("ply", "stl"))
+_SHAPE_TETRAHEDRA = _product("tetrahedra", "SpaceAlphaShape", f"{_TABLES} npy vtu", own=_SOLID, usual_for=("vtu",))
+_SHAPE_TRIANGLES = _product("triangles", "SpaceAlphaShape", f"{_TABLES} npy obj ply stl vtu", own=_SOLID)
+_SPACE_SHAPES = (
+    _SURFACE._replace(usual_for=("obj", "ply", "stl")),
+    _SHAPE_TETRAHEDRA,
+    _SHAPE_TRIANGLES,
+    _product("edges", "SpaceAlphaShape", f"{_TABLES} npy obj vtu", own=_SOLID),
+    _product("family", "SpaceAlphaComplex", _TABLES),
+    _product("spectrum", "SpaceAlphaComplex", f"{_TABLES} npy"),
+    _product("curves", "", _TABLES),
+    _product("table", "SpaceAlphaShape", _TABLES),
+)
 _ALPHASHAPE = (
     _product("edges", *_EDGES, "boundary singular points", has_page=True, moves=True),
     _product("polygons", *_POLYGONS, "polygons", own=_POLYGON_FILES, has_page=True, moves=True,
@@ -279,7 +293,7 @@ _OF_ALL = {
 _BY_COMMAND: dict[str, Sequence[Product]] = {
     "tessellate": _TESSELLATE,
     "delaunay": (*_DELAUNAY, _TETRAHEDRA, _HULL),
-    "alphashape": _ALPHASHAPE,
+    "alphashape": (*_ALPHASHAPE, _SURFACE, _SHAPE_TETRAHEDRA, _SHAPE_TRIANGLES),
     "voronoi": _VORONOI,
     "skeleton-exact": (*_SKELETONS, *_OF_WHOLE_AXIS),
     "skeleton-approx": tuple(
@@ -292,7 +306,9 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
 }
 PRODUCTS = {command: {each.what: each for each in products} for command, products in _BY_COMMAND.items()}
 """Products of each command, by name."""
-OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "points", "table"})
+OF_ONE_SHAPE = frozenset(
+    {"edges", "polygons", "complex", "general", "hull", "points", "table", "surface", "tetrahedra", "triangles"}
+)
 """Results of `alphashape` that are of one radius; the others are of all."""
 PLOTS = ("curves", "persistence")
 """Those whose picture is a plot over the radius."""
@@ -302,7 +318,9 @@ VOLUME_PRODUCTS = {each.what: each for each in _VOLUMES}
 """Those of `tessellate` where the input is a volume."""
 SPACE_PRODUCTS = {each.what: each for each in _SPACE}
 """Those of `delaunay` where the points lie in space."""
-OF_SPACE = {"tessellate": VOLUME_PRODUCTS, "delaunay": SPACE_PRODUCTS}
+SPACE_SHAPES = {each.what: each for each in _SPACE_SHAPES}
+"""Those of `alphashape` where the points lie in space."""
+OF_SPACE = {"tessellate": VOLUME_PRODUCTS, "delaunay": SPACE_PRODUCTS, "alphashape": SPACE_SHAPES}
 """Those of commands whose inputs may have three axes, where they do."""
 
 
@@ -338,7 +356,10 @@ def parts_of(value: object) -> dict[str, Product]:
     """Give the products that a value is written as, the usual first."""
     found: dict[str, Product] = {}
     for product in (
-        each for own in (*PRODUCTS.values(), SPACE_PRODUCTS) for each in own.values() if is_of(value, *each.types)
+        each
+        for own in (*PRODUCTS.values(), SPACE_PRODUCTS, SPACE_SHAPES)
+        for each in own.values()
+        if is_of(value, *each.types)
     ):
         found.setdefault(product.what, product)
     return found
@@ -346,4 +367,8 @@ def parts_of(value: object) -> dict[str, Product]:
 
 def public_types() -> list[str]:
     """Give the names of all types that can be written."""
-    return list(dict.fromkeys(name for own in PRODUCTS.values() for each in own.values() for name in each.types))
+    return list(
+        dict.fromkeys(
+            name for own in (*PRODUCTS.values(), SPACE_SHAPES) for each in own.values() for name in each.types
+        )
+    )

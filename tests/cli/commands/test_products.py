@@ -23,16 +23,17 @@ NEEDED = {"offset": ["-d", "-20,5"], "points": ["--every", "20"], "transects": [
 """Of skeletons."""
 OF_IMAGES = {("skeleton-exact", "thickness")}
 """What is of no polygons."""
-OF_SPACE = ("tetrahedra", "hull")
-"""Results of `delaunay --space` alone; test_delaunay_space.py has the others."""
+OF_SPACE = {("delaunay", "tetrahedra"), ("delaunay", "hull")}
+OF_SPACE |= {("alphashape", "surface"), ("alphashape", "tetrahedra"), ("alphashape", "triangles")}
+"""Results with `--space` alone; test_delaunay_space.py and test_alphashape_space.py have the others."""
 
 
 @pytest.mark.parametrize(("command", "what"), [(command, what) for command in INPUTS for what in formats_of(command)])
 def test_every_format_is_written(run, folder, command, what):
     more = NEEDED.get(what, []) if command == "skeleton-exact" else []
-    if what in OF_SPACE and command == "delaunay":
+    if (command, what) in OF_SPACE:
         (folder / "space.csv").write_text("x,y,z\n0,0,0\n4,0,0\n0,3,0\n0,0,2\n1,1,1\n")
-        more = ["--space"]
+        more = ["--space", *(["-r", "inf"] if command == "alphashape" else [])]
     for fmt in formats_of(command)[what]:
         if (command, what, fmt) in OF_SEVERAL_KINDS or what not in (first_with(command, fmt), last_with(command, fmt)):
             continue  # the library writes all of them: products/test_writing.py
@@ -44,7 +45,7 @@ def test_every_format_is_written(run, folder, command, what):
         names_the_format = fmt != "zarr" and what == first_with(command, fmt)
         for way in ways if names_the_format else ways[:1]:
             inputs = [DATA / "blobs.png"] if (command, what) in OF_IMAGES else INPUTS[command]
-            inputs = ["space.csv"] if what in OF_SPACE and command == "delaunay" else inputs
+            inputs = ["space.csv"] if (command, what) in OF_SPACE else inputs
             done = run(command, *inputs, "--what", what, *more, *picture, *frames, *way)
             assert (done.code, done.err if what not in ("compare", "persistence") else "") == (0, ""), fmt
         assert fmt == "zarr" or named.read_bytes() != b"", fmt

@@ -26,7 +26,8 @@ LENGTHS = {
 }
 """Lengths that a table needs, for the smaller input."""
 OF_SPACE = {("delaunay", "tetrahedra"), ("delaunay", "hull")}
-"""Of points with a z, in test_delaunay_space.py."""
+OF_SPACE |= {("alphashape", "surface"), ("alphashape", "tetrahedra"), ("alphashape", "triangles")}
+"""Of points with a z, in test_delaunay_space.py and test_alphashape_space.py."""
 STEP = " --step {2}"
 
 

@@ -23,7 +23,7 @@ INPUT = (
         "numbers.page"),
     Option("--volume", "tessellate", "Read all pages of a stack, or an array with three axes, as one volume (z, y, x), "
         "and points with their z."),
-    Option("--space", "delaunay", "Triangulate points in space, by their x, y and z; --columns X,Y,z=Z names the "
+    Option("--space", "delaunay alphashape", "Take points in space, by their x, y and z; --columns X,Y,z=Z names the "
         "columns."),
     Option("--pixel-size SIZE|auto", BATCHES, "Side of a pixel, or unit of the coordinates, such as 0.325um: scales "
         "what is written in tables and vectors, and lengths with a unit, such as --max-distance 5um, where the input "

@@ -60,6 +60,10 @@ EXCLUDING = (
         "seeds connectivity threshold invert min_area fill_holes y_up input_layer input_crs crs overlay "
         "scale scale_bar",
         "the option applies to points in the plane, or to images"),
+    Rule("alphashape", "?is_of_space", "method=digital method=digital-valid rule=printed hole_threshold "
+        "region_threshold frame size window page seeds connectivity threshold invert min_area fill_holes y_up "
+        "input_layer input_crs crs overlay scale scale_bar",
+        "the option applies to points in the plane, or to images"),
     Rule("alphashape", "regions", "r alpha", "--regions applies to the automatic choice of r"),
     Rule("alphashape", "what:hull", "hole_threshold region_threshold", "the hull has no thresholds"),
     Rule("alphashape", "rule=printed", "verify ?is_automatic what:curves what:persistence .html",
@@ -100,6 +104,8 @@ NEEDING = (
     Rule("tessellate", "passes", "method=propagation"),
     Rule("tessellate", "slice levels connectivity=26 connectivity=6", "volume ?is_of_space"),
     Rule("delaunay", "what:tetrahedra what:hull", "space ?is_of_space", "they are of points in space"),
+    Rule("alphashape", "what:surface what:tetrahedra what:triangles", "space ?is_of_space",
+        "they are of points in space"),
     Rule("delaunay", "size window", "method=digital method=digital-valid ?is_digital",
         "the frame is of the digital tessellation"),
     Rule("alphashape", "size window", "method=digital method=digital-valid",
