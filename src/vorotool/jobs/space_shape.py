@@ -45,7 +45,7 @@ class SpaceShapeProducts(Results):
         mesh: Any = self.call(TRIANGULATE, points, phase="triangulate")
         note_repeated_labels(run, points, mesh)
         self._allow_empty = not len(points)
-        how = {"phase": "alpha complex", "allow_empty": self._allow_empty}
+        how: Any = {"phase": "alpha complex", "allow_empty": self._allow_empty}
         self.family: SpaceAlphaComplex = self.call("engines.alpha.alpha_shape:alpha_complex", mesh, **how)
         self.has_shape = bool(set(options.what) & OF_ONE_SHAPE)
         if self.has_shape and self.radius is None and unjoined(self.family) is None:
@@ -56,7 +56,7 @@ class SpaceShapeProducts(Results):
     @cached_property
     def shape(self) -> SpaceAlphaShape:
         """The shape of the radius."""
-        how = {"r": self.radius, "regions": self.options.regions or 1, "allow_empty": self._allow_empty}
+        how: Any = {"r": self.radius, "regions": self.options.regions or 1, "allow_empty": self._allow_empty}
         made: SpaceAlphaShape = self.call("engines.alpha.alpha_shape:alpha_shape", self.family, phase="shape", **how)
         return made
 
