@@ -39,9 +39,25 @@ USAGE = {
     "distance dots.csv .": "B . stands for several files",
     "completion csh": "'bash', 'zsh', 'fish'",
     "sample dot": "'dot'",
+    "distance - -": "same stream",
+    "skeleton-exact two-shapes.json -f shp": "Shapefile",
+    "skeleton-exact two-shapes.json -f shp -o /dev/stdout": "/dev/stdout",
+    "delaunay dots.csv --clip clip.wkt --what cells -o x.json --stats clip.wkt": "clip.wkt",
+    "delaunay dots.csv --clip clip.wkt --what cells -f wkt -o clip.wkt": "clip.wkt",
+    "tessellate dots.csv --what color --overlay mask.pbm -o x.png --stats mask.pbm": "mask.pbm",
+    "delaunay mask.pbm dots.csv --clip clip.wkt --what cells --out-dir out --stats clip.wkt": "clip.wkt",
+    "tessellate --files-from list.csv --table x.csv --stats list.csv": "list.csv",
+    "tessellate --files-from list.csv --table list.csv": "list.csv",
+    "tessellate --files-from list.csv --what table --out-dir out --stats out/tessellate.manifest.jsonl": "--stats",
+    "tessellate --files-from list/dots.png --out-dir list": "--files-from",
     "--color": "--color",
     "delauney dots.csv": "'delauney'",
     "skeleton_exact dots.csv": "did you mean skeleton-exact",
+    "delaunay a.csv --every 3": "delaunay has no --every: skeleton-approx, skeleton-exact have it",
+    "draw a.csv --passes 1": "draw has no --passes: tessellate has it",
+    "draw a.csv --widht 1": "--width",
+    "draw a.csv --layers seeds": "'seeds': not one of cells",
+    "draw a.csv --layers cells,seed": "'seed' is not one of cells",
     # ---- what another kind of input has
     "tessellate mask.pbm -o a.png --columns 1,2": "but the input is an image",
     "delaunay mask.pbm --method digital --size 9x9": "--size",
@@ -64,6 +80,16 @@ USAGE = {
     "tessellate dots.csv --page 0 -o a.png": "--page",
     "delaunay dots.csv --input-layer a": "--input-layer",
     "alphashape dots.csv -r 5um": "has a unit, but the unit of the input is unknown",
+    "delaunay space.csv --space --what cells": "cells",
+    "delaunay space.csv --what hull": "--space",
+    "delaunay space.csv -f ply": "--space",
+    "delaunay space.csv --space --graph mst": "--graph",
+    "delaunay space.csv --space --method digital": "--method digital",
+    "delaunay space.csv --space --y-down": "--y-down",
+    "delaunay space.csv --space --frame 0,0,1,1": "--frame",
+    "skeleton-approx two-shapes.json --step 4 --what offset": "'offset'",
+    "skeleton-approx two-shapes.json --step 4 --what thickness": "'thickness'",
+    "skeleton-approx two-shapes.json --step 4 -d 1": "no -d",
     # ---- what no output shows, or has a size of its own
     "tessellate dots.csv -o a.npy --precision 3": "--precision",
     "tessellate dots.csv -o a.png --pixel-size 0.5um": "--pixel-size",
@@ -72,6 +98,8 @@ USAGE = {
     "delaunay dots.csv --frame 0,0,1,1": "--frame",
     "delaunay dots.csv --what table --with name": "--with",
     "delaunay dots.csv --with nothing": "'nothing'",
+    "delaunay dots.csv --with name,": "'name,'",
+    "delaunay dots.csv --with name -f obj": "--with",
     "tessellate dots.csv --what color --frames 3 -o a.png": "--frames",
     "delaunay dots.csv -f svg --layers cellar": "not one of cells, triangles",
     "skeleton-exact two-shapes.json -f svg --layers offset": "skeleton in SVG has polygons",
@@ -142,6 +170,7 @@ OTHERS = {
     "tessellate nowhere.csv -o a.png": (3, "nowhere.csv"),
     "tessellate more/*.png --out-dir out": (3, "more/*.png"),
     "tessellate --files-from missing --out-dir out": (3, "the list missing cannot be read"),
+    "delaunay dots.csv --space": (3, "x, y and z"),
     "delaunay dots.csv --what cells --clip none.geojson": (3, "none.geojson"),
     "delaunay dots.csv --what cells --clip line.wkt": (3, "line.wkt"),
     "voronoi dots.csv --clip flat.wkt": (3, "the clip has no area"),
@@ -169,6 +198,10 @@ OTHERS = {
     "tessellate more --table no/such/all.csv": (4, "no/such/all.csv"),
     # ---- 5: limits
     "tessellate dots.csv --what color --size 6000x6000 -o a.gif": (5, "6000 x 6000"),
+    "tessellate far.csv --max-pixels 1000000000000000 -o a.tif": (5, "704053 x 663839 pixels"),
+    "tessellate far.csv --max-pixels 1000000000000000 --what table": (5, "704053 x 663839 pixels"),
+    "delaunay far.csv --max-pixels 1000000000000000 --method digital-valid": (5, "704053 x 663839 pixels"),
+    "alphashape far.csv --max-pixels 1000000000000000 --method digital-valid": (5, "704053 x 663839 pixels"),
     "delaunay dots.csv --max-sites 2": (5, "--max-sites"),
     "skeleton-exact two-shapes.json --max-sites 10": (5, "--max-sites"),
     "voronoi two-shapes.json --max-sites 3": (5, "more than the limit of 3"),
@@ -193,6 +226,11 @@ def test_what_is_refused(run, folder, line, expected):
     (folder / "more/p.csv").write_text("x,y\n2,1\n7,5\n")
     (folder / "more/q.csv").write_text("x,y\n2,1\n7,5\n")
     (folder / "old.csv").write_text("old\nlines\n")
+    (folder / "far.csv").write_text("x,y\n704052,10\n5,663838\n100,100\n")
+    (folder / "clip.wkt").write_text("POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))\n")
+    (folder / "list.csv").write_text("dots.csv\n")
+    (folder / "list").mkdir()
+    (folder / "list/dots.png").write_text("dots.csv\n")
     (folder / "space.csv").write_text("x,y,z\n1,2,0\n8,3,4\n")
     (folder / "line.wkt").write_text("LINESTRING (0 0, 1 1)")
     (folder / "flat.wkt").write_text("POLYGON ((0 0, 1 1, 2 2, 0 0))")

@@ -91,9 +91,3 @@ def test_zsh_reads_the_script(script):
     if shutil.which("zsh") is None:
         pytest.skip("zsh is not there")
     ended("zsh", "-n", script("zsh"), check=True)
-
-
-def test_there_is_no_script_for_another_shell(run):
-    done = run("completion", "csh")
-    assert done.code == 2
-    assert "'bash', 'zsh', 'fish'" in done.err

@@ -75,31 +75,6 @@ def test_a_plane_and_a_line_are_said(run, folder):
     assert "the result has no hull: all points lie on a line" in done.err
 
 
-@pytest.mark.parametrize(
-    ("options", "word"),
-    [
-        (["--space", "--what", "cells"], "cells"),
-        (["--what", "hull"], "--space"),
-        (["-f", "ply"], "--space"),
-        (["--space", "--graph", "mst"], "--graph"),
-        (["--space", "--method", "digital"], "--method digital"),
-        (["--space", "--y-down"], "--y-down"),
-        (["--space", "--frame", "0,0,1,1"], "--frame"),
-    ],
-)
-def test_what_is_of_the_plane_is_refused(run, cloud, options, word):
-    done = run("delaunay", "cloud.csv", *options)
-    assert done.code == 2
-    assert word in done.err
-
-
-def test_a_list_without_z_is_refused(run, folder):
-    (folder / "plane.csv").write_text("x,y\n0,0\n1,0\n0,1\n")
-    done = run("delaunay", "plane.csv", "--space")
-    assert done.code == 3
-    assert "x, y and z" in done.err
-
-
 def test_pictures_have_layers_and_names(run, tmp_path):
     (tmp_path / "a.csv").write_text("x,y,z,name\n0,0,0,a\n4,0,0,b\n0,3,0,c\n1,1,5,<d>\n")
     done = run("delaunay", tmp_path / "a.csv", "--space", "-o", tmp_path / "a.svg", "--label-by", "name")

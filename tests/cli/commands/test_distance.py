@@ -44,9 +44,6 @@ def test_standard_input_is_one_of_them(run, two):
     for names, text in ((["-", "b.wkt"], A), (["a.wkt", "-"], B)):
         done = run("distance", *names, data=text.encode())
         assert (done.code, done.out) == (0, expected)
-    done = run("distance", "-", "-")
-    assert done.code == 2
-    assert "same stream" in done.err
 
 
 def test_two_systems(run, folder):

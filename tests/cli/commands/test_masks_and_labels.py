@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 from support.readers.written import rows_of
-from vorotool.errors import LimitError
 
-FAR = "x,y\n704052,10\n5,663838\n100,100\n"
 NO_FOREGROUND = "warning: the image has no foreground: use --invert or --threshold"
 
 
@@ -89,24 +87,3 @@ def test_what_follows_from_an_image_without_foreground_is_empty(run, fields, arg
     done = run(command, "empty.npy", *options, "--strict")
     assert done.code == 3
     assert "the image has no foreground" in done.err
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("tessellate", "-o", "far.tif"),
-        ("tessellate", "--what", "table"),
-        ("delaunay", "--method", "digital-valid"),
-        ("alphashape", "--method", "digital-valid"),
-    ],
-    ids=" ".join,
-)
-def test_a_frame_that_nobody_gave_is_small(run, folder, arguments):
-    (folder / "far.csv").write_text(FAR)
-    command, *options = arguments
-    done = run(command, "far.csv", *options, "--max-pixels", 10**15)
-    assert done.code == LimitError.exit_code
-    assert "704053 x 663839 pixels" in done.err
-    assert "--size WxH" in done.err
-    assert "delaunay --what cells" in done.err
-    assert not (folder / "far.tif").exists()

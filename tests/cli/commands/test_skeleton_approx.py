@@ -20,14 +20,6 @@ def test_a_step_and_its_bound(run, folder):
     assert json.loads((folder / "a.json").read_text())["arcs"] == len(rows)
 
 
-@pytest.mark.parametrize("what", ["offset", "thickness"])
-def test_what_samples_do_not_change_is_of_the_exact_skeleton(run, what):
-    done = run("skeleton-approx", SHAPES, "--step", "4", "--what", what)
-    assert done.code == 2
-    assert f"'{what}'" in done.err
-    assert "no -d" in run("skeleton-approx", SHAPES, "--step", "4", "-d", "1").err
-
-
 @pytest.mark.parametrize("options", [[], ["--stats", "a.json", "--what", "elements"]])
 def test_the_comparison_is_said_with_and_without_statistics(run, options):
     done = run("skeleton-approx", SHAPES, "--step", "5", "--compare", *options, "-o", "a.npz")

@@ -69,18 +69,3 @@ def test_every_page_is_ascii():
 def test_choices_may_be_in_capitals(arguments, tmp_path):
     said("tessellate", "data/dots.csv", "--size", "20x20", "-o", str(tmp_path / "out"), *arguments)
     assert (tmp_path / "out").stat().st_size
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["delaunay", "a.csv", "--every", "3"], "delaunay has no --every: skeleton-approx, skeleton-exact have it"),
-        (["draw", "a.csv", "--passes", "1"], "draw has no --passes: tessellate has it"),
-        (["draw", "a.csv", "--widht", "1"], "--width"),
-        (["draw", "a.csv", "--layers", "seeds"], "'seeds': not one of cells"),
-        (["draw", "a.csv", "--layers", "cells,seed"], "'seed' is not one of cells"),
-    ],
-)
-def test_an_option_of_other_commands_is_named_with_these(arguments, words):
-    done = CliRunner().invoke(vorotool, arguments)
-    assert (done.exit_code, words in done.output) == (2, True), done.output

@@ -69,14 +69,6 @@ def test_streams_on_both_sides(run, process, lakes, fmt):
     assert (lakes / f"again.{fmt}").read_bytes() == out
 
 
-def test_a_shapefile_does_not_go_through_a_stream(run, lakes):
-    done = run("skeleton-exact", "lakes.gpkg", "-q", "-f", "shp")
-    assert done.code == 2
-    assert "binary" in done.err or "Shapefile" in done.err
-    done = run("skeleton-exact", "lakes.gpkg", "-q", "-o", "/dev/stdout", "-f", "shp")
-    assert (done.code, "/dev/stdout" in done.err) == (2, True)
-
-
 WITHOUT = "import sys; sys.modules.update({name: None for name in %r}); from vorotool.cli.main import main; main(%r)"
 
 
