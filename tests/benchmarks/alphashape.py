@@ -17,7 +17,7 @@ import numpy as np
 sys.path.pop(0)  # this file is not the peer of its name
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from benchmarks.timing import best, options
+from benchmarks.timing import best, options, print_head
 from support.families import point_families
 
 
@@ -77,9 +77,8 @@ def main() -> None:
     peers = [] if arguments.no_peers else [name for name in PEERS if find_spec(name)]
     threads = sorted({1, arguments.threads})
     print("seconds; in brackets: how many times ours on the most threads\n")
-    print("| n |" + "".join(f" family, {t} threads | each r, {t} threads |" for t in threads) + " curves |", end="")
-    print("".join(f" {name}, {PEERS[name][1]} |" for name in peers))
-    print("|---" * (2 + 2 * len(threads) + len(peers)) + "|")
+    ours = [name for t in threads for name in (f"family, {t} threads", f"each r, {t} threads")]
+    print_head("n", *ours, "curves", *(f"{name}, {PEERS[name][1]}" for name in peers))
     for n in arguments.points:
         print(measure(n, threads, arguments.runs, peers), flush=True)
 

@@ -9,10 +9,7 @@ out. MB are those that a process of its own takes at its peak, above what it had
 
 from __future__ import annotations
 
-import argparse
-import subprocess
 import sys
-import tempfile
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
@@ -21,7 +18,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from benchmarks.timing import best, options
+from benchmarks.timing import best, in_own_process, options, peak_of, print_head
 from support.families import point_families
 from vorotool import _core
 
@@ -86,32 +83,12 @@ PEERS = {
 PREPARED = {"CGAL": cgal_points}
 
 
-def peak_of_process() -> float:
-    """The most memory this process has had, in MB; by Linux, since what `resource` tells may be a parent's."""
-    status = Path("/proc/self/status").read_text()
-    return float(status.split("VmHWM:")[1].split()[0]) / 1024
-
-
-def peak(who: str, path: str) -> float:
-    """Peak memory of triangulating the points of a file, above that of having loaded them, in MB."""
-    triangulate = PEERS.get(who, vorotool.delaunay)
-    prepare = PREPARED.get(who, np.asarray)
+def memory(who: str, points: np.ndarray) -> float:
+    """Peak memory of triangulating points, in MB."""
+    triangulate, prepare = PEERS.get(who, vorotool.delaunay), PREPARED.get(who, np.asarray)
     triangulate(prepare(np.random.default_rng(0).random((10, 2))))  # imports what it needs
-    points = prepare(np.load(path))
-    before = peak_of_process()
-    result = triangulate(points)
-    after = peak_of_process()
-    del result
-    return after - before
-
-
-def measured_peak(who: str, points: np.ndarray) -> str:
-    """The same, in a process of its own."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "points.npy"
-        np.save(path, points)
-        command = [sys.executable, __file__, "--peak", who, str(path)]
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+    given = prepare(points)
+    return peak_of(lambda: triangulate(given)) / 1e6
 
 
 def nanoseconds(function: Callable[[], object], n: int, runs: int) -> float:
@@ -130,28 +107,22 @@ def measure(name: str, n: int, threads: int, runs: int, peers: list[str]) -> str
         written = nanoseconds(lambda mesh=mesh, count=count: mesh.arrays(count, None), n, runs)
         whole = nanoseconds(lambda count=count: vorotool.delaunay(points, threads=count), n, runs)
         row += f" {made:.0f} + {written:.0f} | {whole:.0f} |"
-    row += f" {measured_peak('vorotool', points)} |"
+    row += f" {in_own_process(memory, 'vorotool', points):.0f} |"
     for peer in peers:
         given = PREPARED.get(peer, np.asarray)(points)
         taken = nanoseconds(lambda peer=peer, given=given: PEERS[peer](given), n, 1 if n >= 10**6 else 2)
-        row += f" {taken:,.0f} ({taken / whole:,.1f} ×) | {measured_peak(peer, points)} |"
+        row += f" {taken:,.0f} ({taken / whole:,.1f} ×) | {in_own_process(memory, peer, points):.0f} |"
     return row
 
 
 def main() -> None:
     """Print the table."""
-    parser = options("points", [10_000, 100_000, 1_000_000], runs=5)
-    parser.add_argument("--peak", nargs=2, help=argparse.SUPPRESS)
-    arguments = parser.parse_args()
-    if arguments.peak:
-        print(f"{peak(*arguments.peak):.0f}")
-        return
+    arguments = options("points", [10_000, 100_000, 1_000_000], runs=5).parse_args()
     peers = [] if arguments.no_peers else [name for name in PEERS if find_spec(name)]
     threads = sorted({1, arguments.threads})
     print("nanoseconds a point; in brackets: how many times ours on the most threads\n")
-    print("| points | n |" + "".join(f" mesh + arrays, {t} threads | delaunay, {t} threads |" for t in threads), end="")
-    print(" MB |" + "".join(f" {name} | MB |" for name in peers))
-    print("|---" * (3 + 2 * len(threads) + 2 * len(peers)) + "|")
+    ours = [name for t in threads for name in (f"mesh + arrays, {t} threads", f"delaunay, {t} threads")]
+    print_head("points", "n", *ours, "MB", *(name for peer in peers for name in (peer, "MB")))
     for n in arguments.points:
         for name in INPUTS:
             print(measure(name, n, arguments.threads, arguments.runs, peers), flush=True)

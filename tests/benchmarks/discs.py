@@ -14,18 +14,11 @@ import shapely.ops
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from benchmarks.timing import options, timed
+from benchmarks.timing import options, print_head, star, timed
 
 TOLERANCES = (1e-3, 1e-6)
 PATIENCE = 120.0
 """Seconds that a peer may take."""
-
-
-def star(edges):
-    """Around the origin, about 2000 wide."""
-    angle = 2 * np.pi * np.arange(edges) / edges
-    radius = 750 * (1 + 0.3 * np.sin(7 * angle) + 0.1 * np.cos(23 * angle))
-    return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
 
 
 def road(edges):
@@ -66,7 +59,7 @@ def patiently(function, polygon, tolerance, runs):
 def main():
     """Print a row a shape and a way."""
     given = options("edges", [1000, 10_000, 100_000], 3).parse_args()
-    print("| shape | edges | way | tolerance | s | too small by |\n|---|---|---|---|---|---|")
+    print_head("shape", "edges", "way", "tolerance", "s", "too small by")
     for shape in (star, road):
         for edges in given.edges:
             xy = shape(edges)

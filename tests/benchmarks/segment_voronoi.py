@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import resource
 import subprocess
 import sys
 import tempfile
@@ -28,27 +27,13 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from benchmarks.timing import in_own_process
+from benchmarks.timing import in_own_process, peak, print_head, reset_peak
 from support.families import segment_families
 from vorotool import _core
 
 FAMILIES = ("star_smooth", "contour", "hilbert", "koch", "comb", "comb_tapered", "star_rough")
 GROWING = [name for name in segment_families.FAMILIES if name not in segment_families.JOINED]
-STATUS = Path("/proc/self/status")
 GROWTH = (10**3, 10**4, 10**5, 10**6)
-
-
-def peak() -> int:
-    """Most bytes that the process has held, on Linux since the last reset."""
-    if STATUS.exists():
-        return 1024 * int(STATUS.read_text().split("VmHWM:")[1].split()[0])
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
-
-
-def reset_peak() -> None:
-    """Forget what drawing the input took: the peak becomes what is held now."""
-    if STATUS.exists():
-        STATUS.with_name("clear_refs").write_text("5")
 
 
 def graph(name: str, n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -166,8 +151,9 @@ def print_times(families: Sequence[str], sizes: list[int], threads: list[int], r
         print("nanoseconds a segment: engine + arrays")
         if boost is None:
             print("no headers of Boost: its columns are empty (install them, or set BOOST_ROOT)")
-        print("\n| family | segments | threads | ours | visited | exact, ‰ | bytes | with arrays", end=" ")
-        print("| Boost | its bytes | pyvoronoi |\n" + "|---" * 11 + "|")
+        columns = ("family", "segments", "threads", "ours", "visited", "exact, ‰", "bytes", "with arrays")
+        print()
+        print_head(*columns, "Boost", "its bytes", "pyvoronoi")
         for n, name, count in product(sizes, families, threads):
             print(in_own_process(measure, name, n, count, runs, boost), flush=True)
 
@@ -176,7 +162,7 @@ def print_growth(families: Sequence[str]) -> None:
     """The table of visited vertices."""
     print("\nVoronoi vertices visited a segment, one thread. If they grow as log n, every tenfold adds as much:")
     print("last / mean is 1. If they grew as the square root of n, it would be 2.1.\n")
-    print(f"| family | {' | '.join(f'{n:,}' for n in GROWTH)} | mean step | last / mean |\n" + "|---" * 7 + "|")
+    print_head("family", *(f"{n:,}" for n in GROWTH), "mean step", "last / mean")
     for name in families:
         print(in_own_process(growth_row, name), flush=True)
 

@@ -4,7 +4,6 @@
 the distance of places on their lines from the exact skeleton. Ours is to be as accurate: that is its tolerance.
 """
 
-import resource
 import sys
 import time
 import warnings
@@ -16,7 +15,7 @@ import shapely
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from benchmarks.timing import in_own_process, timed
+from benchmarks.timing import in_own_process, peak, star, timed
 from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
 
 RUNS = 3
@@ -26,24 +25,12 @@ EDGES = 1000
 PEER_EDGES, PEER_STEPS = 200, (4.0, 1.0)
 
 
-def star(edges):
-    """Around the origin, about 2000 wide."""
-    angle = 2 * np.pi * np.arange(edges) / edges
-    radius = 750 * (1 + 0.3 * np.sin(7 * angle) + 0.1 * np.cos(23 * angle))
-    return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
-
-
-def peak():
-    """Megabytes that the process has held at most."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-
-
 def whole(seeds, threads):
     """Seconds of a skeleton of so many seeds, those of all processors, and megabytes of the whole process after one."""
     shape = star(EDGES)
     step = shapely.length(shapely.Polygon(shape)) / seeds
     skeleton = vorotool.skeleton_approx(shape, step=step, threads=threads)
-    memory, arcs = peak(), len(skeleton)
+    memory, arcs = peak() / 2**20, len(skeleton)
     del skeleton
     begin = time.process_time()
     took, _ = seconds(lambda: vorotool.skeleton_approx(shape, step=step, threads=threads) and None)

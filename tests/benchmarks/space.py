@@ -19,7 +19,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from benchmarks.timing import best, in_own_process, options
+from benchmarks.timing import best, in_own_process, options, peak_of, print_head
 
 
 def lattice(_rng: np.random.Generator, n: int) -> np.ndarray:
@@ -86,18 +86,10 @@ def call_of(who: str, points: np.ndarray, threads: int = 1) -> Callable[[], obje
     return lambda: peers[who](points) if who in peers else vorotool.delaunay(points, threads=threads)
 
 
-def peak_of_process() -> int:
-    """The most memory that this process has had, in bytes."""
-    return int(Path("/proc/self/status").read_text().split("VmHWM:")[1].split()[0]) * 1024
-
-
-def peak(who: str, points: np.ndarray) -> int:
+def memory(who: str, points: np.ndarray) -> int:
     """Bytes that a triangulation takes beside its points."""
     call_of(who, np.random.default_rng(0).random((10, 3)))()  # imports what it needs
-    call = call_of(who, points)
-    before = peak_of_process()
-    call()
-    return peak_of_process() - before
+    return peak_of(call_of(who, points))
 
 
 def measure(name: str, n: int, arguments: argparse.Namespace, peers: list[str]) -> str:
@@ -108,7 +100,7 @@ def measure(name: str, n: int, arguments: argparse.Namespace, peers: list[str]) 
     for threads in sorted({1, arguments.threads}):
         whole = 1e9 * best(call_of("vorotool", points, threads), arguments.runs) / n
         row += f" {whole:,.0f} |"
-    row += f" {in_own_process(peak, 'vorotool', points) / n:,.0f} |"
+    row += f" {in_own_process(memory, 'vorotool', points) / n:,.0f} |"
     for peer in peers:
         if n > PEERS[peer][1] or (name, peer) in SLOW:
             row += " – | – |"
@@ -116,7 +108,7 @@ def measure(name: str, n: int, arguments: argparse.Namespace, peers: list[str]) 
         taken = 1e9 * best(call_of(peer, points), 1) / n
         if taken * n > MOST_SECONDS * 1e9:
             SLOW.add((name, peer))
-        row += f" {taken:,.0f} ({taken / whole:,.1f} ×) | {in_own_process(peak, peer, points) / n:,.0f} |"
+        row += f" {taken:,.0f} ({taken / whole:,.1f} ×) | {in_own_process(memory, peer, points) / n:,.0f} |"
     return row
 
 
@@ -125,9 +117,8 @@ def main() -> None:
     arguments = options("points", [10_000, 100_000, 1_000_000], runs=2).parse_args()
     peers = [] if arguments.no_peers else [name for name, (module, _) in PEERS.items() if find_spec(module)]
     print("nanoseconds a point; in brackets: how many times ours on the most threads; B: bytes a point\n")
-    threads = "".join(f" delaunay, {each} threads |" for each in sorted({1, arguments.threads}))
-    print(f"| points | n |{threads} B |" + "".join(f" {name} | B |" for name in peers))
-    print("|---" * (3 + len({1, arguments.threads}) + 2 * len(peers)) + "|")
+    ours = [f"delaunay, {each} threads" for each in sorted({1, arguments.threads})]
+    print_head("points", "n", *ours, "B", *(name for peer in peers for name in (peer, "B")))
     for n in arguments.points:
         for name in INPUTS:
             print(measure(name, n, arguments, peers), flush=True)

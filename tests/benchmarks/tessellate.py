@@ -21,7 +21,7 @@ from skimage.segmentation import expand_labels
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from benchmarks.timing import options, timed
+from benchmarks.timing import options, print_head, timed
 from vorotool import _core, _core_testing
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.pixels import Frame
@@ -87,9 +87,7 @@ def main() -> None:
     cv2.setNumThreads(arguments.threads)
     widest = _core.tessellation.widest_simd()
     print(f"milliseconds, {arguments.threads} threads, {widest}; in brackets: how many times ours\n")
-    print("| image | seeds | floor | ours | ours / floor | rows alone / floor | fresh / its floor |", end="")
-    print("".join(f" {name} |" for name in PEERS))
-    print("|---" * (7 + len(PEERS)) + "|")
+    print_head("image", "seeds", "floor", "ours", "ours / floor", "rows alone / floor", "fresh / its floor", *PEERS)
     for m in arguments.sizes:
         for n in (n for n in arguments.seeds if n <= m * m // 2):
             print(measure(m, n, arguments.threads, arguments.runs, sub_pixel=False, peers=not arguments.no_peers))

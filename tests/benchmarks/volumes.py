@@ -20,7 +20,7 @@ from scipy.ndimage import distance_transform_edt
 from skimage.segmentation import expand_labels
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from benchmarks.timing import best, in_own_process, options
+from benchmarks.timing import best, in_own_process, options, peak_of, print_head
 from vorotool import _core_testing
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.volumes.volume import VolumeSeeds, VoxelFrame
@@ -51,20 +51,12 @@ def labelled(seeds: VolumeSeeds, threads: int, out: np.ndarray) -> np.ndarray:
     return Tessellator(seeds, VoxelFrame(0, 0, 0, width, height, depth), threads=threads).labels(out=out)
 
 
-def memory_of(what: str) -> int:
-    """Bytes of the process that Linux tells: what it has, or had at the most."""
-    lines = Path("/proc/self/status").read_text().splitlines()
-    return 1024 * next(int(line.split()[1]) for line in lines if line.startswith(what))
-
-
 def memory(side: int, count: int, threads: int) -> int:
     """Bytes beside the seeds and the output: the most that the process had, less what it had before."""
     warnings.simplefilter("ignore")
     out, seeds = output(side, count), seeds_in(side, count)
     labelled(seeds_in(8, 8), threads, output(8, 8))
-    before = memory_of("VmRSS")
-    labelled(seeds, threads, out)
-    return memory_of("VmHWM") - before
+    return peak_of(lambda: labelled(seeds, threads, out))
 
 
 def ours(side: int, count: int, threads: int, runs: int) -> tuple[float, float]:
@@ -96,9 +88,8 @@ def main() -> None:
     parser.add_argument("--peers-side", type=int, default=256)
     arguments = parser.parse_args()
     side, small, threads = arguments.side, arguments.peers_side, arguments.threads
-    heads = ["seeds", "floor", "ours", "of floor", "MB", f"ours, {small}³", *PEERS]
-    print(f"{side}³ voxels, {threads} threads; peers {small}³\n|", " | ".join(heads), "|")
-    print("|---" * len(heads) + "|")
+    print(f"{side}³ voxels, {threads} threads; peers {small}³")
+    print_head("seeds", "floor", "ours", "of floor", "MB", f"ours, {small}³", *PEERS)
     for count in arguments.seeds:
         floor, taken = ours(side, count, threads, arguments.runs)
         beside = in_own_process(memory, side, count, threads)

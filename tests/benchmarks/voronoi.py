@@ -22,8 +22,7 @@ import shapely
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from benchmarks.segment_voronoi import peak, reset_peak
-from benchmarks.timing import best, in_own_process, options, timed
+from benchmarks.timing import best, in_own_process, options, peak_of, print_head, timed
 from support.families.town import polygons_of, town
 from vorotool.types.polygons.polygon_set import SHELL, PolygonSet, set_of_rings
 
@@ -67,13 +66,9 @@ def memory(what: str, count: int, threads: int) -> float:
     """MB of one run in this process."""
     houses = polygon_set(count) if what == "arrays" else polygons_of(*town(count))
     frame = frame_of(town(count)[0])
-    reset_peak()
-    before = peak()
     if what == "arrays":
-        vorotool.voronoi(houses, frame=frame, threads=threads)
-    else:
-        momepy_polygons(houses, frame)
-    return (peak() - before) / 1e6
+        return peak_of(lambda: vorotool.voronoi(houses, frame=frame, threads=threads)) / 1e6
+    return peak_of(lambda: momepy_polygons(houses, frame)) / 1e6
 
 
 def wrong_places(cells: np.ndarray, houses: np.ndarray, frame: tuple[float, float, float, float]) -> float:
@@ -132,15 +127,15 @@ def main() -> None:
     arguments: argparse.Namespace = parser.parse_args()
     if "arrays" in arguments.table:
         threads = " / ".join(map(str, sorted({1, arguments.threads})))
-        print(f"| houses | segments | seconds, {threads} threads | µs a segment | × of the skeleton outside | MB |")
-        print("|---" * 6 + "|")
+        columns = (f"seconds, {threads} threads", "µs a segment", "× of the skeleton outside")
+        print_head("houses", "segments", *columns, "MB")
         for count in arguments.houses:
             runs = arguments.runs if count < 10**6 else 1
             print(in_own_process(measure, count, arguments.threads, runs), flush=True)
     if "polygons" in arguments.table and not arguments.no_peers:
         print("\npolygons in and out; in %: places in a wrong cell, houses that stick out, areas off (median, most)\n")
-        print("| houses | seconds | places | stick out | momepy | MB | areas off | places | stick out |")
-        print("|---" * 9 + "|")
+        wrong = ("places", "stick out")
+        print_head("houses", "seconds", *wrong, "momepy", "MB", "areas off", *wrong)
         for count in arguments.houses:
             if count <= MOST_OF_PEERS:
                 print(in_own_process(beside, count, arguments.threads, arguments.runs), flush=True)
