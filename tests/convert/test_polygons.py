@@ -51,6 +51,7 @@ def rings(polygons):
         [shapely.geometry.mapping(each) for each in SHAPES],
         [each.wkt for each in SHAPES],
         np.array([each.wkt for each in SHAPES]),
+        [{"shell": np.array(HOLED.exterior.coords), "holes": [np.array(HOLED.interiors[0].coords)]}, *SHAPES[1:]],
         pd.Series([each.wkt for each in SHAPES]),
         [SHAPES[0].wkt, SHAPES[1], shapely.geometry.mapping(SHAPES[2])],
     ],

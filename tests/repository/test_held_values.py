@@ -1,7 +1,6 @@
 """Every function of the library takes whatever callers hold, and refuses the rest by the name of its parameter."""
 
 import re
-import warnings
 
 import dask.array
 import geopandas
@@ -14,7 +13,7 @@ import zarr
 from numpy.random import default_rng
 
 import vorotool as v
-from vorotool import InputError, UsageError, VorotoolWarning
+from vorotool import InputError, UsageError
 
 XY = default_rng(7).permutation(np.stack(np.meshgrid(np.arange(3, 40, 6), np.arange(2, 30, 7)), axis=-1).reshape(-1, 2))
 INDEX = pd.Index([f"row {k}" for k in range(len(XY))], name="row")
@@ -108,22 +107,6 @@ def test_what_are_no_points(function, form):
 HOUSE = shapely.Polygon([(0, 0), (12, 0), (12, 8), (6, 12), (0, 8)], [[(4, 2), (4, 5), (8, 5), (8, 2)]])
 YARD = shapely.box(20, 1, 30, 6)
 PARCELS = geopandas.GeoSeries([HOUSE, YARD], index=["house", "yard"], crs=2056)
-POLYGON_FORMS = {
-    "mappings": [
-        {"shell": np.array(each.exterior.coords), "holes": [np.array(hole.coords) for hole in each.interiors]}
-        for each in PARCELS
-    ],
-    "object array": PARCELS.to_numpy(),
-    "MultiPolygon": shapely.MultiPolygon([HOUSE, YARD]),
-    "GeometryArray": PARCELS.values,
-    "GeoSeries": PARCELS,
-    "GeoDataFrame": PARCELS.to_frame("outline"),
-    "GeoJSON": PARCELS.__geo_interface__,
-    "features": PARCELS.__geo_interface__["features"],
-    "WKT": [each.wkt for each in PARCELS],
-    "missing": pd.concat([PARCELS.iloc[:1], geopandas.GeoSeries([None], crs=2056), PARCELS.iloc[1:]]),
-    "PolygonSet": v.planar_graph(list(PARCELS)).polygons,
-}
 POLYGON_FUNCTIONS = {
     "skeleton_exact": (v.skeleton_exact, "polygons", lambda made: made.radius),
     "skeleton_approx": (lambda polygons: v.skeleton_approx(polygons, step=1), "polygons", lambda made: made.radius),
@@ -327,12 +310,3 @@ def test_places_of_centerlines():
     assert v.centerline(skeleton, start=start, end=end).length == expected
     with pytest.raises(InputError, match=r"^invalid end: point 1 is a Polygon"):
         v.centerline(skeleton, start=start, end=HOUSE)
-
-
-def test_no_form_is_warned_of():
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", VorotoolWarning)
-        for form in POINT_FORMS.values():
-            v.delaunay(form)
-        for form in POLYGON_FORMS.values():
-            v.skeleton_exact(form)

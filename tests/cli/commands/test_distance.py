@@ -1,11 +1,11 @@
 """``vorotool distance``: two inputs, every format, and what is said when it goes wrong."""
 
-import json
 from pathlib import Path
 
 import pytest
 
 import vorotool
+from support.families.geojson import collection
 
 A = "LINESTRING (26 8, 13 -2, 13 19, 10 19, 10 23, 1 17)"
 B = "LINESTRING (15 1, 28 11, 13 26, 1 18)"
@@ -48,11 +48,8 @@ def test_standard_input_is_one_of_them(run, two):
 
 def test_two_systems(run, folder):
     for name, code in (("a", 2056), ("b", 3857)):
-        crs = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:EPSG::{code}"}}
-        point = {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [0, 0]}}
-        (folder / f"{name}.geojson").write_text(
-            json.dumps({"type": "FeatureCollection", "crs": crs, "features": [point]})
-        )
+        point = {"type": "Point", "coordinates": [0, 0]}
+        (folder / f"{name}.geojson").write_text(collection([point], crs=f"urn:ogc:def:crs:EPSG::{code}"))
     done = run("distance", "a.geojson", "b.geojson")
     assert done.code == 3
     assert "a.geojson" in done.err

@@ -13,6 +13,7 @@ import pytest
 import tifffile
 from PIL import Image
 
+from support.families.geojson import collection
 from vorotool import read
 from vorotool.cli.command import Value
 from vorotool.cli.main import vorotool
@@ -25,9 +26,6 @@ POINTS = [(3, 4), (21, 9), (38, 2), (55, 30), (12, 33), (30, 20)]
 
 
 # ---- what says a unit -------------------------------------------------------------------------
-def collection(geometries, **members):
-    features = [{"type": "Feature", "properties": {}, "geometry": each} for each in geometries]
-    return json.dumps({"type": "FeatureCollection", **members, "features": features})
 
 
 def geojson(folder, name, **members):
@@ -39,7 +37,7 @@ def geojson(folder, name, **members):
 
 
 def system(folder, code):
-    return geojson(folder, f"e{code}", crs={"type": "name", "properties": {"name": f"urn:ogc:def:crs:EPSG::{code}"}})
+    return geojson(folder, f"e{code}", crs=f"urn:ogc:def:crs:EPSG::{code}")
 
 
 def svg(folder):
@@ -261,7 +259,7 @@ def test_correctly_rounded(run, tmp_path, code, axis, unit):
 def test_lengths_in_degrees_are_refused(run, tmp_path):
     (tmp_path / "in.geojson").write_text(
         collection([{"type": "Polygon", "coordinates": [[[7, 47], [7.1, 47], [7, 47.1], [7, 47]]]}],
-                   crs={"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}})
+                   crs="urn:ogc:def:crs:OGC:1.3:CRS84")
     )  # fmt: skip
     done = run("skeleton-exact", "in.geojson", "--what", "points", "--every", "200m", "-f", "csv")
     assert done.code == 2

@@ -17,6 +17,7 @@ from ezdxf import disassemble
 from PIL import Image
 
 import vorotool
+from support.families.geojson import collection
 
 pytestmark = pytest.mark.filterwarnings("ignore:'crs' was not provided:UserWarning")
 
@@ -45,8 +46,7 @@ def table(*columns):
 
 
 def features(*shapes, **members):
-    found = [{"type": "Feature", "properties": {}, "geometry": shapely.geometry.mapping(shape)} for shape in shapes]
-    return text(json.dumps({"type": "FeatureCollection", **members, "features": found}))
+    return text(collection(shapes, **members))
 
 
 def layer(*shapes, crs=None):

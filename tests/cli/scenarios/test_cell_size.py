@@ -9,6 +9,8 @@ import rasterio
 import rasterio.features
 import shapely
 
+from support.families.geojson import collection
+
 RNG = np.random.default_rng(21)
 XY = np.round(RNG.uniform((2600000, 1199000), (2603000, 1201000), (40, 2)), 1)
 
@@ -19,12 +21,7 @@ def read(path):
 
 
 def write(path, geometries, crs="EPSG:2056"):
-    features = [
-        {"type": "Feature", "properties": {"name": f"n{k}"}, "geometry": json.loads(shapely.to_geojson(each))}
-        for k, each in enumerate(geometries)
-    ]
-    named = {"crs": {"type": "name", "properties": {"name": crs}}} if crs else {}
-    path.write_text(json.dumps({"type": "FeatureCollection", **named, "features": features}))
+    path.write_text(collection(geometries, [{"name": f"n{k}"} for k in range(len(geometries))], crs=crs))
 
 
 def centers(transform, shape):

@@ -1,7 +1,6 @@
 """Every column of every table against its unit: as the table of an input that is twice as large."""
 
 import csv
-import json
 import re
 
 import numpy as np
@@ -9,6 +8,7 @@ import pytest
 import shapely
 from PIL import Image
 
+from support.families.geojson import collection
 from vorotool.products.registry import PRODUCTS
 
 POINTS = [(3, 4), (21, 9), (38, 2), (55, 30), (12, 33), (30, 20), (44, 41), (8, 18), (27, 37), (50, 12)]
@@ -43,11 +43,8 @@ def tables():
 
 def write(folder, factor):
     scaled = [shapely.transform(each, lambda xy: xy * factor) for each in SHAPES]
-    features = [
-        {"type": "Feature", "properties": {"name": f"n{k}"}, "geometry": shapely.geometry.mapping(each)}
-        for k, each in enumerate(scaled)
-    ]
-    (folder / f"shapes{factor}.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    names = [{"name": f"n{k}"} for k in range(len(SHAPES))]
+    (folder / f"shapes{factor}.geojson").write_text(collection(scaled, names))
     rows = "".join(f"{x * factor},{y * factor},n{x}\n" for x, y in POINTS)
     (folder / f"points{factor}.csv").write_text("x,y,name\n" + rows)
 

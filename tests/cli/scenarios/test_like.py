@@ -1,12 +1,13 @@
 """``tessellate --like RASTER``: the frame and the pixels of a raster, checked with rasterio."""
 
-import json
-
 import numpy as np
 import pytest
 import rasterio
+import shapely
 import tifffile
 from PIL import Image
+
+from support.families.geojson import collection
 
 NORTH = rasterio.Affine(12.5, 0, 2600512.5, 0, -12.5, 1200012.5)
 SAME_BY_HAND = ("--cell-size", "12.5", "--window", "2600512.5,1199512.5,625,500")
@@ -20,12 +21,7 @@ def raster(path, transform=NORTH, crs="EPSG:2056", **kind):
 
 
 def points(path, xy=XY, crs="EPSG:2056"):
-    features = [
-        {"type": "Feature", "properties": {"name": f"n{k}"}, "geometry": {"type": "Point", "coordinates": list(pair)}}
-        for k, pair in enumerate(xy.tolist())
-    ]
-    named = {"crs": {"type": "name", "properties": {"name": crs}}} if crs else {}
-    path.write_text(json.dumps({"type": "FeatureCollection", **named, "features": features}))
+    path.write_text(collection(shapely.points(xy), [{"name": f"n{k}"} for k in range(len(xy))], crs=crs))
 
 
 def about(path):

@@ -3,24 +3,20 @@
 import json
 
 import pytest
+import shapely
+
+from support.families.geojson import collection
 
 STATIONS = [[-20.5, 64.1], [-18.2, 65.3], [-22.1, 64.9], [-16, 64.6]]
 DEGREES = "longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32627 works in meters (UTM)"
 
 
-def collection(*geometries, crs=None):
-    features = [{"type": "Feature", "geometry": each, "properties": None} for each in geometries]
-    member = {} if crs is None else {"crs": {"type": "name", "properties": {"name": crs}}}
-    return json.dumps({"type": "FeatureCollection", **member, "features": features})
-
-
 def stations(crs=None):
-    return collection(*({"type": "Point", "coordinates": place} for place in STATIONS), crs=crs)
+    return collection([{"type": "Point", "coordinates": place} for place in STATIONS], crs=crs)
 
 
-def box(x0, y0, x1, y1, crs=None):
-    ring = [[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]]
-    return collection({"type": "Polygon", "coordinates": [ring]}, crs=crs)
+def box(*bounds, crs=None):
+    return collection([shapely.box(*bounds)], crs=crs)
 
 
 @pytest.fixture
@@ -30,8 +26,8 @@ def maps(folder):
     (folder / "stations.csv").write_text("lon,lat\n" + "".join(f"{x},{y}\n" for x, y in STATIONS))
     (folder / "plain.csv").write_text("x,y\n" + "".join(f"{x},{y}\n" for x, y in STATIONS))
     (folder / "stations.wkt").write_text("".join(f"SRID=4326;POINT ({x} {y})\n" for x, y in STATIONS))
-    (folder / "meters.geojson").write_text(box(240e3, 300e3, 760e3, 680e3, "urn:ogc:def:crs:EPSG::3057"))
-    (folder / "degrees.geojson").write_text(box(-25, 63, -13, 67.5, "EPSG:4326"))
+    (folder / "meters.geojson").write_text(box(240e3, 300e3, 760e3, 680e3, crs="urn:ogc:def:crs:EPSG::3057"))
+    (folder / "degrees.geojson").write_text(box(-25, 63, -13, 67.5, crs="EPSG:4326"))
     (folder / "unnamed.geojson").write_text(box(-25, 63, -13, 67.5))
     return folder
 
@@ -130,7 +126,7 @@ def test_a_system_is_declared_for_inputs_that_name_none(run, maps):
 )
 def test_files_that_cannot_state_the_system_are_named_once(run, folder, arguments, files):
     points = [{"type": "Point", "coordinates": place} for place in ([3, 1], [9, 2], [4, 8])]
-    (folder / "meters.geojson").write_text(collection(*points, crs="EPSG:3057"))
+    (folder / "meters.geojson").write_text(collection(points, crs="EPSG:3057"))
     done = run("delaunay", "meters.geojson", *arguments)
     named = [line for line in done.err.splitlines() if "--input-crs" in line]
     assert (done.code, len(named)) == (0, int(files is not None))

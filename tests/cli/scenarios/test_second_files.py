@@ -9,6 +9,8 @@ import pytest
 import shapely
 import tifffile
 
+from support.families.geojson import collection
+
 METERS = {"mm": Fraction(1, 1000), "um": Fraction(1, 10**6), "in": Fraction(254, 10**4), "m": Fraction(1)}
 MASK = np.zeros((40, 60), np.uint8)
 MASK[5:20, 5:25] = MASK[25:36, 20:55] = 255
@@ -19,11 +21,7 @@ CODES = {"in": 1, "mm": 4, "m": 6}
 
 def text(geometries, unit=None, **members):
     members |= {} if unit is None else {"unit": unit}
-    features = [
-        {"type": "Feature", "properties": {"kind": k}, "geometry": shapely.geometry.mapping(each)}
-        for k, each in enumerate(geometries)
-    ]
-    return json.dumps({"type": "FeatureCollection", **members, "features": features})
+    return collection(geometries, [{"kind": k} for k in range(len(geometries))], **members)
 
 
 def scaled(shape, factor):

@@ -9,16 +9,15 @@ import rasterio.features
 import shapely
 from PIL import Image
 
+from support.families.geojson import collection
+
 MASK = np.zeros((40, 60), np.uint8)
 MASK[5:20, 5:25] = MASK[25:36, 20:55] = 1
-CRS = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::2056"}}
 SHAPES = [shapely.box(2600000, 1200000, 2600400, 1200100), shapely.box(2600100, 1200300, 2600300, 1200900)]
 
 
-def collection(path, shapes, crs=CRS):
-    features = [{"type": "Feature", "properties": {}, "geometry": shapely.geometry.mapping(each)} for each in shapes]
-    members = {} if crs is None else {"crs": crs}
-    path.write_text(json.dumps({"type": "FeatureCollection", **members, "features": features}))
+def write(path, shapes, crs="urn:ogc:def:crs:EPSG::2056"):
+    path.write_text(collection(shapes, crs=crs))
 
 
 def numbers(path):
@@ -57,7 +56,7 @@ def black(path):
 @pytest.mark.parametrize("command", ["voronoi --layers polygons", "skeleton-exact --layers polygons", "draw"])
 def test_pictures_of_vectors(run, tmp_path, command):
     """What is drawn lies in the bounds of the shapes, and reaches them."""
-    collection(tmp_path / "in.geojson", SHAPES)
+    write(tmp_path / "in.geojson", SHAPES)
     words = command.split()
     if words[0] == "voronoi":
         words = ["voronoi", "--layers", "objects"]
@@ -68,7 +67,7 @@ def test_pictures_of_vectors(run, tmp_path, command):
 
 
 def test_what_is_on_no_map_has_none(run, tmp_path):
-    collection(tmp_path / "in.geojson", SHAPES, crs=None)
+    write(tmp_path / "in.geojson", SHAPES, crs=None)
     Image.fromarray(MASK).save(tmp_path / "in.png")
     assert run("voronoi", "in.geojson", "-o", "a.png", "-q", "--width", "90").code == 0
     assert run("tessellate", "in.png", "-o", "b.png", "-q").code == 0
@@ -77,7 +76,7 @@ def test_what_is_on_no_map_has_none(run, tmp_path):
 
 def test_an_older_world_file(run, tmp_path):
     """Replaced as the picture is; refused with --no-clobber, and then neither is written."""
-    collection(tmp_path / "in.geojson", SHAPES)
+    write(tmp_path / "in.geojson", SHAPES)
     (tmp_path / "out.pgw").write_text("1\n0\n0\n-1\n0\n0\n")
     done = run("voronoi", "in.geojson", "-o", "out.png", "--no-clobber", "-q", "--width", "90")
     assert done.code != 0
@@ -92,7 +91,7 @@ def test_json_lines_on_a_map_are_noted(run, tmp_path):
     """GDAL reads them as EPSG:4326, whatever their features say."""
     import pyogrio
 
-    collection(tmp_path / "in.geojson", SHAPES)
+    write(tmp_path / "in.geojson", SHAPES)
     done = run("voronoi", "in.geojson", "-o", "out.jsonl")
     assert (done.code, done.err.count("out.jsonl is in EPSG:2056, but GDAL reads")) == (0, 1)
     assert "-a_srs EPSG:2056" in done.err
@@ -100,7 +99,7 @@ def test_json_lines_on_a_map_are_noted(run, tmp_path):
     assert pyogrio.read_info(tmp_path / "out.geojsonl")["crs"] == "EPSG:4326"
     told = json.loads(run("info", "--json", "out.geojsonl").out)
     assert told["crs"] == "EPSG:2056"
-    collection(tmp_path / "plain.geojson", SHAPES, crs=None)
+    write(tmp_path / "plain.geojson", SHAPES, crs=None)
     assert "GDAL" not in run("voronoi", "plain.geojson", "-o", "out.jsonl").err
     done = run("voronoi", "in.geojson", "--crs", "EPSG:4326", "-o", "out.jsonl")
     assert (done.code, "GDAL" in done.err) == (0, False)

@@ -11,16 +11,12 @@ from tests.support.oracles.cut_oracle import assert_cut_coverage, assert_nearest
 
 import vorotool
 from support.few import few
+from support.oracles.voronoi_oracle import quietly
 from vorotool import verify_voronoi, voronoi
 from vorotool.convert.polygons import as_polygons
-from vorotool.errors import InputError, RepairWarning
+from vorotool.errors import InputError
 
 BOX = shapely.box(0, 0, 10, 10)
-
-
-def quietly(sites, **options):
-    with warnings.catch_warnings(action="ignore", category=RepairWarning):
-        return voronoi(sites, **options)
 
 
 @pytest.mark.parametrize("side", [4, 8, 1000])

@@ -1,6 +1,5 @@
 """Enclosures, each shared out among the sites that meet it, against faces and distances of shapely."""
 
-import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -11,15 +10,11 @@ from tests.support.families.site_families import squares
 from tests.support.oracles.cut_oracle import assert_cut_coverage, assert_nearest_in_regions, regions_of_lines
 
 from support.few import few
+from support.oracles.voronoi_oracle import quietly
 from vorotool import verify_voronoi, voronoi
-from vorotool.errors import RepairWarning, VerificationError
+from vorotool.errors import VerificationError
 
 FRAME = (-10.0, -10.0, 20.0, 20.0)
-
-
-def quietly(sites, **options):
-    with warnings.catch_warnings(action="ignore", category=RepairWarning):
-        return voronoi(sites, **options)
 
 
 @pytest.mark.parametrize("side", [4, 8, 1000])

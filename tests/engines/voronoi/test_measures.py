@@ -1,7 +1,5 @@
 """Own areas and largest distances of cells, against shapely at many places, and against what is known."""
 
-import warnings
-
 import numpy as np
 import pytest
 import shapely
@@ -9,18 +7,13 @@ from tests.support.families.site_families import mixed_sites
 
 import vorotool
 from support.few import few
+from support.oracles.voronoi_oracle import quietly
 from vorotool import voronoi
 from vorotool.engines.voronoi.voronoi import ties
-from vorotool.errors import RepairWarning
 
 BOX = shapely.box(0, 0, 10, 10)
 FRAME = (-10.0, -10.0, 30.0, 30.0)
 STEP = 0.6
-
-
-def quietly(sites, **options):
-    with warnings.catch_warnings(action="ignore", category=RepairWarning):
-        return voronoi(sites, **options)
 
 
 def places_in(cell):

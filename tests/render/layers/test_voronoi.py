@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-import warnings
 from xml.etree import ElementTree
 
 import imageio.v3 as iio
@@ -15,8 +14,8 @@ import svgelements
 from tests.support.families.site_families import mixed_sites
 
 import vorotool
+from support.oracles.voronoi_oracle import quietly
 from vorotool import UsageError, voronoi
-from vorotool.errors import RepairWarning
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Texts
 from vorotool.render.canvas.styles import cell_color
 from vorotool.render.canvas.svg import write_layers_svg
@@ -26,11 +25,6 @@ from vorotool.render.layers.voronoi import map_colors, voronoi_layers
 SVG = "{http://www.w3.org/2000/svg}"
 
 LAYERS = ("cells", "edges", "objects", "labels")
-
-
-def quietly(sites, **options):
-    with warnings.catch_warnings(action="ignore", category=RepairWarning):
-        return voronoi(sites, **options)
 
 
 def drawn(cells, *layers, width=1000):

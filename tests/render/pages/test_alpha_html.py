@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-import shutil
-import subprocess
 from html import unescape
 
 import numpy as np
@@ -14,30 +12,18 @@ from PIL import Image
 
 from support.families.point_families import draw
 from support.few import few
+from support.processes.browser import browse, needs_browser
 from vorotool import LimitError, alpha_complex, alpha_curves, alpha_shape
 from vorotool.render.canvas.styles import BOUNDARY, CELLS, SEED, SINGULAR
 from vorotool.render.pages.html import MOST_POINTS, check_family_size, write_alpha_html
 from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.fields import with_y_axis
 
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-needs_browser = pytest.mark.skipif(
-    BROWSER is None, reason="no chromium: the page is not shown (apt-get install chromium)"
-)
-
 
 def page_of(family, **options):
     out = io.BytesIO()
     write_alpha_html(out, family, alpha_curves(family), **options)
     return out.getvalue().decode()
-
-
-def browse(*arguments):
-    """Run the browser without a network."""
-    options = ("--headless", "--no-sandbox", "--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND")
-    return subprocess.run(
-        [BROWSER, *options, "--virtual-time-budget=5000", *arguments], capture_output=True, check=True, timeout=120
-    ).stdout.decode()
 
 
 def shown(document, name):

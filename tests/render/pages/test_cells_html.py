@@ -3,8 +3,6 @@
 import io
 import json
 import re
-import shutil
-import subprocess
 from base64 import b64decode
 from html import unescape
 
@@ -15,6 +13,7 @@ from PIL import Image
 
 import vorotool
 from support.few import few
+from support.processes.browser import browse, needs_browser
 from vorotool import LimitError, voronoi_cells
 from vorotool.render.canvas.styles import CELLS
 from vorotool.render.pages.html import (
@@ -27,10 +26,6 @@ from vorotool.render.pages.html import (
 )
 from vorotool.types.fields import with_y_axis
 
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-needs_browser = pytest.mark.skipif(
-    BROWSER is None, reason="no chromium: the page is not shown (apt-get install chromium)"
-)
 LABELS = np.array([[1, 1, 2, 2], [1, 0, 3, 2], [3, 3, 3, 12]])
 
 
@@ -96,14 +91,6 @@ def test_too_many():
 def test_nothing_is_loaded_from_elsewhere():
     page = page_of(shapes_of_labels(LABELS), [1, 2, 3, 4], {})
     assert not re.search(r"(src|href)\s*=|https?:|@import|url\(", page)
-
-
-def browse(*arguments):
-    """Run the browser without a network."""
-    options = ("--headless", "--no-sandbox", "--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND")
-    return subprocess.run(
-        [BROWSER, *options, "--virtual-time-budget=5000", *arguments], capture_output=True, check=True, timeout=120
-    ).stdout.decode()
 
 
 @needs_browser
