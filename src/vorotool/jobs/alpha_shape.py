@@ -24,6 +24,7 @@ from vorotool.jobs.triangulation import TRIANGULATE, digital_mesh, seeds_of
 from vorotool.jobs.units import length_in_units, measured
 from vorotool.numeric.numbers import nearest_double
 from vorotool.numeric.parallel import Progress
+from vorotool.products.formats import resolved
 from vorotool.products.registry import OF_ONE_SHAPE, PLOTS
 from vorotool.render.drawing import Drawing, Plot, drawing_of
 from vorotool.types.alpha.complex import RegionPersistence
@@ -142,9 +143,7 @@ class ShapeProducts(Results):
 
     def check_page(self) -> None:
         """Refuse a page of too many edges."""
-        from vorotool.render.pages.html import check_family_size
-
-        check_family_size(self.family)
+        resolved("render.pages.html:check_family_size")(self.family)
 
     def _beginning(self, what: str, words: str) -> str:
         """Words for the radius at which there is something: regions begin with a triangle, shapes with an edge."""

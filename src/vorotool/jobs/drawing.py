@@ -165,13 +165,9 @@ def _read(run: Run, o: Options, given: JobInput) -> LabelImage | Lined:
                 "the command that computes them and -f svg"
             )
         holds = "polygons"  # whose reader says more of tables
-    options = ReadOptions(
-        y_axis=None if o.y_up is None else y_axis_of(o.y_up),
-        page=o.page,
-        properties=o.label_by is not None,
-        max_pixels=o.max_pixels,
-        note=partial(_note, run),
-    )
+    y_axis = None if o.y_up is None else y_axis_of(o.y_up)
+    how: dict[str, Any] = {"page": o.page, "max_pixels": o.max_pixels, "note": partial(_note, run)}
+    options = ReadOptions(y_axis=y_axis, properties=o.label_by is not None, **how)
     value = read_recognized(holds, source, options)
     if options.y_axis is not None:
         value = with_stated_axis(value, source.name, options.y_axis)

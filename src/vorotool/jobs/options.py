@@ -16,8 +16,6 @@ from vorotool.products.options import DEFAULTS, options_of
 from vorotool.products.registry import OF_ONE_SHAPE, OF_SPACE, PRODUCTS, Product
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
     from vorotool.jobs.units import PixelSize
     from vorotool.render.looks import Looks
 
@@ -133,12 +131,6 @@ class Options:
         return {"--files-from": self.files_from, **files} if self.files_from else files
 
     # ---- the method
-    @property
-    def cell_side(self) -> Fraction | None:
-        """The side of the cells of a map, where the frame is in its units."""
-        side: Fraction | None = self.cell_size
-        return side
-
     @property
     def triangulated_by(self) -> str:
         """What the method comes to: it is the digital rule that is compared with the exact triangulation."""

@@ -25,6 +25,7 @@ from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import in_units, sides_of, table_in_units, unit_columns
 from vorotool.numeric.parallel import Progress
+from vorotool.products.formats import resolved
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
 
@@ -125,9 +126,7 @@ class MeshProducts(Results):
 
     def check_page(self) -> None:
         """Refuse a page of too many cells."""
-        from vorotool.render.pages.html import check_cells_size
-
-        check_cells_size(len(self.mesh.points))
+        resolved("render.pages.html:check_cells_size")(len(self.mesh.points))
 
     def emptiness(self, what: str) -> str:
         """Say why there are no edges or triangles."""

@@ -150,9 +150,7 @@ class Sides(NamedTuple):
 
 def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
     """Give options whose lengths are numbers in the coordinates of the input, as far as a size of pixels tells."""
-    names = measured(o)
-    for name in names:
-        _in_pixels(flag(o.command, name), getattr(o, name), partial(_check_unit, size))
+    _converted(o, partial(_check_unit, size))
     if size is None or size.is_auto or size.unit is None:
         return o  # the input may tell
     lengths = (size.factor,) * 2 if size.sides is None else size.sides.lengths
@@ -161,9 +159,7 @@ def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
 
 def in_coordinates(o: Options, sides: Sides) -> Options:
     """Give options whose lengths are numbers in coordinates of which 1 is so long."""
-    lengths = {
-        name: _in_pixels(flag(o.command, name), getattr(o, name), partial(_number, sides)) for name in measured(o)
-    }
+    lengths = _converted(o, partial(_number, sides))
     if "frame" in lengths:
         check_frame(lengths["frame"])
     return changed(o, **lengths) if lengths else o
@@ -183,13 +179,17 @@ def refuse_lengths(o: Options, reason: str, kind: type[VorotoolError] = UsageErr
     def refuse(option: str, length: Measured) -> NoReturn:
         raise kind(f"{option} {length.text} has a unit, but {reason}")
 
-    for name in measured(o):
-        _in_pixels(flag(o.command, name), getattr(o, name), refuse)
+    _converted(o, refuse)
 
 
 def measured(o: Options) -> list[str]:
     """Names of the options that have a unit: some of those that are given."""
     return [name for name in o.sources if _has_unit(getattr(o, name))]
+
+
+def _converted(o: Options, convert: Callable[[str, Measured], Any]) -> dict[str, Any]:
+    """Convert the values of all options that have a unit."""
+    return {name: _in_pixels(flag(o.command, name), getattr(o, name), convert) for name in measured(o)}
 
 
 def _has_unit(value: Any) -> bool:

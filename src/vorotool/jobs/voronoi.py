@@ -110,9 +110,7 @@ class VoronoiProducts(Results):
 
     def check_page(self) -> None:
         """Refuse a page of too many cells."""
-        from vorotool.render.pages.html import check_cells_size
-
-        check_cells_size(len(self.cells), len(self.cells.ring_arcs))
+        resolved("render.pages.html:check_cells_size")(len(self.cells), len(self.cells.ring_arcs))
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
