@@ -124,7 +124,7 @@ def _transform(name: str, page: Any) -> tuple[Transform | None, str]:
         return None, note
     if a * e == b * d:
         raise InputError(f"{name} is damaged: its pixels have no area on the map; remove its georeference to read it")
-    if _raster_type(page) == IS_POINT:  # numbers of pixels are those of their centers
+    if _is_point(_keys(page)):  # numbers of pixels are those of their centers
         c, f = c - (a + b) / 2, f - (d + e) / 2
     return (a, b, c, d, e, f), ""
 
@@ -146,9 +146,8 @@ def _numbers(name: str, page: Any, tag: int, words: str, count: int) -> tuple[fl
     return numbers
 
 
-def _raster_type(page: Any) -> int | None:
-    keys = _keys(page)
-    return None if keys is None else _entries(keys).get(RASTER_TYPE)
+def _is_point(keys: GeoKeys | None) -> bool:
+    return keys is not None and _entries(keys).get(RASTER_TYPE) == IS_POINT
 
 
 def _keys(page: Any) -> GeoKeys | None:
@@ -303,7 +302,7 @@ def _map_tags(grid: PixelGrid) -> list[Tag]:
     assert grid.transform is not None
     keys = grid.keys or _keys_of(grid.crs)
     a, b, c, d, e, f = grid.transform
-    if keys is not None and _is_point(keys):
+    if _is_point(keys):
         c, f = c + (a + b) / 2, f + (d + e) / 2
     if a > 0 > e and b == 0 == d:
         tags = [_doubles(PIXEL_SCALE, (a, -e, 0)), _doubles(TIEPOINT, (0, 0, 0, c, f, 0))]
@@ -321,11 +320,6 @@ def _map_tags(grid: PixelGrid) -> list[Tag]:
 
 def _doubles(tag: int, values: tuple[float, ...]) -> Tag:
     return (tag, _DOUBLE, len(values), tuple(map(float, values)), True)
-
-
-def _is_point(keys: GeoKeys) -> bool:
-    rows = zip(*(keys.directory[4 + k :: 4] for k in range(4)), strict=False)
-    return any((key, value) == (RASTER_TYPE, IS_POINT) for key, _, _, value in rows)
 
 
 def _keys_of(crs: object) -> GeoKeys | None:
