@@ -17,6 +17,7 @@
 #include "core/tetrahedra/point_table.hpp"
 #include "core/tetrahedra/predicates.hpp"
 #include "core/tetrahedra/spheres.hpp"
+#include "core/tetrahedra/tetrahedral_mesh.hpp"
 #include "core/tetrahedra/verify_tetrahedra.hpp"
 
 namespace vorotool::bindings {
@@ -175,6 +176,7 @@ void bind_tetrahedra(nb::module_& room) {
       "A level is auto, filter, integers or wide; the sign is 2 where the filter cannot tell. The points "
       "must be "
       "finite.";
+  nb::exception<core::tetrahedra::TooManyTetrahedra>(room, "TooManyTetrahedraError", PyExc_ValueError);
   room.def(
       "triangulate", &triangulate, "points"_a, "threads"_a, "progress"_a.none(),
       "dimension, that of the points, -1 of none: below 3 there are no tetrahedra; tetrahedra, positive, and "

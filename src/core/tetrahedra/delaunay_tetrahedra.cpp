@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -63,8 +64,9 @@ class Rounds {
   int last_ = 0;
 };
 
-// Rounds that have enough points are inserted by several threads, each of which owns an interval of the curve; those
-// that wait for what others own are inserted afterwards.
+// Rounds that have enough points are inserted by several threads, each of which owns an interval of the curve. Those
+// that wait for what others own are tried again with intervals moved by half of their length, and then with fewer of
+// them; what is left is inserted by one.
 class Insertion {
  public:
   Insertion(TetrahedralMesh& mesh, const std::vector<Index>& start, unsigned threads, const Monitor& monitor)
@@ -82,9 +84,12 @@ class Insertion {
 
   void run() {
     for (int round = rounds_.count() - 1; round >= 0; --round) {
-      const std::size_t points = count_ >> (3 * round);
-      const std::size_t parts = std::min<std::size_t>(threads_, points / points_a_thread);
-      if (parts > 1) insert_in_parts(round, parts);
+      std::size_t left = count_ >> (3 * round);
+      for (std::size_t parts = most_parts(left); parts > 1; parts = std::min(parts / 2, most_parts(left))) {
+        const std::size_t length = base::piece_count(count_, parts);
+        left -= std::min(left, insert_in_parts(round, parts, 0));
+        left -= std::min(left, insert_in_parts(round, parts, length / 2));
+      }
       place_alone();
       insert_here(alone_, round, 0, count_);
     }
@@ -94,6 +99,10 @@ class Insertion {
   static constexpr std::size_t points_a_thread = std::size_t{1} << 14;
   static constexpr std::size_t points_at_once = std::size_t{1} << 15;  // of a thread: some 50 ms
 
+  std::size_t most_parts(std::size_t points) const {
+    return std::min<std::size_t>(threads_, points / points_a_thread);
+  }
+
   void place_alone() {
     for (std::size_t slot = 0; !alone_.begin_at(slot); ++slot) {
     }
@@ -102,7 +111,8 @@ class Insertion {
   // Inserts the points of a round in an interval that are not yet, as far as they can be.
   std::size_t insert_here(PointInserter& inserter, int round, std::size_t begin, std::size_t end) {
     std::size_t done = 0;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = k < count_ ? k : k - count_;
       if (rounds_.round_of(i) != round || is_done_[i] != 0) continue;
       if (!inserter.insert(static_cast<Index>(i))) continue;
       is_done_[i] = 1;
@@ -112,27 +122,32 @@ class Insertion {
     return done;
   }
 
-  void insert_in_parts(int round, std::size_t parts) {
+  // Each part begins `shift` later, the last one goes on to the first points.
+  std::size_t insert_in_parts(int round, std::size_t parts, std::size_t shift) {
     const std::size_t length = base::piece_count(count_, parts);
+    const auto end_of = [&](std::size_t part) { return shift + std::min((part + 1) * length, count_); };
     std::vector<std::unique_ptr<PointInserter>> inserters;
     for (std::size_t part = 0; part < parts; ++part) {
-      const std::size_t begin = std::min(part * length, count_), end = std::min(begin + length, count_);
-      inserters.push_back(std::make_unique<PointInserter>(mesh_, numbers_, begin, end));
+      const std::size_t begin = shift + part * length;
+      inserters.push_back(
+          std::make_unique<PointInserter>(mesh_, numbers_, begin % count_, end_of(part) - begin));
       std::size_t slot = 0;
       while (slot < mesh_.slots() && !inserters[part]->begin_at(slot)) ++slot;
     }
+    std::size_t all = 0;
     for (std::size_t from = 0; from < length; from += points_at_once) {
       std::atomic<std::size_t> done{0};
       base::parallel_for(parts, threads_, [&](std::size_t part) {
-        const std::size_t begin = std::min(part * length + from, count_);
-        const std::size_t end = std::min({begin + points_at_once, (part + 1) * length, count_});
-        done += insert_here(*inserters[part], round, begin, end);
+        const std::size_t begin = std::min(shift + part * length + from, end_of(part));
+        done += insert_here(*inserters[part], round, begin, std::min(begin + points_at_once, end_of(part)));
       });
       report(done);
+      all += done;
     }
     for (const auto& inserter : inserters) {
       alone_.free().insert(alone_.free().end(), inserter->free().begin(), inserter->free().end());
     }
+    return all;
   }
 
   void report(std::size_t more) {
@@ -165,10 +180,17 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
   if (result.dimension < 3) return result;
   const SetPredicates predicates(order.points);
   TetrahedralMesh mesh(order.points, predicates);
-  Insertion(mesh, start, threads, monitor).run();
-  order.points = {};
-  const Monitor rest = [&](double part) { return !monitor || monitor(mesh_share + (1 - mesh_share) * part); };
-  CanonicalRows rows = canonical_rows(mesh, threads, rest);
+  CanonicalRows rows;
+  try {
+    Insertion(mesh, start, threads, monitor).run();
+    order.points = {};
+    const Monitor rest = [&](double part) {
+      return !monitor || monitor(mesh_share + (1 - mesh_share) * part);
+    };
+    rows = canonical_rows(mesh, threads, rest);
+  } catch (const std::bad_alloc&) {
+    throw TooManyTetrahedra(mesh.slots());
+  }
   result.count = rows.count;
   result.vertices = std::move(rows.vertices);
   result.neighbors = std::move(rows.neighbors);

@@ -28,7 +28,8 @@ struct Tetrahedra {
   std::size_t duplicates = 0;       // points that have an earlier one at the same place
 };
 
-// Finite points. Throws std::length_error where there are more than 2^28, or more than 2^29 tetrahedra.
+// Finite points. Throws std::length_error where there are more than 2^28, TooManyTetrahedra (tetrahedral_mesh.hpp) where
+// there are more than 2^29 of these, or than memory holds.
 Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::tetrahedra

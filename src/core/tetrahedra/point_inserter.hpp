@@ -16,18 +16,18 @@ namespace vorotool::core::tetrahedra {
 // the tetrahedron within: so no new one is flat, for whether a sphere holds a point in the plane of a facet depends on
 // the facet alone, ties included.
 //
-// An inserter owns the vertices of an interval, and the slots all of whose finite vertices it owns; it changes no
+// An inserter owns the vertices of an interval, which may go on from the last to the first of all, and the slots all of whose finite vertices it owns; it changes no
 // others, and reads beside its own only neighbors of those. As these share vertices with its own, no inserter of
 // another interval changes them: several may work at the same time, without locks.
 class PointInserter {
  public:
   // `numbers` has a byte a point, which inserters share.
-  PointInserter(TetrahedralMesh& mesh, std::span<std::uint8_t> numbers, std::size_t begin, std::size_t end)
+  PointInserter(TetrahedralMesh& mesh, std::span<std::uint8_t> numbers, std::size_t begin, std::size_t size)
       : mesh_(mesh),
         numbers_(numbers),
         begin_(static_cast<std::uint32_t>(begin)),
-        size_(static_cast<std::uint32_t>(end - begin)),
-        is_alone_(begin == 0 && end == mesh.points().size()) {}
+        size_(static_cast<std::uint32_t>(size)),
+        is_alone_(size == mesh.points().size()) {}
 
   // Begins to search at a tetrahedron, if the inserter owns that.
   bool begin_at(std::size_t slot);
@@ -43,7 +43,10 @@ class PointInserter {
     Index outside;
   };
 
-  bool owns(Index v) const { return static_cast<std::uint32_t>(v) - begin_ < size_; }
+  bool owns(Index v) const {
+    const auto number = static_cast<std::uint32_t>(v), around = static_cast<std::uint32_t>(mesh_.infinity());
+    return (number < begin_ ? number + around : number) - begin_ < size_;
+  }
   bool owns_slot(std::size_t slot) const {
     if (is_alone_) return true;
     const Row& row = mesh_.row(slot);

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <numeric>
 
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
@@ -89,6 +90,19 @@ HilbertGrid grid_over(std::span<const Point3> points) {
   return {least, most};
 }
 
+// Where pieces of sorted items begin and end: all items of a cell are in one.
+std::vector<std::size_t> ends_of_pieces(const std::vector<base::Keyed>& items) {
+  std::vector<std::size_t> ends{0};
+  for (std::size_t next = points_a_piece; next < items.size(); next += points_a_piece) {
+    const auto is_less = [](std::uint64_t key, const base::Keyed& item) { return key < item.key; };
+    const auto from = items.begin() + static_cast<std::ptrdiff_t>(std::max(next, ends.back()));
+    const auto end = std::upper_bound(from, items.end(), items[next - 1].key, is_less);
+    ends.push_back(static_cast<std::size_t>(end - items.begin()));
+  }
+  ends.push_back(items.size());
+  return ends;
+}
+
 }  // namespace
 
 SpatialOrder spatial_order(std::span<const Point3> points, std::span<std::int32_t> first, unsigned threads,
@@ -100,23 +114,39 @@ SpatialOrder spatial_order(std::span<const Point3> points, std::span<std::int32_
   base::for_items(points.size(), points_a_piece, threads, monitor,
                   [&](std::size_t i) { items[i] = {grid.code(points[i]), static_cast<std::uint32_t>(i)}; });
   base::radix_sort(items, 3 * cell_bits, threads);
-  order.points.reserve(points.size());
-  order.index.reserve(points.size());
-  for (std::size_t begin = 0, end = 0; begin < items.size(); begin = end) {
-    while (end < items.size() && items[end].key == items[begin].key) ++end;
-    const auto cell = std::span(items).subspan(begin, end - begin);
-    std::stable_sort(cell.begin(), cell.end(), [&](const base::Keyed& a, const base::Keyed& b) {
-      return comes_before(points[a.value], points[b.value]);
-    });
-    for (std::size_t i = 0; i < cell.size(); ++i) {
-      const Point3& p = points[cell[i].value];
-      if (i == 0 || !(p == order.points.back())) {
-        order.points.push_back(p);
-        order.index.push_back(static_cast<std::int32_t>(cell[i].value));
+  const auto is_repeated = [&](std::size_t i) {  // once sorted
+    return i > 0 && items[i].key == items[i - 1].key && points[items[i].value] == points[items[i - 1].value];
+  };
+  const std::vector<std::size_t> ends = ends_of_pieces(items);
+  const std::size_t pieces = ends.size() - 1;
+  std::vector<std::size_t> places(pieces + 1);  // where the points of each piece begin
+  base::parallel_for(pieces, threads, [&](std::size_t piece) {
+    const std::size_t last = ends[piece + 1];
+    for (std::size_t begin = ends[piece], end = begin; begin < last; begin = end) {
+      while (end < last && items[end].key == items[begin].key) ++end;
+      if (end - begin > 1) {
+        std::stable_sort(items.begin() + begin, items.begin() + end,
+                         [&](const base::Keyed& a, const base::Keyed& b) {
+                           return comes_before(points[a.value], points[b.value]);
+                         });
       }
-      first[cell[i].value] = order.index.back();
+      for (std::size_t i = begin; i < end; ++i) places[piece + 1] += !is_repeated(i);
     }
-  }
+  });
+  std::partial_sum(places.begin(), places.end(), places.begin());
+  order.points.resize(places.back());
+  order.index.resize(places.back());
+  base::parallel_for(pieces, threads, [&](std::size_t piece) {
+    std::size_t next = places[piece];
+    for (std::size_t i = ends[piece]; i < ends[piece + 1]; ++i) {
+      const std::uint32_t v = items[i].value;
+      if (!is_repeated(i)) {
+        order.points[next] = points[v];
+        order.index[next++] = static_cast<std::int32_t>(v);
+      }
+      first[v] = order.index[next - 1];
+    }
+  });
   return order;
 }
 

@@ -1,7 +1,8 @@
 #include "core/tetrahedra/tetrahedral_mesh.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+
+#include "core/base/available_memory.hpp"
 
 namespace vorotool::core::tetrahedra {
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr std::size_t most_slots = std::size_t{1} << 29;
 constexpr std::size_t slots_at_once = 256;
+constexpr std::size_t bytes_a_slot = 2 * sizeof(Row) + sizeof(std::uint8_t);
 
 std::size_t whole_pieces(std::size_t slots) {
   return (slots + slots_at_once - 1) / slots_at_once * slots_at_once;
@@ -27,8 +29,8 @@ TetrahedralMesh::TetrahedralMesh(std::span<const Point3> points, const SetPredic
 }
 
 void TetrahedralMesh::grow() {
-  if (slots_ >= most_slots) throw std::length_error("more than 536870912 tetrahedra");
   const std::size_t size = whole_pieces(std::min(slots_ + slots_ / 2, most_slots));
+  if (slots_ >= most_slots || size > base::available_memory() / bytes_a_slot) throw TooManyTetrahedra(slots_);
   const auto copy = [&]<class T>(base::LargeArray<T>& array) {
     base::LargeArray<T> larger(size);
     std::copy_n(array.data(), slots_, larger.data());

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <mutex>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,12 @@ namespace vorotool::core::tetrahedra {
 
 using Index = std::int32_t;
 using Row = std::array<Index, 4>;
+
+// There is no memory for as many tetrahedra as points have, or they are more than 2^29.
+struct TooManyTetrahedra : std::length_error {
+  explicit TooManyTetrahedra(std::size_t tetrahedra)
+      : std::length_error(std::to_string(tetrahedra)) {}  // so far
+};
 
 // The vertices of each facet: with what lies on its inner side they are a positive tetrahedron.
 inline constexpr std::array<std::array<std::size_t, 3>, 4> facet_vertices{
@@ -33,7 +41,7 @@ class TetrahedralMesh {
   void start(Row vertices);
 
   // Adds free slots to a list; false where the arrays are full, unless they may grow, which no other thread must see.
-  // Throws std::length_error where there would be more than 2^29 slots: facets have 31 bits.
+  // Throws TooManyTetrahedra where there would be more than 2^29 slots, as facets have 31 bits, or than memory holds.
   bool take_slots(std::vector<std::size_t>& free, bool may_grow);
 
   std::size_t slots() const { return slots_; }

@@ -1,5 +1,8 @@
 """Delaunay triangulations of points in space, against brute force in rationals and scipy."""
 
+import re
+import subprocess
+import sys
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, product
@@ -184,6 +187,31 @@ def test_faults_of_triangles_in_a_plane_are_found():
     turned = replace(mesh, planar=np.vectorize(other.get)(mesh.planar))
     with pytest.raises(vorotool.VerificationError):
         vorotool.verify_triangulation(turned)
+
+
+LIMITED = """
+import resource, numpy as np, vorotool
+line = np.arange(2500.0)
+points = np.concatenate([np.c_[line, 0 * line, 0 * line], np.c_[0 * line, line, 0 * line + 1]])
+pages = int(open("/proc/self/statm").read().split()[0])
+limit = pages * resource.getpagesize() + (96 << 20)
+resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+try:
+    vorotool.delaunay(points, threads=1)
+except vorotool.LimitError as error:
+    print(error)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of addresses are those of Linux")
+def test_more_tetrahedra_than_memory_holds_are_told_of():
+    """Two skew lines of 2 500 points have 2 499 squared."""
+    done = subprocess.run([sys.executable, "-c", LIMITED], capture_output=True, text=True, check=True)
+    found = re.fullmatch(
+        r"5000 points have more than (\d+) tetrahedra, and there is no memory .* parts of them\n", done.stdout
+    )
+    assert found, done.stdout
+    assert 40000 < int(found[1]) < 2499**2 + 40000
 
 
 # ---- the table -----------------------------------------------------------------------------------

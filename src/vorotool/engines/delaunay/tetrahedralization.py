@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.convert.volumes import as_volume_points
 from vorotool.engines.delaunay.delaunay import report_duplicates
+from vorotool.errors import LimitError
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
@@ -29,12 +30,22 @@ def tetrahedralization(
     """Triangulate points in space, as `vorotool.delaunay` does."""
     given, threads = as_volume_points(points), checked_threads(threads)
     known = {name: value for name, value in known_of_points(given).items() if name in ("labels", "properties", "index")}
-    found = _core.tetrahedra.triangulate(given.xyz, threads, progress)
+    found = _triangulated(given.xyz, threads, progress)
     is_planar = found["dimension"] == PLANE
     planar = _planar_triangles(given.xyz, threads, progress) if is_planar else np.zeros((0, 3), dtype=np.int32)
     mesh = Tetrahedralization(given.xyz, found["tetrahedra"], found["neighbors"], planar, found["first"], **known)
     report_duplicates(mesh, strict=strict)
     return mesh
+
+
+def _triangulated(xyz: Floats, threads: int, progress: Progress) -> dict[str, Any]:
+    try:
+        return _core.tetrahedra.triangulate(xyz, threads, progress)
+    except _core.tetrahedra.TooManyTetrahedraError as error:
+        raise LimitError(
+            f"{len(xyz)} points have more than {error} tetrahedra, and there is no memory for more: points along a few "
+            "lines or curves have so many; leave points out, or triangulate parts of them"
+        ) from None
 
 
 # ---- points in one plane -------------------------------------------------------------------------
@@ -45,7 +56,7 @@ def _planar_triangles(xyz: Floats, threads: int, progress: Progress) -> NDArray[
     sphere through it and three points meets the plane in their circle, so that the faces opposite to it are the
     Delaunay triangles of the plane; since it is lexicographically greater than all points, ties are broken by these.
     """
-    meshes = (_core.tetrahedra.triangulate(places, threads, progress) for places in _with_places_beyond(xyz))
+    meshes = (_triangulated(places, threads, progress) for places in _with_places_beyond(xyz))
     cone = next(each["tetrahedra"] for each in meshes if len(each["tetrahedra"]))
     row, corner = np.nonzero(cone == len(xyz))
     triangles: NDArray[np.int32] = cone[row[:, None], FACES[corner]]
@@ -84,7 +95,7 @@ def _planar_fault(mesh: Tetrahedralization, threads: int, progress: Progress) ->
     """The first fault of triangles in a plane: with a place off the plane they are tetrahedra, which are checked."""
     places = mesh.points
     if not len(mesh.planar):
-        is_on_line = _core.tetrahedra.triangulate(places, threads, progress)["dimension"] < PLANE
+        is_on_line = _triangulated(places, threads, progress)["dimension"] < PLANE
         return None if is_on_line else "there is no triangle, but the points are not collinear"
     if mesh.planar.min() < 0 or mesh.planar.max() >= len(places):
         return "a planar triangle names a point that does not exist"
