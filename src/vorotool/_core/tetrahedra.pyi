@@ -7,6 +7,9 @@ import numpy
 import numpy.typing
 
 
+class TooManyTetrahedraError(ValueError):
+    pass
+
 def triangulate(points: numpy.typing.NDArray[numpy.float64], threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]:
     """
     dimension, that of the points, -1 of none: below 3 there are no tetrahedra; tetrahedra, positive, and the neighbors opposite to their vertices, -1 outside; first, for each point the first one at its place; duplicates, how many points have an earlier one.
