@@ -124,15 +124,11 @@ def _table(
 
 def _places(polygons: PolygonSet, vertex: NDArray[np.int64]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Rings of vertices, and where in these: -1 of those that are -1."""
-    ring = _ring_of_vertex(polygons)[vertex]
+    ring = owners(np.diff(polygons.ring_starts), dtype=np.int32)[vertex]
     index = (vertex - polygons.ring_starts[ring]).astype(np.int32)
     none = vertex < 0
     ring[none], index[none] = -1, -1
     return ring, index
-
-
-def _ring_of_vertex(polygons: PolygonSet) -> NDArray[np.int32]:
-    return owners(np.diff(polygons.ring_starts), dtype=np.int32)
 
 
 class PolygonRegions:

@@ -282,7 +282,8 @@ class _Growth:
         self.twig_count = np.bincount(self.twigs.node, minlength=nodes)
         self.twig_order = np.argsort(self.twigs.node, kind="stable")
         self.twig_start = starts_of(self.twig_count)
-        self.branch_sum = _sums(ends[others].reshape(-1), np.repeat(others, 2), nodes)
+        # sums at each node, which doubles hold exactly
+        self.branch_sum = np.bincount(ends[others].reshape(-1), np.repeat(others, 2), nodes).astype(np.intp)
         self.blunt = set(self.pairs.edge[self.pairs.is_blunt].tolist())
 
     def grow(self, run: Numbers) -> list[_End]:
@@ -374,8 +375,3 @@ class _Growth:
         if len(part.twigs) > 1 or part.cosine <= 0:
             return True
         return 2 * part.cosine * part.cosine - 1 <= end.cosine  # it turns by half the least angle, or more
-
-
-def _sums(node: Numbers, values: Numbers, nodes: int) -> Numbers:
-    """The sum of values at each node, which doubles hold exactly."""
-    return np.bincount(node, values, nodes).astype(np.intp)

@@ -70,7 +70,7 @@ class InputOrder:
         places = Places(_inverse(order)), Places.by(_point_keys(whole, parts)), Places.by(_segment_keys(parts))
         counts = [(len(shapes.placed.polygons), len(shapes.graph.points), len(shapes.graph)) for shapes in parts]
         polygons, points, segments = (
-            _numbers_of_batches(place, [row[k] for row in counts]) for k, place in enumerate(places)
+            numbers_of_batches(place, [row[k] for row in counts]) for k, place in enumerate(places)
         )
         first_segment = sum(row[1] for row in counts)
         sites = [
@@ -90,7 +90,8 @@ def _inverse(order: Indices) -> Indices:
     return place
 
 
-def _numbers_of_batches(places: Places, counts: Sequence[int]) -> list[NDArray[np.int32]]:
+def numbers_of_batches(places: Places, counts: Sequence[int]) -> list[NDArray[np.int32]]:
+    """Number so many items of each batch by where they come in the end."""
     numbers = places.numbers(np.arange(sum(counts), dtype=np.int32))
     return np.split(numbers, starts_of(counts)[1:-1]) if counts else []
 

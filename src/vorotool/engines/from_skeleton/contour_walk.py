@@ -134,9 +134,8 @@ class _HalfEdges:
         is_in = np.arange(len(half_edge)) >= len(open_)
         way_out = np.where(is_in, half_edge ^ 1, half_edge)
         angle, node = self._angles_out(way_out), self.tail[way_out]
-        order = np.lexsort(
-            (is_in, angle, node)
-        )  # a way back is after the way out at its angle: that is its last choice
+        # a way back is after the way out at its angle: that is its last choice
+        order = np.lexsort((is_in, angle, node))
         is_out, node = ~is_in[order], node[order]
         ways = np.flatnonzero(is_out)
         begin, end = (np.searchsorted(node[ways], node, side=side) for side in ("left", "right"))

@@ -54,7 +54,8 @@ def verify_discs(discs: Discs, *, progress: Progress = None) -> None:
     >>> verify_discs(largest_discs([[0, 0], [4, 0], [0, 3]]))
     """
     check_value(discs, "discs", "Discs")
-    tolerance = _tolerance(discs)
+    largest = largest_coordinate((0.0, 0.0), discs.polygons.xy, discs.xy) or 1.0
+    tolerance = 2 * ULPS * float(np.spacing(largest))
     _check_feet(discs, tolerance)
     if discs.within is not None:
         _check_empty(discs, discs.within, tolerance)
@@ -73,10 +74,6 @@ def verify_discs(discs: Discs, *, progress: Progress = None) -> None:
             progress((number + 1) / len(owners))
     if discs.features == "together" and len(discs):
         _check_clear(discs, np.arange(len(discs)), _edges(discs, np.arange(len(feature))), tolerance)
-
-
-def _tolerance(discs: Discs) -> float:
-    return 2 * ULPS * float(np.spacing(largest_coordinate((0.0, 0.0), discs.polygons.xy, discs.xy) or 1.0))
 
 
 def _check_feet(discs: Discs, tolerance: float) -> None:

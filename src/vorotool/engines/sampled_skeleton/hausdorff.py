@@ -115,7 +115,8 @@ def compare_parts(found: FeatureApproximation, *, side: str = "interior", thread
         TO_EXACT: found.arcs,
         TO_APPROXIMATE: [first + np.arange(way[TO_APPROXIMATE][1]) for first, way in zip(exact, ways, strict=False)],
     }
-    return {name: _as_dict(_farthest([way[name] for way in ways], numbers[name])) for name in numbers}
+    farthest = {name: _farthest([way[name] for way in ways], own) for name, own in numbers.items()}
+    return {name: None if each is None else asdict(each) for name, each in farthest.items()}
 
 
 def _farthest(ways: Sequence[tuple[Deviation | None, int]], numbers: Sequence[NDArray[np.int64]]) -> Deviation | None:
@@ -153,7 +154,3 @@ def exact_skeleton(
     diagram = diagram_of_placed(found.shapes.graph, found.shapes.placed, threads=threads)
     with silent():  # that there is no interior was told before
         return skeleton_of(diagram, side=side, frame=frame, threads=threads)
-
-
-def _as_dict(found: Deviation | None) -> dict[str, Any] | None:
-    return None if found is None else asdict(found)

@@ -14,7 +14,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import arranged, graph_for_skeletons, placed_vertices
 from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches, together
-from vorotool.engines.features.order import Places
+from vorotool.engines.features.order import numbers_of_batches
 from vorotool.engines.sampled_skeleton.approximate import (
     ApproximateSkeleton,
     SampledShapes,
@@ -34,7 +34,6 @@ from vorotool.engines.skeleton.diagrams import joined_sides, joined_with_places
 from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.engines.skeleton.parts import contraction
 from vorotool.errors import LimitError, silent
-from vorotool.numeric.arrays import Indices, starts_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.box import bounds
@@ -51,9 +50,9 @@ class FeatureApproximation:
     # (a, 2) int32 array: the seeds beside each arc, numbered part after part; -1 of lines that lead to corners
     seeds: NDArray[np.int32]
     parts: list[ApproximateSkeleton]  # of batches of features, then of what is outside
-    # list of int64 arrays: the number in `skeleton` of each arc of each part; where rounding leaves no length of it,
+    # list of integer arrays: the number in `skeleton` of each arc of each part; where rounding leaves no length of it,
     # of one at its node
-    arcs: list[Indices]
+    arcs: Sequence[NDArray[np.integer]]
     inside: FeatureShapes | None  # what features are; None of what is outside alone
 
     @property
@@ -153,7 +152,7 @@ def feature_approximation(
     if options.tolerance is not None:
         refuse_unproved(skeleton, options.tolerance)
     parts = [found for _, found in made]
-    arcs = _numbers(places, [len(found.skeleton) for found in parts])
+    arcs = numbers_of_batches(places, [len(found.skeleton) for found in parts])
     return FeatureApproximation(skeleton, _joined_seeds(parts, arcs), parts, arcs, whole)
 
 
@@ -210,12 +209,7 @@ def _groups(shapes: BatchShapes) -> SampleGroups:
     return SampleGroups(group.astype(np.int32) if len(present) > 1 else np.empty(0, dtype=np.int32), within)
 
 
-def _numbers(places: Places, counts: Sequence[int]) -> list[Indices]:
-    numbers = np.arange(sum(counts)) if places.place is None else places.place
-    return np.split(numbers, starts_of(counts)[1:-1]) if counts else []
-
-
-def _joined_seeds(parts: Sequence[ApproximateSkeleton], arcs: Sequence[Indices]) -> NDArray[np.int32]:
+def _joined_seeds(parts: Sequence[ApproximateSkeleton], arcs: Sequence[NDArray[np.integer]]) -> NDArray[np.int32]:
     seeds = np.full((sum(map(len, arcs)), 2), -1, dtype=np.int32)
     first = 0
     for part, numbers in zip(parts, arcs, strict=True):

@@ -50,9 +50,8 @@ def check_samples(samples: BoundarySamples, step: float | None = None) -> None:
     length = np.sqrt((way * way).sum(axis=1))
     across = (way[:, 0] * from_a[:, 1] - way[:, 1] * from_a[:, 0]) / length
     along = (way * from_a).sum(axis=1) / length
-    if (
-        at := first_wrong((np.abs(across) > SEED_ERROR + 2.0**-50 * length) | (along <= 0) | (along >= length))
-    ) is not None:
+    at = first_wrong((np.abs(across) > SEED_ERROR + 2.0**-50 * length) | (along <= 0) | (along >= length))
+    if at is not None:
         fail(f"seed {points + at} is not on its edge")
     same = np.flatnonzero(np.diff(samples.segment[points:]) == 0)
     if (at := first_wrong(along[same + 1] <= along[same])) is not None:

@@ -12,7 +12,6 @@ from vorotool import _core
 from vorotool.numeric.arrays import Indices, mask_of, ranks_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
-from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
@@ -50,7 +49,7 @@ def with_polygons(skeleton: Skeleton, chosen: NDArray[np.int64]) -> Skeleton:
         sites=place[made.sites],
         polygon=number[made.polygon],
         site_table=replace(own, polygon=number[own.polygon]),
-        polygons=_chosen(polygons, chosen),
+        polygons=RingArrays.of(polygons).taken(chosen)[0].polygons(polygons, chosen),
     )
 
 
@@ -62,10 +61,6 @@ def outside_of(skeleton: Skeleton) -> Skeleton:
     sites = np.flatnonzero(~np.isnan(table.ends[:, 0, 0]))
     place = ranks_of(sites, len(table), np.int32)
     return replace(made, sites=place[made.sites], site_table=table.taken(sites))
-
-
-def _chosen(polygons: PolygonSet, chosen: NDArray[np.int64]) -> PolygonSet:
-    return RingArrays.of(polygons).taken(chosen)[0].polygons(polygons, chosen)
 
 
 def with_straight_arcs(

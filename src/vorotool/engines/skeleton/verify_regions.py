@@ -56,9 +56,8 @@ class SkeletonRegions:
         mixed = np.flatnonzero(deleted[:, 0] != deleted[:, 1])
         edge = np.where(deleted[mixed, 0], skeleton.sites[mixed, 0], skeleton.sites[mixed, 1])
         vertex = np.where(deleted[mixed, 0], skeleton.sites[mixed, 1], skeleton.sites[mixed, 0])
-        if (
-            own := first_wrong((graph.segments[number[edge] - count] == number[vertex][:, None]).any(axis=1))
-        ) is not None:
+        own = first_wrong((graph.segments[number[edge] - count] == number[vertex][:, None]).any(axis=1))
+        if own is not None:
             fail(f"arc {mixed[own]} is between an edge and its own end")
         return number
 
@@ -177,9 +176,8 @@ def _check_ends(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
     """One arc ends in each corner under 180 degrees, and nowhere else but on the frame."""
     skeleton, sectors = regions.skeleton, regions.sectors
     corner = _corners_of_nodes(regions)
-    if (
-        at := first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame & (corner < 0))
-    ) is not None:
+    at = first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame & (corner < 0))
+    if at is not None:
         fail(f"the skeleton ends at node {at}, {tuple(skeleton.vertices[at].tolist())}, which is not a corner")
     times = np.bincount(regions.corner_sector, minlength=len(sectors.face))
     expected = wanted[sectors.face]

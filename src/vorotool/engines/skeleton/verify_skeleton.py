@@ -364,18 +364,16 @@ def _elements(skeleton: Skeleton, graph: PlanarGraph, threads: int) -> PlanarGra
 def check_arrays(skeleton: Skeleton) -> None:
     """Raise unless indices exist, nodes are finite and used, and sides go with polygons."""
     for name, limit in (("arcs", len(skeleton.vertices)), ("sites", len(skeleton.site_table))):
-        if (
-            at := first_wrong(((getattr(skeleton, name) < 0) | (getattr(skeleton, name) >= limit)).any(axis=1))
-        ) is not None:
+        at = first_wrong(((getattr(skeleton, name) < 0) | (getattr(skeleton, name) >= limit)).any(axis=1))
+        if at is not None:
             fail(f"{name} of arc {at} are {getattr(skeleton, name)[at].tolist()}, beyond {limit - 1}")
     if not (np.isfinite(skeleton.vertices).all() and np.isfinite(skeleton.radius).all()):
         fail("a node is not finite")
     if (at := first_wrong((skeleton.degree == 0) | (skeleton.radius < 0))) is not None:
         fail(f"node {at} has no arcs, or a negative radius")
     inside = skeleton.polygon >= 0
-    if (
-        at := first_wrong((inside != (skeleton.side == INTERIOR)) | (skeleton.polygon >= len(skeleton.polygons)))
-    ) is not None:
+    at = first_wrong((inside != (skeleton.side == INTERIOR)) | (skeleton.polygon >= len(skeleton.polygons)))
+    if at is not None:
         fail(
             f"arc {at} is {'inside' if skeleton.side[at] == INTERIOR else 'outside'}, in polygon {skeleton.polygon[at]}"
         )

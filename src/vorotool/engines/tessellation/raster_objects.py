@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from math import floor
-from typing import Any, Literal, cast
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,9 +97,9 @@ def gray_values(raster: Raster) -> NDArray[Any]:
 
 def settled_threshold(raster: Raster, threshold: float | Literal["otsu"], *, invert: bool) -> tuple[float, bool]:
     """Give the threshold of an image as a number, and whether foreground is what is not larger."""
-    if not _is_otsu(threshold):
+    if not (isinstance(threshold, str) and threshold == "otsu"):
         finite_double(threshold, "threshold")
-        return cast("float", threshold), invert  # as it is: a double would round integers beyond 2^53
+        return threshold, invert  # as it is: a double would round integers beyond 2^53
 
     gray = counted_values(raster)
     _require_finite(gray)
@@ -117,10 +117,6 @@ def counted_values(raster: Raster) -> NDArray[Any]:
 def is_flat(gray: NDArray[Any]) -> bool:
     """Whether there are no two different values."""
     return not gray.size or bool(gray.min() == gray.max())
-
-
-def _is_otsu(threshold: Any) -> bool:
-    return isinstance(threshold, str) and threshold == "otsu"
 
 
 def whole_threshold(gray: NDArray[Any], threshold: float) -> float:

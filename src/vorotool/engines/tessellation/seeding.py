@@ -95,14 +95,9 @@ def seeds_in_frame(points: PointSet, frame: FrameOf, *, sides: PixelSides = SQUA
     while needed != whole:  # again, where a seed that decides on the frame moved, or the frame is another one
         whole = needed
         seeds, snapped = _on_lattice(points, finest_scale(points.xy, whole, sides), strict=strict)
-        needed = _frame_for(seeds, points, frame)
+        needed = (frame(seeds) if callable(frame) else frame) or least_frame(points.xy)
     report_snapped(points.xy, snapped, strict=strict)
     return seeds
-
-
-def _frame_for(seeds: SeedSet, points: PointSet, frame: FrameOf) -> Frame:
-    given = frame(seeds) if callable(frame) else frame
-    return given or least_frame(points.xy)
 
 
 def _on_lattice(points: PointSet, finest: int, *, strict: bool) -> tuple[SeedSet, SnappedPlaces]:

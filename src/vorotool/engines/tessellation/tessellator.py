@@ -263,7 +263,9 @@ class SeedBand:
     def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
         """Compute the rows or slices."""
         is_diagram = self.what == "diagram"
-        begin, count = (with_neighbors if is_diagram else _alone)(self.frame, self.first, self.count)
+        begin, count = self.first, self.count
+        if is_diagram:
+            begin, count = with_neighbors(self.frame, begin, count)
         sweep = Tessellator(
             self.seeds,
             self.frame.part(begin, count),
@@ -277,10 +279,6 @@ class SeedBand:
 
             return diagram_of(sweep.labels(), threads=threads)[self.first - begin :][: self.count]
         return sweep.computed(self.what, self.dtype)
-
-
-def _alone(_frame: Frame | VoxelFrame, first: int, count: int) -> tuple[int, int]:
-    return first, count
 
 
 class SeedBands:

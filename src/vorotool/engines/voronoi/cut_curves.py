@@ -43,9 +43,8 @@ class CutCurves:
     first: Floats  # (k,) float64 array: parameters at source and target, which may be infinite
     last: Floats  # (k,) float64 array: parameters at source and target, which may be infinite
     origin: Floats  # (k, 2) float64 array: a point that distances are measured from; NaN where that is a segment
-    line: (
-        Floats  # (k, 3) float64 array: normal form of the segment that they are measured from otherwise; 0 along walls
-    )
+    # (k, 3) float64 array: normal form of the segment that they are measured from otherwise; 0 along walls
+    line: Floats
 
     def __getitem__(self, rows: NDArray[Any]) -> CutCurves:
         """Some of the curves, which may be repeated."""
@@ -199,9 +198,8 @@ class CutEdges:
                 off = np.maximum(off, np.minimum(ROUNDING_GIVEN * np.abs(places) / scale, np.abs(points)))
         same = way == 0
         across = np.where(same, off[ends[:, 0]], np.inf).min(axis=1)
-        self.slack = np.where(
-            same.any(axis=1), across, off[ends].max(axis=(1, 2))
-        )  # (m,) that places may miss edges by
+        # (m,) that places may miss edges by
+        self.slack = np.where(same.any(axis=1), across, off[ends].max(axis=(1, 2)))
         self.end_slack = off.max(axis=1)[ends]  # (m, 2) and their ends
 
     def along(self, edge: Indices, places: Floats) -> Floats:

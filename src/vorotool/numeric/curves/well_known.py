@@ -387,9 +387,8 @@ def _is_read_here(item: bytes | str) -> bool:
     if kind in CURVED or kind in (*LEAVES, "POLYGON", ""):
         return kind in CURVED
     at = 9 if code & _HAS_NUMBER else 5
-    if (
-        head[at : at + 4] == (1).to_bytes(4, order) and head[at + 4] == head[0]
-    ):  # of one part, which is most often plain
+    # of one part, which is most often plain
+    if head[at : at + 4] == (1).to_bytes(4, order) and head[at + 4] == head[0]:
         part = _kind_of(int.from_bytes(head[at + 5 : at + 9], order))
         if part in (*LEAVES[:-1], "POLYGON"):
             return False

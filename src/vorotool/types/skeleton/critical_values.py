@@ -65,15 +65,12 @@ class CriticalValues(Value, Tabular):
 class ArcProfiles(Value):
     """How the two nearest places on the boundary lie along arcs: what cuts inside arcs are computed from."""
 
-    kind: NDArray[np.int8] = numbers(
-        np.int8, "arcs"
-    )  # (a,) int8 array: `BETWEEN_LINES`, `BETWEEN_POINTS`, or `FROM_FOCUS`
-    ends: NDArray[np.float64] = numbers(
-        np.float64, "arcs", 2
-    )  # (a, 2) float64 array: x at the source and at the target; 0 between lines
-    size: NDArray[np.float64] = numbers(
-        np.float64, "arcs"
-    )  # (a,) float64 array: h; between lines the tangent of half the angle
+    # (a,) int8 array: `BETWEEN_LINES`, `BETWEEN_POINTS`, or `FROM_FOCUS`
+    kind: NDArray[np.int8] = numbers(np.int8, "arcs")
+    # (a, 2) float64 array: x at the source and at the target; 0 between lines
+    ends: NDArray[np.float64] = numbers(np.float64, "arcs", 2)
+    # (a,) float64 array: h; between lines the tangent of half the angle
+    size: NDArray[np.float64] = numbers(np.float64, "arcs")
 
     def _summary(self) -> str:
         return counted(len(self.kind), "arc")
