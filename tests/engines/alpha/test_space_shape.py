@@ -184,6 +184,9 @@ def test_what_is_of_the_plane_is_refused(given, message):
         vorotool.alpha_shape(CUBE, **given)
     with pytest.raises(vorotool.UsageError, match="expected points, edges, triangles, tetrahedra"):
         vorotool.alpha_complex(CUBE).radii("faces")
+    for points in (CUBE, vorotool.delaunay(CUBE), vorotool.alpha_complex(CUBE)):
+        with pytest.raises(vorotool.InputError, match="persistence is of points in the plane; alpha_curves counts"):
+            vorotool.persistence(points)
 
 
 # ---- the checker ---------------------------------------------------------------------------------

@@ -9,7 +9,8 @@ import numpy as np
 from vorotool import _core
 from vorotool.engines.alpha.alpha_shape import alpha_complex, automatic_rank
 from vorotool.engines.alpha.few_points import unjoined
-from vorotool.errors import UsageError
+from vorotool.engines.delaunay.delaunay import is_of_space
+from vorotool.errors import InputError, UsageError
 from vorotool.numeric.parallel import Progress
 from vorotool.types.alpha.complex import AlphaComplex, RegionPersistence
 
@@ -61,6 +62,8 @@ def persistence(
     """
     if isinstance(points, AlphaComplex):
         family = points
+    elif is_of_space(points):
+        raise InputError("persistence is of points in the plane; alpha_curves counts the parts of points in space")
     else:
         family = alpha_complex(points, strict=strict, allow_empty=allow_empty, threads=threads, progress=progress)
     if family.rule != "corrected":

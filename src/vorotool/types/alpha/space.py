@@ -40,7 +40,7 @@ class SpaceAlphaComplex(Value, RankedRadii, Tabular):
     tetrahedra. r_max is infinite on the hull.
 
     Every decision is exact, and so is the order of the radii: comparisons use ranks, indices in the spectrum. The
-    doubles of the radii do not decrease with the rank, and are within 2⁻⁴⁰ of the exact values, nearly all within 2⁻⁵⁰.
+    doubles of the radii do not decrease with the rank; their relative error is less than 2⁻⁴⁰, mostly less than 2⁻⁵⁰.
 
     Parameters
     ----------
