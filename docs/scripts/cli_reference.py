@@ -67,4 +67,4 @@ def formats_of(command: str) -> list[str]:
 
 def _named(name: str) -> str:
     each = FORMATS[name]
-    return f"{each.title} (`{'`, `'.join(each.endings)}`)"
+    return f"{each.title} (`{'`, `'.join(f'.{end}' for end in each.extensions or (each.name,))}`)"

@@ -43,7 +43,7 @@ def test_writers_are_there_and_take_what_they_are_given():
 
 
 def test_extensions_stand_for_one_format_each():
-    assert len(EXTENSIONS) == sum(len(each.endings) for each in FORMATS.values())
+    assert len(EXTENSIONS) == sum(len(each.extensions or (each.name,)) for each in FORMATS.values())
     assert all(ending == ending.lower() and ending.startswith(".") for ending in EXTENSIONS)
 
 
@@ -138,4 +138,4 @@ def test_help_and_documents_name_all_formats(command, documents):
     section = documents.partition(f"## vorotool {command}\n")[2].partition("\n## ")[0]
     for what, those in formats_of(command).items():
         (row,) = (line for line in section.splitlines() if line.startswith(f"| `{what}` |"))
-        assert all(ending in row for fmt in those for ending in FORMATS[fmt].endings)
+        assert all(ending in row for fmt in those for ending in FORMATS[fmt].extensions or (fmt,))

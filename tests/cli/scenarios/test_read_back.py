@@ -34,6 +34,7 @@ def coordinates_of(command, what):
 NOT_OF_PLACES = {
     *("neighbors", "triangles", "compare", "family", "spectrum", "curves", "branches", "statistics", "persistence"),
     *("alphashape table", "skeleton-exact table", "skeleton-approx table", "delaunay tetrahedra", "delaunay hull"),
+    *("alphashape surface", "alphashape tetrahedra"),
 }
 """Tables of what has no place."""
 
