@@ -202,7 +202,7 @@ def _several_format(products: Mapping[str, Product], what: str, fmt: str | None,
 
 def _named(stem: Path, what: str | None, fmt: str) -> str:
     middle = f".{what}" if what else ""
-    return f"{stem}{middle}{FORMATS[fmt].ending}"
+    return f"{stem}{middle}{FORMATS[fmt].endings[0]}"
 
 
 def _text(possible: Sequence[str]) -> str:

@@ -42,9 +42,9 @@ class Format(NamedTuple):
     parts: tuple[str, ...] = ()  # extensions of further files that each consists of
 
     @property
-    def ending(self) -> str:
-        """The extension that files are given, with its dot."""
-        return f".{(self.extensions or (self.name,))[0]}"
+    def endings(self) -> tuple[str, ...]:
+        """Extensions with their dots."""
+        return tuple(f".{extension}" for extension in self.extensions or (self.name,))
 
 
 def _of_maps(name: str, title: str, maker: str, sources: tuple[str, ...] = ("geojson",), **more: Any) -> Format:
