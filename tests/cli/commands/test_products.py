@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from vorotool.products.formats import ANIMATIONS, FORMATS
-from vorotool.products.registry import DERIVED, PRODUCTS, all_layers, formats_of, layers_of
+from vorotool.products.registry import PRODUCTS, formats_of, layers_of
 from vorotool.render.label_images import png as label_png
 from vorotool.render.label_images import svg as label_svg
-from vorotool.render.layers import mesh, polygons, skeleton
 
 DATA = Path(__file__).parents[3] / "data"
 INPUTS = {
@@ -66,21 +65,26 @@ OF_SEVERAL_KINDS = {("alphashape", "general", "shp"), ("alphashape", "hull", "sh
 """A Shapefile holds points, lines or polygons."""
 
 
-def test_layers_are_those_that_are_drawn():
+OF_A_PICTURE = [
+    (command, what) for command in INPUTS for what, product in PRODUCTS[command].items() if product.layers.get("svg")
+]
+
+
+@pytest.mark.parametrize(("command", "what"), OF_A_PICTURE)
+def test_all_layers_are_drawn(run, folder, command, what):
+    more = NEEDED.get(what, []) if command == "skeleton-exact" else []
+    inputs = INPUTS[command]
+    if (command, what) in OF_SPACE:
+        (folder / "space.csv").write_text("x,y,z\n0,0,0\n4,0,0\n0,3,0\n0,0,2\n1,1,1\n")
+        inputs, more = ["space.csv"], ["--space"]
+    layers = layers_of(command)["svg"] if command == "tessellate" else PRODUCTS[command][what].layers["svg"]
+    done = run(command, *inputs, "--what", what, *more, "--layers", ",".join(layers), "-o", "a.svg")
+    assert done.code == 0, done.err
+    assert (folder / "a.svg").read_bytes() != b""
+
+
+def test_layers_of_label_images():
     assert layers_of("tessellate") == {"png": label_png.LAYERS, "svg": label_svg.LAYERS}
-    assert all_layers("delaunay") == mesh.LAYERS
-    assert all_layers("alphashape") == mesh.ALPHA_LAYERS
-    own = {what: product.layers.get("svg") for what, product in PRODUCTS["skeleton-exact"].items()}
-    assert own["skeleton"] == tuple(layer for layer in skeleton.LAYERS if layer != "exact")
-    along = dict.fromkeys(["points", "transects"], skeleton.ALONG_LAYERS)
-    cut = {
-        "necks": skeleton.NECK_LAYERS,
-        "parts": skeleton.PART_LAYERS,
-        "discs": polygons.DISC_LAYERS,
-        "thickness": None,
-    }
-    shapes = {"offset": polygons.OFFSET_LAYERS, "shape": polygons.SHAPE_LAYERS}
-    assert {what: own[what] for what in DERIVED} == {**shapes, **along, **cut}
 
 
 @pytest.mark.parametrize(
