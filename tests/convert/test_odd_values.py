@@ -2,6 +2,10 @@
 
 import collections
 import datetime
+import inspect
+import pathlib
+import warnings
+import zlib
 
 import geopandas as gpd
 import numpy as np
@@ -10,7 +14,10 @@ import pytest
 import shapely
 import xarray
 
+import vorotool
 import vorotool as v
+from support.few import few
+from vorotool import VorotoolError
 from vorotool.convert.images import as_label_image, as_raster
 from vorotool.convert.points import as_place, as_points
 from vorotool.convert.polygons import as_geometry, as_polygons
@@ -31,6 +38,30 @@ GEOMETRY = {
     "MultiPolygon": [[[1]], [1], 5],
     "LineString": [[1, 2], [], ["a"]],
 }
+
+
+RING = [[0, 0], [4, 0], [0, 3]]
+
+
+class Odd:
+    """An object that is nothing."""
+
+
+def list_in_itself():
+    made = [[0, 0]]
+    made.append(made)
+    return made
+
+
+def closed_file():
+    with pathlib.Path(__file__).open(encoding="utf-8") as file:
+        return file
+
+
+def read_only_array():
+    array = np.zeros((3, 2))
+    array.flags.writeable = False
+    return array
 
 
 ODD = [
@@ -198,6 +229,25 @@ ODD = [
     v.SeedSet([], [], []),
     v.Raster(np.zeros((3, 3, 3))),
     v.Raster(np.full((3, 3), 0.5)),
+    Odd(),
+    Odd,
+    print,
+    list_in_itself(),
+    *(10**400, -(10**400), -1, 0, 5, 0.5, float("inf"), "12", "\ud800"),
+    *(["1", "a"], [[1]] * 4, [[1, 2], [3]], [{}, {}], [Odd(), Odd()], RING),
+    datetime.datetime(2020, 1, 1),
+    np.array(3.5),
+    np.eye(4, dtype=bool),
+    np.array(RING, dtype=np.float16),
+    np.asfortranarray(np.array(RING, dtype=float)),
+    np.ma.masked_array(np.array(RING, dtype=float), mask=[[0, 1], [0, 0], [0, 0]]),
+    np.array([Odd(), None], dtype=object),
+    np.array(["a", "b"]),
+    read_only_array(),
+    [shapely.Point(), None, shapely.Polygon([(0, 0), (1, 1), (1, 0)])],
+    closed_file(),
+    pathlib.Path(__file__).parent,
+    str(pathlib.Path(__file__).parent),
 ]
 
 
@@ -230,3 +280,123 @@ def test_odd_values(call):
             refused += 1
     assert taken
     assert refused > len(ODD) / 4
+
+
+# ---- arguments of public functions ------------------------------------------------------------
+
+
+FUNCTIONS = sorted(name for name in vorotool.__all__ if inspect.isfunction(getattr(vorotool, name)))
+
+
+MORE = {"prune": {"length": 0}, "skeleton_approx": {"step": 1}}
+
+
+"""Arguments that are right where one of several is needed."""
+
+
+PARTS = 8
+
+
+"""`make test` tries one part of the values for each argument of each function, `make test-all` all."""
+
+
+CALLBACKS = ("progress", "note", "check")
+
+
+"""Parameters that are called as they are."""
+
+
+@pytest.fixture(scope="module")
+def known():
+    """Arguments that are right, by the names of parameters, and by a function before these."""
+    mask = np.eye(4, dtype=bool)
+    skeleton = vorotool.skeleton_exact([RING])
+    digital = vorotool.digital_triangulation(RING)
+    image = vorotool.tessellate([[1, 1], [3, 2]], shape=(4, 4))
+    made = dict.fromkeys(("points", "seeds", "sites", "shapes", "a", "b", "source"), RING)
+    made |= {"mask": mask, "raster": mask, "labels": mask.astype(int), "volume": mask[None], "image": image}
+    made |= {"skeleton": skeleton, "lines": skeleton, "joined": vorotool.join_junctions(skeleton), "polygons": [RING]}
+    made |= {"extended": vorotool.extend_ends(skeleton), "pruned": vorotool.prune(skeleton, length=0)}
+    made |= {"smoothed": vorotool.smooth(skeleton, 0.1), "offsets": vorotool.offset([RING], [1])}
+    made |= {"discs": vorotool.largest_discs([RING]), "necks": vorotool.necks([RING]), "parts": vorotool.parts([RING])}
+    made |= {"family": vorotool.alpha_complex([*RING, [5, 5]]), "shape": vorotool.alpha_shape(RING, r=5)}
+    made |= {"mesh": vorotool.delaunay(RING), "graph": vorotool.planar_graph([RING])}
+    made |= {"r": 5, "distances": [1], "every": 1, "tolerance": 0.1, "criterion": "length", "name": "dots.csv"}
+    made |= {"value": skeleton, "path": "out.json", "cells": vorotool.voronoi_cells(RING), "found": digital}
+    made |= {"thickness": vorotool.local_thickness(mask)}
+    special = {
+        ("read", "path"): "in.wkt",
+        ("seeds_from_xyz", "points"): [[0, 0, 0], [1, 2, 3]],
+        ("table", "value"): made["mesh"],
+        ("verify_distances", "found"): vorotool.hausdorff(RING, [[9, 9]]),
+        ("verify_proximity_graph", "graph"): vorotool.proximity_graph(RING, kind="gabriel"),
+        ("verify_tessellation", "image"): image,
+        ("verify_thickness", "skeleton"): vorotool.skeleton_exact(vorotool.outlines(mask)),
+        ("verify_voronoi", "cells"): vorotool.voronoi(RING),
+        ("voronoi_diagram", "image"): image,
+    }
+    return made, special
+
+
+def raised(function, arguments):
+    """Call; give what is raised."""
+    with warnings.catch_warnings(action="ignore"):
+        try:
+            function(**arguments)
+        except Exception as error:
+            return error
+    return None
+
+
+def values_of(name, parameter, part):
+    """Give a part of the odd values by their numbers; which ones is another for each argument."""
+    begin = zlib.crc32(f"{name} {parameter}".encode()) + part
+    return list(enumerate(ODD))[begin % PARTS :: PARTS]
+
+
+@pytest.mark.parametrize("part", few(range(PARTS), 1))
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_odd_arguments(name, part, known, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "in.wkt").write_text("POINT (1 2)\n")
+    function = getattr(vorotool, name)
+    parameters = inspect.signature(function).parameters.values()
+    plain = [each for each in parameters if each.kind not in (each.VAR_KEYWORD, each.VAR_POSITIONAL)]
+    made, special = known
+    needed = {
+        each.name: special.get((name, each.name), made.get(each.name)) for each in plain if each.default is each.empty
+    }
+    needed |= MORE.get(name, {})
+    failed = raised(function, needed)
+    strange = {} if failed is None else {"all right": repr(failed)}
+    for parameter in plain:
+        for what, value in values_of(name, parameter.name, part) if parameter.name not in CALLBACKS else ():
+            failed = raised(function, needed | {parameter.name: value})
+            if failed is not None and not isinstance(failed, vorotool.VorotoolError):
+                strange[f"{parameter.name} = {what}, {type(value).__name__}"] = repr(failed)[:200]
+    assert not strange, "\n".join(f"{key}: {text}" for key, text in strange.items())
+
+
+@pytest.mark.parametrize(
+    "by", [5, [[1]] * 3, [{"name": "a"}] * 3, float("nan"), np.array(3.5), object(), closed_file()]
+)
+def test_by(by):
+    with pytest.raises(VorotoolError, match="by"):
+        vorotool.voronoi(RING, by=by)
+
+
+def test_by_a_path_into_objects():
+    features = [
+        {
+            "type": "Feature",
+            "geometry": {"type": "Point", "coordinates": [x, 0]},
+            "properties": {"classification": {"name": name}},
+        }
+        for x, name in enumerate("aba")
+    ]
+    document = {"type": "FeatureCollection", "features": features}
+    assert vorotool.voronoi(document, by="classification.name").ids == ["a", "b"]
+    with pytest.raises(VorotoolError, match=r"classification\.name|column\.name"):
+        vorotool.voronoi(document, by="classification")
+    with pytest.raises(VorotoolError, match=r"classification\.color"):
+        vorotool.voronoi(document, by="classification.color")

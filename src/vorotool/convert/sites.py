@@ -175,7 +175,7 @@ def _values(features: Sites, by: Any) -> list[Any]:
         by = found
     try:
         values = [*listed(by)]
-    except (TypeError, ValueError):  # a closed file is a ValueError
+    except (TypeError, ValueError, IndexError):  # a closed file is a ValueError, a table with gaps an IndexError
         raise InputError(f"invalid {_BY} {shown_number(by)}: expected a column, or one value per feature") from None
     if len(values) != features.count:
         raise InputError(f"invalid {_BY}: expected one value per feature, {features.count}, but got {len(values)}")
@@ -199,5 +199,5 @@ def _first_appearances(values: list[Any]) -> tuple[NDArray[np.int32], list[Any]]
             numbers.setdefault(value, len(numbers))
         except TypeError:  # an object or a list
             check_plain([value], _BY)
-            raise
+            raise InputError(f"invalid {_BY}: {shown_number(value)} is not one value of a feature") from None
     return np.array([numbers[value] for value in values], dtype=np.int32), list(numbers)

@@ -29,6 +29,8 @@ def is_volume(values: Any) -> bool:
         shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
     except ValueError:  # lists of several lengths
         return False
+    if not isinstance(shape, tuple):  # a module has functions of such names
+        return False
     is_color = getattr(values, "dtype", None) == np.uint8 and shape[-1:] in ((3,), (4,))
     return len(shape) == AXES and not is_color
 

@@ -80,11 +80,12 @@ def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = 
         raise InputError(f"each {name} must be an integer, but some are masked: leave them out")
     try:
         array = np.asarray(values)
-    except ValueError:
+    except (TypeError, ValueError):
         array = np.asarray(None)
     if array.dtype == kind and (low == limits.min or array.min(initial=limits.max) >= low):
         return np.ascontiguousarray(array)
-    if array.dtype.kind not in "biuf" and not all(type(value) is int for value in array.flat):
+    is_object = array.dtype.kind == "O"
+    if not (all(type(value) is int for value in array.flat) if is_object else array.dtype.kind in "biuf"):
         raise InputError(f"each {name} must be an integer, but the array has type {array.dtype}")
     bad = (array < low) | (array > limits.max) | (array != array)  # noqa: PLR0124 - NaN is not itself
     if array.dtype.kind == "f":

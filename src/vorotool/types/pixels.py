@@ -204,8 +204,11 @@ def pixel_sides(spacing: Any, axes: int = 2) -> PixelSides:
     """Return the sides of a pixel from one number for all of them, or from one for each axis, as arrays are ordered."""
     if spacing is None:
         return PixelSides((1,) * axes)
-    is_one = not isinstance(spacing, list | tuple) and np.ndim(spacing) == 0
-    given: list[Any] = [spacing] if is_one else list(spacing)
+    try:
+        is_one = not isinstance(spacing, list | tuple) and np.ndim(spacing) == 0
+        given: list[Any] = [spacing] if is_one else list(spacing)
+    except (TypeError, ValueError):  # no number and no array
+        given = []
     read = [real_number(each, "spacing") for each in given]
     if len(given) not in (1, axes) or not all(0 < side < float("inf") for side in read):
         raise UsageError(

@@ -302,7 +302,8 @@ def _inserted(
 def _hints(hint: Any, count: int, further: int) -> NDArray[np.int32]:
     if hint is None:
         return np.empty(0, dtype=np.int32)
-    hints = np.broadcast_to(whole_numbers(hint, "hint", np.int64), (further,) if np.ndim(hint) == 0 else np.shape(hint))
+    whole = whole_numbers(hint, "hint", np.int64)
+    hints = np.broadcast_to(whole, (further,)) if np.ndim(hint) == 0 else whole
     if hints.shape != (further,):
         raise InputError(
             f"hint must be one index, or one index for each of the {further} points, but has shape {hints.shape}"
