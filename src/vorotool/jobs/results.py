@@ -64,8 +64,10 @@ class Results:
 
     @cached_property
     def world(self) -> World:
-        """Where what is drawn lies."""
-        raise NotImplementedError
+        """Where what is drawn lies: in space nowhere, since pictures are as seen from far away."""
+        from vorotool.render.looks import World
+
+        return World()
 
     def drawing(self, what: str, fmt: str) -> Picture:
         """Prepare the picture of a result."""

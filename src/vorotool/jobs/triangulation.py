@@ -325,13 +325,6 @@ class TetrahedraProducts(Results):
         """Give the triangulation, which has all results."""
         return self.mesh
 
-    @cached_property
-    def world(self) -> World:
-        """Nothing: pictures are as seen from far away."""
-        from vorotool.render.looks import World
-
-        return World()
-
     def emptiness(self, what: str) -> str:
         """Say why there are no parts of a kind."""
         return "" if what == "table" or len(getattr(self.mesh, what)) else _SHAPES[self.mesh.dimension]

@@ -171,7 +171,8 @@ _HULL_LAYERS = _SHAPE_LAYERS._replace(drawn_by="render.layers.mesh:hull")
 _EDGES = ("AlphaShape", "csv tsv json geojson npz npy", _SHAPE_LAYERS)
 _POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE_LAYERS)
 _GENERAL = ("AlphaShape", "geojson wkt", _SHAPE_LAYERS)
-_SURFACE = _product("surface", "SpaceAlphaShape", f"{_TABLES} npy obj ply stl vtu", own=_SOLID,
+_SURFACES = _pictures("surface edges points labels", "render.layers.space:surface")
+_SURFACE = _product("surface", "SpaceAlphaShape", f"{_TABLES} npy obj ply stl vtu", _SURFACES, "surface", own=_SOLID,
     usual_for=("ply", "stl"))
 _SHAPE_TETRAHEDRA = _product("tetrahedra", "SpaceAlphaShape", f"{_TABLES} npy vtu", own=_SOLID, usual_for=("vtu",))
 _SHAPE_TRIANGLES = _product("triangles", "SpaceAlphaShape", f"{_TABLES} npy obj ply stl vtu", own=_SOLID)
@@ -179,7 +180,7 @@ _SPACE_SHAPES = (
     _SURFACE._replace(usual_for=("obj", "ply", "stl")),
     _SHAPE_TETRAHEDRA,
     _SHAPE_TRIANGLES,
-    _product("edges", "SpaceAlphaShape", f"{_TABLES} npy obj vtu", own=_SOLID),
+    _product("edges", "SpaceAlphaShape", f"{_TABLES} npy obj vtu", _SURFACES, "surface edges points", own=_SOLID),
     _product("family", "SpaceAlphaComplex", _TABLES),
     _product("spectrum", "SpaceAlphaComplex", f"{_TABLES} npy"),
     _product("curves", "", _TABLES),

@@ -1,13 +1,16 @@
 """Pictures of triangulations in space: what is seen, and where."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import shapely
 
 import vorotool
 from vorotool.render.layers.pages import page_of
-from vorotool.render.layers.space import seen, space_layers
+from vorotool.render.layers.space import seen, space_layers, surface_layers
 
+ROOT = Path(__file__).parents[3]
 RNG = np.random.default_rng(3)
 BALL = RNG.normal(size=(80, 3)) * [3, 1, 2]
 
@@ -44,3 +47,16 @@ def test_pictures_show_the_highest_point_on_top(tmp_path):
     for name in ("a.svg", "a.png"):
         vorotool.write(corner, tmp_path / name, what="hull")
         assert (tmp_path / name).stat().st_size > 100
+
+
+def test_the_knot_of_the_gallery_is_a_closed_tube():
+    points = np.loadtxt(ROOT / "data/knot.xyz")
+    shape = vorotool.alpha_shape(points, r=1.3)
+    assert (shape.region_count, shape.cavity_count, shape.tunnel_count, len(shape.isolated)) == (1, 0, 1, 0)
+    sides = np.sort(shape.surface[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    assert (np.unique(sides, axis=0, return_counts=True)[1] % 2 == 0).all()
+    (faces,) = surface_layers(shape, page_of(shape), ["surface"])
+    shown = shapely.polygons(seen(points)[faces.corners.reshape(-1, 3)])
+    covered = shapely.union_all(shapely.polygons(seen(points)[shape.surface])).area
+    assert shapely.union_all(shown).area == pytest.approx(covered)
+    assert len(shown) < len(shape.surface)  # backs are not drawn

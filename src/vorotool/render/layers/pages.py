@@ -21,7 +21,7 @@ _FINE = 2.0**-10
 def page_of(value: Any, *, width: int = 1000, bounds: tuple[float, float, float, float] | None = None) -> Page:
     """Make the page of a picture: with all that is drawn of a value, or with other bounds."""
     shown = next((places for name, places in _SHOWN.items() if is_of(value, name)), lambda mesh: [mesh.points])
-    y_up = is_up(value) or is_of(value, "Tetrahedralization")
+    y_up = is_up(value) or is_of(value, "Tetrahedralization", "SpaceAlphaShape")
     return Page(bounds or bounds_of(*shown(value)), width=width, y_up=y_up)
 
 
@@ -42,6 +42,10 @@ def _of_offsets(offsets: Any) -> list[Floats]:
     return [offsets.polygons.xy, offsets.flattened(tolerance).xy]
 
 
+def _as_seen(value: Any) -> list[Floats]:
+    return [resolved("render.layers.space:seen")(value.points)]
+
+
 _SHOWN: dict[str, Callable[[Any], list[Floats]]] = {
     "CellSet": lambda cells: [np.array(cells.frame.sides).reshape(2, 2)],
     "VoronoiMap": lambda cells: [np.array(extent_sides(cells.frame)).reshape(2, 2)],
@@ -55,7 +59,7 @@ _SHOWN: dict[str, Callable[[Any], list[Floats]]] = {
     "LedOn": lambda lines: _of_skeleton(lines.path),
     "SmoothLines": lambda lines: _of_skeleton(lines.path),
     "SkeletonPoints": lambda points: _of_skeleton(points.skeleton),
-    "Tetrahedralization": lambda mesh: [resolved("render.layers.space:seen")(mesh.points)],
+    **dict.fromkeys(("Tetrahedralization", "SpaceAlphaShape"), _as_seen),
     "Necks": lambda necks: _of_skeleton(necks.skeleton),
 }
 """Places that are drawn of values, by their types; of others these are points."""

@@ -1,4 +1,4 @@
-"""The layers of pictures of triangulations in space, as seen from far away."""
+"""The layers of pictures of triangulations and alpha shapes in space, as seen from far away."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ from vorotool.render.canvas.layers import (
     without_empty,
 )
 from vorotool.render.canvas.styles import CELLS, INK, WHITE
+from vorotool.types.alpha.space import SpaceAlphaShape
 from vorotool.types.mesh.tetrahedralization import Tetrahedralization
 
 _TO_RIGHT = 3 / sqrt(13), 2 / sqrt(13), 0.0
@@ -44,14 +45,26 @@ def _along(ways: Floats, axis: tuple[float, float, float]) -> Floats:
 
 
 def space_layers(mesh: Tetrahedralization, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of a triangulation in space; lines and discs get finer where points are crowded."""
-    names, places = list(layers), seen(mesh.points)
+    """Make layers of a triangulation in space."""
+    return _layers("hull", mesh, mesh, page, list(layers))
+
+
+def surface_layers(shape: SpaceAlphaShape, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of an alpha shape in space."""
+    return _layers("surface", shape, shape.family.mesh, page, list(layers))
+
+
+def _layers(
+    faces: str, value: Tetrahedralization | SpaceAlphaShape, mesh: Tetrahedralization, page: Page, names: list[str]
+) -> list[Layer]:
+    """Make layers; lines and discs get finer where points are crowded."""
+    places = seen(mesh.points)
     crowd = page.spacing(len(places))
     texts = column_texts(mesh.properties, page.style.label_by, mesh.label_array.tolist())
     size = min(max(crowd / 4, 2.0), 16.0)
     make: Makers = {
-        "hull": lambda: [_shaded("hull", mesh.points, mesh.hull, is_sheer=len(names) > 1)],
-        "edges": lambda: [Lines("edges", places, mesh.edges, INK, min(max(crowd / 48, 0.1), 1.0))],
+        faces: lambda: [_shaded(faces, mesh.points, getattr(value, faces), is_sheer=len(names) > 1)],
+        "edges": lambda: [Lines("edges", places, value.edges, INK, min(max(crowd / 48, 0.1), 1.0))],
         "points": lambda: [Points("points", places, radius=min(max(crowd / 16, 0.3), 3.0))],
         "labels": lambda: [without_empty(Texts("labels", places, texts, size=size, halo=WHITE))],
     }
@@ -74,7 +87,7 @@ def _shaded(name: str, points: Floats, triangles: NDArray[np.int32], *, is_sheer
         3 * np.arange(len(order) + 1),
         colors=[_shade(k / (_SHADES - 1)) for k in range(_SHADES)],
         color_of=np.rint(light * (_SHADES - 1)).astype(np.int64),
-        edge=INK,
+        edge=INK if name == "hull" else None,  # of a hull no line lies behind another face
         width=0.3,
         is_alone=np.ones(len(order), dtype=bool),
         is_sheer=is_sheer,
