@@ -162,7 +162,7 @@ def main() -> None:
     measures = {name: rows_of(name, side) for name, side in SHAPES.items()}
     layers = picture(measures)
     with Path(sys.argv[1]).open("wb") as out:
-        write_layers_svg(out, layers, Page(bounds_of(layers), width=1400, y_up=True))
+        write_layers_svg(out, layers, Page(bounds_of(*(layer.points for layer in layers)), width=1400, y_up=True))
     sys.stdout.write(table(measures))
 
 

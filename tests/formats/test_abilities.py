@@ -83,7 +83,7 @@ def made_elsewhere(fmt, path):
 
 def vector_row(fmt, folder):
     """What a format of points, polygons and lines carries."""
-    extension = FORMATS[fmt].ending if fmt in FORMATS else f".{fmt}"
+    extension = FORMATS[fmt].endings[0] if fmt in FORMATS else f".{fmt}"
     path = folder / f"a{extension.replace('.csv-wkt', '.csv')}"
     is_written = True
     for value, what in values():
@@ -127,7 +127,7 @@ def carried(read):
 def image_row(fmt, folder):
     """What a format of images carries."""
     labels = np.array([[1, 1, 2], [3, 2, 2]], np.uint8)
-    path = folder / f"b{'.ome' if fmt == 'zarr' else ''}{FORMATS[fmt].ending if fmt in FORMATS else '.' + fmt}"
+    path = folder / f"b{'.ome' if fmt == 'zarr' else ''}{FORMATS[fmt].endings[0] if fmt in FORMATS else '.' + fmt}"
     try:
         vorotool.write(vorotool.LabelImage(labels, grid=SIZED), path, fmt=fmt, what="labels")
         is_written = True

@@ -59,6 +59,8 @@ def test_there_is_a_file_of_every_format():
 
 @pytest.mark.parametrize("bundle", SEEDS, ids=[f"{number}-{each.name}" for number, each in enumerate(SEEDS)])
 def test_what_is_read_stays_as_it_is_and_may_be_write_protected(bundle):
+    if bundle.name.endswith(".laz") and os.geteuid() == 0:
+        pytest.skip("whoever root is meanwhile may not start Python, which decompresses it")
     with tempfile.TemporaryDirectory() as folder:
         path = made(Path(folder), bundle)
         before = state(Path(folder))

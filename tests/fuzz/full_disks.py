@@ -58,14 +58,14 @@ def cases():
                 source = PIXELS.get(f"{command} {what}", SOURCES[command])
                 more = OPTIONS.get(f"{command} {what}", "")
                 chosen = f"--what {what}" if command != "draw" else ""
-                ending = FORMATS[fmt].ending
+                ending = FORMATS[fmt].endings[0]
                 moves = "--animate --frames 3" if fmt in ("gif", "apng", "webp") else ""
                 line = f"{command} {source} {chosen} {more} {moves} -f {fmt} -o out.x{ending}"
                 made[f"{command} {what} {fmt}"] = " ".join(line.split())
     for what, product in VOLUME_PRODUCTS.items():
         for fmt in product.formats:
             line = f"tessellate points.xyz --volume --size 12x40x50 --what {what} -f {fmt}"
-            made[f"volume {what} {fmt}"] = f"{line} -o out.x{FORMATS[fmt].ending}"
+            made[f"volume {what} {fmt}"] = f"{line} -o out.x{FORMATS[fmt].endings[0]}"
     made["several"] = "delaunay points.csv --what edges,triangles,cells,table -o out.shp --stats out.stats.json"
     made["table of all"] = "delaunay points.csv points-2.csv --what table --table out.csv -j 1"
     made["sample"] = "sample dots.csv -o out.csv"

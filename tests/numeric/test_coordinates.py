@@ -104,4 +104,4 @@ class TestMaskedImages:
 
     def test_points_in_space_are_no_image(self):
         with pytest.raises(InputError, match=r"shape \(9, 3\): points have two coordinates"):
-            vorotool.alpha_shape(np.zeros((9, 3)), r=1)
+            vorotool.voronoi(np.zeros((9, 3)))

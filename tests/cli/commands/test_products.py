@@ -36,7 +36,7 @@ def test_every_format_is_written(run, folder, command, what):
     for fmt in formats_of(command)[what]:
         if (command, what, fmt) in OF_SEVERAL_KINDS or what not in (first_with(command, fmt), last_with(command, fmt)):
             continue  # the library writes all of them: products/test_writing.py
-        named, chosen = folder / f"a{FORMATS[fmt].ending}", folder / "b"
+        named, chosen = folder / f"a{FORMATS[fmt].endings[0]}", folder / "b"
         is_scaled = fmt in (*ANIMATIONS, "png") and command != "tessellate" and (command, what) not in OF_IMAGES
         picture = ["--width", 90] if is_scaled else []
         frames = ["--frames", 2] if fmt in ANIMATIONS else []

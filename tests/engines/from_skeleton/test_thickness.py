@@ -36,7 +36,8 @@ def test_a_rectangle_has_its_closed_form(size):
 
 @pytest.mark.parametrize("case", few([2, 7, 0, *(case for case in range(16) if case not in (2, 7, 0))], 2))
 def test_thickness_is_between_bounds_and_as_all_arcs_have_it(case):
-    assert fuzz.failure(np.random.default_rng([7, case])) is None
+    random = np.random.default_rng([7, case])
+    assert fuzz.failure(fuzz.random_labels(random), random) is None
 
 
 @pytest.mark.parametrize(("side", "sigma"), few([(60, 1.0), (100, 3.0), (120, 8.0)], 2))
