@@ -33,6 +33,7 @@ _HOME = {
     "Skeleton": "vorotool.types.skeleton.skeleton",
     "Table": "vorotool.types.table",
     "Triangulation": "vorotool.types.mesh.triangulation",
+    "SpaceCellSet": "vorotool.types.mesh.space_cells",
     "Tetrahedralization": "vorotool.types.mesh.tetrahedralization",
     "LabelVolume": "vorotool.types.volumes.volume",
     "Volume": "vorotool.types.volumes.volume",

@@ -278,6 +278,9 @@ from vorotool.types.mesh.cells import (
 from vorotool.types.mesh.cells import (
     ProximityGraph as ProximityGraph,
 )
+from vorotool.types.mesh.space_cells import (
+    SpaceCellSet as SpaceCellSet,
+)
 from vorotool.types.mesh.tables import (
     CellStatistics as CellStatistics,
 )

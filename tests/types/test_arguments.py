@@ -16,6 +16,7 @@ TAKING = {
     in {
         "AnyTriangulation",
         "AnyTriangulation | ProximityGraph",
+        "CellSet | SpaceCellSet",
         *(each for each in vorotool.__all__ if inspect.isclass(getattr(vorotool, each))),
     }
 }

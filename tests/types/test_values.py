@@ -39,7 +39,9 @@ METHODS = {
     "_repr_html_": TABLES - {"Table"},
 }
 """The types without a method, beside those of volumes."""
-VOLUME_METHODS = {"to_pandas": {"LabelVolume", "Tetrahedralization", "SpaceAlphaComplex", "SpaceAlphaShape"}}
+VOLUME_METHODS = {
+    "to_pandas": {"LabelVolume", "SpaceCellSet", "Tetrahedralization", "SpaceAlphaComplex", "SpaceAlphaShape"}
+}
 ONLY = {
     "to_networkx": {
         *("Skeleton", "Triangulation", "DigitalTriangulation", "LabelImage", "LabelVolume", "PlanarGraph"),

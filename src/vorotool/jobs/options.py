@@ -97,7 +97,13 @@ class Options:
     def is_of_space(self) -> bool:
         """Whether the input has three axes: it says so itself, or its frame or its columns do."""
         has_z = self.columns is not None and any(part.strip()[:2].lower() == "z=" for part in self.columns.split(","))
-        return self.volume or self.space or has_z or len(self.size or ()) == 3 or len(self.window or ()) == 6
+        return (
+            self.volume
+            or self.space
+            or has_z
+            or len(self.size or ()) == 3
+            or 6 in map(len, (self.window or (), self.frame or ()))
+        )
 
     @property
     def is_laid_out(self) -> bool:

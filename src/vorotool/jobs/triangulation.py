@@ -23,7 +23,7 @@ from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import in_steps, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.units import in_units, sides_of, table_in_units, unit_columns
+from vorotool.jobs.units import in_units, refuse_lengths, sides_of, table_in_units, unit_columns
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.types.points.point_set import PointSet
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from vorotool.render.drawing import Drawing
     from vorotool.render.looks import World
     from vorotool.types.mesh.cells import CellSet
+    from vorotool.types.mesh.space_cells import SpaceCellSet
     from vorotool.types.mesh.tables import CellStatistics
     from vorotool.types.mesh.triangulation import DigitalComparison
 
@@ -312,8 +313,9 @@ class TetrahedraProducts(Results):
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         super().__init__(run, options)
+        refuse_lengths(options, "points in space have none: give numbers in their coordinates")
         with run.phase("read"):
-            with_columns = "table" in options.what or options.names_columns
+            with_columns = bool({"table", "cells"} & set(options.what)) or options.names_columns
             points = read_voxel_points(run, options, given, properties=with_columns)
             check_columns(options, points.properties)
             if not len(points):
@@ -322,22 +324,36 @@ class TetrahedraProducts(Results):
         note_repeated_labels(run, points, self.mesh)
 
     def value(self, what: str) -> Any:
-        """Give the triangulation, which has all results."""
-        return self.mesh
+        """Give the triangulation, or its cells."""
+        return self.cells if what == "cells" else self.mesh
+
+    @cached_property
+    def cells(self) -> SpaceCellSet:
+        """The Voronoi cells of the points, clipped to a box."""
+        place, frame = "engines.delaunay.cells:voronoi_cells", self.options.frame
+        made: SpaceCellSet = self.call(place, self.mesh, phase="cells", frame=frame)
+        tell_empty_cells(self.run, made.label_array, made.is_empty)
+        return made
 
     def emptiness(self, what: str) -> str:
         """Say why there are no parts of a kind."""
-        return "" if what == "table" or len(getattr(self.mesh, what)) else _SHAPES[self.mesh.dimension]
+        return "" if what in ("table", "cells") or len(getattr(self.mesh, what)) else _SHAPES[self.mesh.dimension]
 
     def verify(self, progress: Progress) -> None:
-        """Check the triangulation exactly, from its arrays alone."""
+        """Check the triangulation exactly, from its arrays alone, and cells."""
         self.call(VERIFY, self.mesh, phase=None, progress=progress)
+        if "cells" in self.options.what:
+            self.call("engines.delaunay.cells:verify_cells", self.cells, phase=None, progress=progress)
 
     def stats(self) -> dict[str, Any]:
-        """Counts."""
+        """Counts, and the box of cells."""
         mesh = self.mesh
         counts = {"points": len(mesh.points), "duplicates": mesh.duplicates, "dimension": mesh.dimension}
         counts |= {"tetrahedra": len(mesh)} | {
             name: len(getattr(mesh, name)) for name in ("triangles", "edges", "hull")
         }
+        if "cells" in vars(self):  # a result shows them
+            low, high = self.cells.box.tolist()
+            counts |= {"low": low, "high": high, "empty_cells": int(self.cells.is_empty.sum())}
+            counts |= {"faces": len(self.cells.face_cells), "vertices": len(self.cells.vertices)}
         return counts | {"threads": self.options.threads}

@@ -54,7 +54,8 @@ AUTO_SPACING = AUTO._replace(is_spacing=True)
 """What the file says of both sides."""
 
 _IN_STEPS = frozenset(
-    f"lengths.{name}" for name in ["length", "length_or_zero", "tolerance_or_auto", "distances", "place", "rectangle"]
+    f"lengths.{name}"
+    for name in ["length", "length_or_zero", "tolerance_or_auto", "distances", "place", "rectangle", "rectangle_or_box"]
 )
 """Types of options that are lengths or positions in the coordinates of shapes and meshes."""
 

@@ -119,6 +119,7 @@ def volume_values():
         "Tetrahedralization": vorotool.delaunay(points),
         "SpaceAlphaComplex": vorotool.alpha_complex(points),
         "SpaceAlphaShape": vorotool.alpha_shape(points, r=3),
+        "SpaceCellSet": vorotool.voronoi_cells(points),
     }
 
 

@@ -125,6 +125,16 @@ def rectangle(text: str) -> tuple[Any, ...]:
     return numbers
 
 
+def rectangle_or_box(text: str) -> tuple[Any, ...]:
+    """Return ``X,Y,W,H`` as `rectangle` does, or ``X,Y,Z,W,H,D``."""
+    if text.count(",") < 4:
+        return rectangle(text)
+    numbers = _numbers(text, 6, "expected four numbers X,Y,W,H, or six X,Y,Z,W,H,D, such as 0,0,0,12.5,8,3")
+    if not all(float(each.number if isinstance(each, Measured) else each) > 0 for each in numbers[3:]):
+        raise UnexpectedError("expected finite numbers with W, H and D above 0")
+    return numbers
+
+
 def place(text: str) -> tuple[Any, ...]:
     """Return ``X,Y`` in the units of the input, or in a unit after the last number or each."""
     return _numbers(text, 2, "expected two numbers X,Y, such as 12.5,8 or 12.5,8mm")

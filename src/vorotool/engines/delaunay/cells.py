@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.polygons import as_geometry
-from vorotool.engines.delaunay.delaunay import core_mesh, triangulated
+from vorotool.engines.delaunay.delaunay import core_mesh, is_of_space, triangulated
 from vorotool.errors import InputError, VerificationError, warn
 from vorotool.numeric.arrays import Floats, owners, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
+from vorotool.products.formats import resolved
+from vorotool.products.registry import is_of
 from vorotool.types.arguments import check_value
 from vorotool.types.box import Box, as_box
 from vorotool.types.mesh.cells import CellSet
@@ -26,18 +28,49 @@ from vorotool.types.points.point_set import known_of_points
 if TYPE_CHECKING:
     import shapely
 
+    from vorotool.types.mesh.space_cells import SpaceCellSet
+    from vorotool.types.mesh.tetrahedralization import Tetrahedralization
+    from vorotool.types.points.point_set import VolumePoints
+    from vorotool.types.volumes.volume import VolumeSeeds
     from vorotool.typing import FrameLike, HasGeoInterface, MeshLike, PolygonsLike
+
+_IN_SPACE = "engines.delaunay.space_cells"
+"""What makes and checks cells in space."""
+
+
+@overload
+def voronoi_cells(
+    points: Tetrahedralization | VolumePoints | VolumeSeeds,
+    *,
+    frame: FrameLike | None = ...,
+    clip: None = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+) -> SpaceCellSet: ...
+
+
+@overload
+def voronoi_cells(
+    points: MeshLike,
+    *,
+    frame: FrameLike | None = ...,
+    clip: PolygonsLike | None = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+) -> CellSet: ...
 
 
 def voronoi_cells(
-    points: MeshLike,
+    points: MeshLike | Tetrahedralization | VolumePoints | VolumeSeeds,
     *,
     frame: FrameLike | None = None,
     clip: PolygonsLike | None = None,
     threads: int = 0,
     progress: Progress = None,
-) -> CellSet:
+) -> CellSet | SpaceCellSet:
     """Compute the Voronoi cells of points, clipped to a frame.
+
+    Cells of points in space are polyhedra, clipped to a box.
 
     Which vertices a cell has is decided exactly, and every vertex is the place nearest to the exact one that doubles
     hold: neighboring cells share vertices bit for bit, and the cells tile the frame. Points outside the frame are
@@ -45,13 +78,13 @@ def voronoi_cells(
 
     Parameters
     ----------
-    points : Triangulation, PointSet, SeedSet, (n, 2) array, data frame, GeoSeries, …
+    points : Triangulation, PointSet, SeedSet, (n, 2) array, … or Tetrahedralization, VolumePoints, (n, 3) array, …
         Points, or a triangulation, which is used unchanged.
-    frame : Box or (x, y, width, height), optional
+    frame : Box or (x, y, width, height), in space (x, y, z, width, height, depth), optional
         By default the image that the points come from, or the bounds of the points, widened by a tenth of the longer
-        side; with `clip`, its bounds.
+        side; with `clip`, its bounds. In space by default the bounds of the points.
     clip : polygons as for `skeleton_exact`, optional
-        Cells are cut to these too, by shapely: they may fall in several parts and have holes.
+        Cells in the plane are cut to these too, by shapely: they may fall in several parts and have holes.
     threads : int
         Number of threads; 0 uses all.
     progress : callable, optional
@@ -61,11 +94,14 @@ def voronoi_cells(
     -------
     CellSet
         One cell per point, in the order of the points. Duplicate points have empty cells.
+    SpaceCellSet
+        Of points in space. Which vertices, edges and faces its cells have is decided exactly, and they share vertices
+        and faces; cells too small for doubles keep theirs. A cell that only touches the box is empty.
 
     Raises
     ------
     InputError
-        If the frame has no area, a coordinate is not finite, the triangulation is none, or `clip` is no polygon.
+        If the frame is flat, a coordinate is not finite, the triangulation is none, or `clip` is no polygon.
 
     Warns
     -----
@@ -82,6 +118,11 @@ def voronoi_cells(
     >>> [cell.wkt for cell in cells.to_shapely()]
     ['POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))', 'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))']
     """
+    if not isinstance(points, Triangulation) and is_of_space(points):
+        of_space: SpaceCellSet = resolved(f"{_IN_SPACE}:space_cells")(
+            points, frame=frame, clip=clip, threads=threads, progress=progress
+        )
+        return of_space
     mesh = points if isinstance(points, Triangulation) else triangulated(points, threads=threads, progress=progress)
     if not np.isfinite(mesh.points).all():
         raise InputError("a coordinate of the triangulation is not finite")
@@ -212,17 +253,21 @@ def _starts(owner: NDArray[Any], count: int) -> NDArray[np.int64]:
 # ---- the checker --------------------------------------------------------------------------------------------
 
 
-def verify_cells(cells: CellSet, *, threads: int = 0, progress: Progress = None) -> None:
+def verify_cells(cells: CellSet | SpaceCellSet, *, threads: int = 0, progress: Progress = None) -> None:
     """Check Voronoi cells that were clipped to a frame alone, from the sites and the coordinates.
 
     Every ring is convex and in the frame; no site is nearer to a vertex than that of its cell; the areas add up to
     that of the frame; duplicates have no cell. Signs are taken exactly, and what must be allowed for is the rounding
     of vertices alone: each lies at most half a unit in the last place of each coordinate from its exact place.
 
+    Of cells in space every surface is closed, with V - E + F = 2, and in the box; every face lies between two cells,
+    half-way between their sites, or on the box; the volumes add up to that of the box. The bounds of what roundings
+    explain cover those of the vertices and of the check.
+
     Parameters
     ----------
-    cells : CellSet
-        However it was made; its cells are rings.
+    cells : CellSet or SpaceCellSet
+        However it was made; its cells are rings, or polyhedra.
     threads : int
         Number of threads; 0 uses all.
     progress : callable, optional
@@ -245,16 +290,22 @@ def verify_cells(cells: CellSet, *, threads: int = 0, progress: Progress = None)
         ...
     vorotool.errors.VerificationError: vertex (2, 2) of cell 1 is nearer to site 0 by more than rounding explains
     """
-    check_value(cells, "cells", "CellSet")
+    check_value(cells, "cells", "CellSet", "SpaceCellSet")
+    in_space = is_of(cells, "SpaceCellSet")
+    fault = resolved(f"{_IN_SPACE}:fault")(cells) if in_space else _fault(cells, threads, progress)
+    if fault is not None:
+        raise VerificationError(fault)
+
+
+def _fault(cells: Any, threads: int, progress: Progress) -> str | None:
+    """The first fault of cells in the plane, if they have any."""
     if cells.polygon_starts is not None:
         raise InputError("cells clipped to polygons cannot be verified: verify them before clipping")
     if not (np.isfinite(cells.sites).all() and np.isfinite(cells.coordinates).all()):
-        raise VerificationError("a coordinate is not finite")
-    fault = _core.cells.find_cell_fault(
+        return "a coordinate is not finite"
+    return _core.cells.find_cell_fault(
         cells.sites, cells.coordinates, cells.starts, cells.frame.sides, checked_threads(threads), progress
     )
-    if fault is not None:
-        raise VerificationError(fault)
 
 
 FEW_SHAPES, FEW_VERTICES = 4, 256

@@ -150,6 +150,11 @@ def _normals(u: Floats, v: Floats) -> Floats:
 
 
 # ---- VTU -----------------------------------------------------------------------------------------
+VTU_HEAD = (
+    b'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" '
+    b'header_type="UInt64">\n<UnstructuredGrid>\n'
+)
+VTU_END = b"</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n"
 _CELL_TYPES = {2: 3, 3: 5, 4: 10}
 """Numbers of lines, triangles and tetrahedra, by how many corners they have."""
 
@@ -157,25 +162,22 @@ _CELL_TYPES = {2: 3, 3: 5, 4: 10}
 def _write_vtu(out: BinaryIO, places: Floats, corners: Index, labels: Any, _threads: int) -> None:
     """An unstructured grid, with the labels of the points."""
     count, width = corners.shape
-    out.write(
-        b'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" '
-        b'header_type="UInt64">\n<UnstructuredGrid>\n'
-    )
+    out.write(VTU_HEAD)
     out.write(f'<Piece NumberOfPoints="{len(places)}" NumberOfCells="{count}">\n<PointData>\n'.encode())
-    _write_array(out, "label", labels.astype("<i8", copy=False))
+    write_array(out, "label", labels.astype("<i8", copy=False))
     out.write(b"</PointData>\n<Points>\n")
-    _write_array(out, "Points", places.astype("<f8", copy=False))
+    write_array(out, "Points", places.astype("<f8", copy=False))
     out.write(b"</Points>\n<Cells>\n")
-    _write_array(out, "connectivity", corners.reshape(-1).astype("<i4", copy=False))
-    _write_array(out, "offsets", np.arange(1, count + 1, dtype="<i8") * width)
-    _write_array(out, "types", np.full(count, _CELL_TYPES[width], dtype="u1"))
-    out.write(b"</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
+    write_array(out, "connectivity", corners.reshape(-1).astype("<i4", copy=False))
+    write_array(out, "offsets", np.arange(1, count + 1, dtype="<i8") * width)
+    write_array(out, "types", np.full(count, _CELL_TYPES[width], dtype="u1"))
+    out.write(VTU_END)
 
 
 _VTK_NAMES = {"<i8": "Int64", "<f8": "Float64", "<i4": "Int32", "|u1": "UInt8"}
 
 
-def _write_array(out: BinaryIO, name: str, values: NDArray[Any]) -> None:
+def write_array(out: BinaryIO, name: str, values: NDArray[Any]) -> None:
     """An array in base 64, after its size."""
     several = f' NumberOfComponents="{values.shape[1]}"' if values.ndim == 2 else ""
     kind = _VTK_NAMES[values.dtype.newbyteorder("<").str]

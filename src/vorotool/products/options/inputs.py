@@ -79,7 +79,8 @@ FRAME = (
         "lengths.exact_length"),
     Option("--like RASTER", "tessellate", "Use the frame and the pixels of this image, whose header alone is read: "
         "results overlay it pixel by pixel, also on a map.", "names.image", complete="inputs:image"),
-    Option("--frame X,Y,W,H", "delaunay", f"Rectangle that cells are clipped to{_BOUNDS}", "lengths.rectangle",
+    Option("--frame X,Y[,Z],W,H[,D]", "delaunay", f"Rectangle that cells are clipped to{_BOUNDS} With Z and D the box, "
+        "in space; default there: the bounds of the points.", "lengths.rectangle_or_box",
         acts_on=f"{_CELLS} .page"),
     Option("--frame X,Y,W,H", "voronoi", f"Rectangle that cells are clipped to{_BOUNDS}", "lengths.rectangle"),
     Option("--frame X,Y,W,H", SKELETONS, f"Rectangle that skeletons outside polygons are clipped to{_BOUNDS}",

@@ -56,7 +56,7 @@ EXCLUDING = (
         "what:measures edges.edge triangles.ele",
         "the digital rule finds edges and triangles that may not form a triangulation",
         "use --method exact or digital-valid"),
-    Rule("delaunay", "?is_of_space", "method=digital method=digital-valid graph frame clip size window page spacing "
+    Rule("delaunay", "?is_of_space", "method=digital method=digital-valid graph clip size window page spacing "
         "seeds connectivity threshold invert min_area fill_holes y_up input_layer input_crs crs overlay "
         "scale scale_bar",
         "the option applies to points in the plane, or to images"),
@@ -106,6 +106,7 @@ NEEDING = (
     Rule("delaunay", "what:tetrahedra what:hull", "space ?is_of_space", "they are of points in space"),
     Rule("alphashape", "what:surface what:tetrahedra what:triangles", "space ?is_of_space",
         "they are of points in space"),
+    Rule("delaunay", "frame+?is_of_space", "what:cells", "in space only cells have a frame"),
     Rule("delaunay", "size window", "method=digital method=digital-valid ?is_digital",
         "the frame is of the digital tessellation"),
     Rule("alphashape", "size window", "method=digital method=digital-valid",
