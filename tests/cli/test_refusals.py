@@ -80,7 +80,6 @@ USAGE = {
     "tessellate dots.csv --page 0 -o a.png": "--page",
     "delaunay dots.csv --input-layer a": "--input-layer",
     "alphashape dots.csv -r 5um": "has a unit, but the unit of the input is unknown",
-    "delaunay space.csv --space --what cells": "cells",
     "delaunay space.csv --what hull": "--space",
     "delaunay space.csv -f ply": "--space",
     "delaunay space.csv --space --graph mst": "--graph",
