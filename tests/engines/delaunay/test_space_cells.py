@@ -135,3 +135,11 @@ def test_lattices_and_rounded_points_are_verified():
         cells = voronoi_cells(points * scale, frame=(-scale, -scale, -scale, 6 * scale, 6 * scale, 6 * scale))
         verify_cells(cells)
         assert cells.volumes.sum() == pytest.approx((6 * scale) ** 3, rel=1e-13)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_faces_that_roundings_make_small_are_no_faults(seed):
+    points = np.random.default_rng([45, seed]).integers(0, 4, (30, 3)) * 0.1
+    cells = vorotool.voronoi_cells(np.unique(points, axis=0), frame=(-1, -1, -1, 3, 3, 3))
+    vorotool.verify_cells(cells)
+    assert cells.volumes.sum() == pytest.approx(27)

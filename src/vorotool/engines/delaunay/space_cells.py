@@ -161,7 +161,7 @@ def _fault_of_places(cells: SpaceCellSet) -> str | None:
     if wrong.any():
         return f"a corner of face {face[on_box][np.argmax(wrong)]} is not on its side of the box"
     v, p, q = places[~on_box], cells.sites[first[~on_box]], cells.sites[second[~on_box]]
-    exponent = -int(np.frexp(max(np.abs(cells.sites).max(initial=0.0), np.abs(cells.box).max()))[1])
+    exponent = -_exponent(cells)
     v, p, q = (np.ldexp(each, exponent) for each in (v, p, q))
     terms = (q - p) * ((v - p) + (v - q))
     allowed = np.abs(q - p) * (np.abs(v - p) + np.abs(v - q)) * _SLACK + 2 * np.abs(q - p) * np.spacing(np.abs(v))
@@ -179,26 +179,34 @@ def _fault_of_normals(cells: SpaceCellSet) -> str | None:
     """Faces go round as seen from outside the first cell: their areas, as vectors, go to the second site."""
     inner = np.flatnonzero(cells.face_cells[:, 1] >= 0)
     first, second = cells.face_cells[inner].T
-    areas = _area_vectors(cells)[inner]
+    areas, roundings = (each[inner] for each in _area_vectors(cells))
     ways = cells.sites[second] - cells.sites[first]
-    exponent = -int(np.frexp(max(np.abs(cells.sites).max(initial=0.0), np.abs(cells.box).max()))[1])
-    along = (np.ldexp(areas, 2 * exponent) * np.ldexp(ways, exponent)).sum(axis=1)
-    allowed = (np.abs(np.ldexp(areas, 2 * exponent)) * np.abs(np.ldexp(ways, exponent))).sum(axis=1)
-    bad = np.flatnonzero(along < -allowed / 2)
+    exponent = -_exponent(cells)
+    areas, roundings = np.ldexp(areas, 2 * exponent), np.ldexp(roundings, 2 * exponent)
+    ways = np.ldexp(ways, exponent)
+    allowed = (np.abs(areas) * np.abs(ways)).sum(axis=1) / 2 + roundings * np.abs(ways).sum(axis=1)
+    bad = np.flatnonzero((areas * ways).sum(axis=1) < -allowed)
     return f"face {inner[bad[0]]} goes round the wrong way" if bad.size else None
 
 
-def _area_vectors(cells: SpaceCellSet) -> NDArray[np.float64]:
-    """Twice the area of each face, along its normal."""
+def _exponent(cells: SpaceCellSet) -> int:
+    """Give that of two of which no coordinate is larger."""
+    return int(np.frexp(max(np.abs(cells.sites).max(initial=0.0), np.abs(cells.box).max()))[1])
+
+
+def _area_vectors(cells: SpaceCellSet) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Twice the area of each face, along its normal, and how far each component may be off as corners are rounded."""
     if not len(cells.face_cells):
-        return np.zeros((0, 3))
+        return np.zeros((0, 3)), np.zeros(0)
     starts = cells.face_starts
     start = np.repeat(cells.vertices[cells.corners[starts[:-1]]], np.diff(starts), axis=0)
     ways = cells.vertices[cells.corners] - start
     after = np.arange(1, len(ways) + 1)
     after[starts[1:] - 1] = starts[:-1]
-    sums: NDArray[np.float64] = np.add.reduceat(np.cross(ways, ways[after]), starts[:-1])
-    return sums
+    areas: NDArray[np.float64] = np.add.reduceat(np.cross(ways, ways[after]), starts[:-1])
+    step = 2 * np.spacing(np.abs(cells.box).max())  # corners are in the box: no way is off by more
+    reach = np.add.reduceat(np.abs(ways).max(axis=1) + step, starts[:-1])
+    return areas, 4 * step * reach
 
 
 def _fault_of_volumes(cells: SpaceCellSet) -> str | None:
