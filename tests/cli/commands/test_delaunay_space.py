@@ -84,5 +84,5 @@ def test_pictures_have_layers_and_names(run, tmp_path):
         ["edges", "points", "labels"],
     )
     assert "&lt;d&gt;" in text
-    assert run("delaunay", tmp_path / "a.csv", "--space", "-o", tmp_path / "b.svg", "--label-by", "nome").code == 2
+    assert run("delaunay", tmp_path / "a.csv", "--space", "-o", tmp_path / "b.svg", "--label-by", "height").code == 2
     assert run("delaunay", tmp_path / "a.csv", "--space", "-o", tmp_path / "b.svg", "--scale-bar").code == 2
