@@ -21,7 +21,7 @@ from vorotool.types.points.point_set import labels_of
 
 Arrays = Mapping[str, NDArray[Any]]
 
-_SPACE = option("delaunay --space", 'geometry="space"')
+_SPACE = option("delaunay or alphashape --space", 'geometry="space"')
 
 
 def _note_plane(name: str, options: ReadOptions) -> None:
