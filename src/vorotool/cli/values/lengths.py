@@ -119,19 +119,19 @@ def _one_or_range(part: str) -> Sequence[float | Measured]:
 # ---- places --------------------------------------------------------------------------------------
 def rectangle(text: str) -> tuple[Any, ...]:
     """Return ``X,Y,W,H`` in the units of the input, or in a unit after the last number or each."""
-    numbers = _numbers(text, 4, "expected four numbers X,Y,W,H, such as 0,0,12.5,8 or 0,0,12.5,8mm")
-    if not all(float(each.number if isinstance(each, Measured) else each) > 0 for each in numbers[2:]):
-        raise UnexpectedError("expected finite numbers with W and H above 0")
-    return numbers
+    return _box(text, 2, "expected four numbers X,Y,W,H, such as 0,0,12.5,8 or 0,0,12.5,8mm")
 
 
 def rectangle_or_box(text: str) -> tuple[Any, ...]:
     """Return ``X,Y,W,H`` as `rectangle` does, or ``X,Y,Z,W,H,D``."""
-    if text.count(",") < 4:
-        return rectangle(text)
-    numbers = _numbers(text, 6, "expected four numbers X,Y,W,H, or six X,Y,Z,W,H,D, such as 0,0,0,12.5,8,3")
-    if not all(float(each.number if isinstance(each, Measured) else each) > 0 for each in numbers[3:]):
-        raise UnexpectedError("expected finite numbers with W, H and D above 0")
+    expected = "expected four numbers X,Y,W,H, such as 0,0,12.5,8, or in space six, X,Y,Z,W,H,D"
+    return _box(text, 2 if text.count(",") < 4 else 3, expected)
+
+
+def _box(text: str, axes: int, expected: str) -> tuple[Any, ...]:
+    numbers = _numbers(text, 2 * axes, expected)
+    if not all(float(each.number if isinstance(each, Measured) else each) > 0 for each in numbers[axes:]):
+        raise UnexpectedError(f"expected finite numbers with {'W and H' if axes == 2 else 'W, H and D'} above 0")
     return numbers
 
 

@@ -18,6 +18,7 @@ from vorotool.types.box import Box
 from vorotool.types.features import Areas, Rows
 from vorotool.types.fields import UNSTATED, YAxis, record
 from vorotool.types.mesh.triangulation import ALL, Mesh, Triangulation, lengths_of
+from vorotool.types.points.point_set import numbered
 from vorotool.types.table import Computed
 from vorotool.types.values import Geometric, Graph, Pictured, Tabular, Value, counted
 
@@ -102,9 +103,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     @property
     def label_array(self) -> NDArray[np.int64]:
         """(n,) labels: the input's own, else 1 to n."""
-        if self.labels is not None:
-            return self.labels
-        return np.arange(1, len(self) + 1, dtype=np.int64)
+        return numbered(self.labels, len(self))
 
     @cached_property
     def nesting(self) -> Nesting:

@@ -16,6 +16,7 @@ from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.features import Rows
 from vorotool.types.fields import record
+from vorotool.types.points.point_set import numbered
 from vorotool.types.table import Table
 from vorotool.types.values import Tabular, Value, counted
 
@@ -107,9 +108,7 @@ class SpaceCellSet(Value, Tabular):
     @property
     def label_array(self) -> NDArray[np.int64]:
         """(n,) labels: the input's own, else 1 to n."""
-        if self.labels is not None:
-            return self.labels
-        return np.arange(1, len(self) + 1, dtype=np.int64)
+        return numbered(self.labels, len(self))
 
     @property
     def is_empty(self) -> Booleans:
