@@ -22,6 +22,7 @@ from vorotool.numeric.checks import (
 )
 from vorotool.numeric.coordinates import MOST_AXES, number_array
 from vorotool.numeric.crs import note_degrees
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import pair_of_doubles
 from vorotool.products.registry import is_of
 from vorotool.types.points.point_set import LABEL, PointSet, labels_of
@@ -147,8 +148,6 @@ def _positions(held: HeldFeatures) -> tuple[NDArray[np.float64], NDArray[np.int6
 
 
 def _positions_of_geometry(held: HeldFeatures) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    import shapely
-
     geometry = held.geometry
     there = ~shapely.is_missing(geometry) & ~shapely.is_empty(geometry)
     kept = np.flatnonzero(there)

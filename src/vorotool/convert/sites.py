@@ -18,6 +18,7 @@ from vorotool.convert.tables import MISSING_TYPES, is_table, listed
 from vorotool.errors import InputError, UsageError, option, warn
 from vorotool.numeric.checks import index_of_rows, items_of, naming, unexpected
 from vorotool.numeric.crs import note_degrees
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import shown_number
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
@@ -96,7 +97,6 @@ def _shapely_of(item: Any) -> Any:
         return item
     if not isinstance(item, Mapping):
         raise unexpected(item, "a geometry")
-    import shapely
     from shapely.geometry import shape
 
     try:

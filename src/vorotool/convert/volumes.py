@@ -12,6 +12,7 @@ from vorotool.convert.tables import is_table, volume_points_of_table
 from vorotool.errors import InputError, LimitError
 from vorotool.numeric.checks import column_names, described, is_masked_array, items_of, naming, refuse_paths, unexpected
 from vorotool.numeric.coordinates import number_array
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import real_number
 from vorotool.types.images import LabelImage, Raster
 from vorotool.types.pixels import MAX_PIXELS
@@ -136,8 +137,6 @@ def _points_of(source: Any) -> VolumePoints:
 
 def _of_features(held: HeldFeatures, source: Any) -> VolumePoints:
     """Points of shapely, each with a z."""
-    import shapely
-
     said = f"expected {POINTS_EXPECTED}, but got {described(source)}"
     if not held.is_all_shapely:
         raise InputError(said)

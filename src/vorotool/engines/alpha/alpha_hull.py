@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option
 from vorotool.numeric.curves.inverse_functions import angle_of, cosine_and_sine, hypotenuse, inverse_sine
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import nearest_double, shown_number
 from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.alpha.shape import AlphaHull, AlphaShape
@@ -181,8 +182,6 @@ class _Arcs:
 
     def crossings(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
         """Pairs of arcs that cross between their ends, the first number smaller, and where."""
-        import shapely
-
         if not len(self.edge):
             return np.empty(0, np.int64), np.empty(0, np.int64), np.empty((0, 2))
         middle = self.at(np.arange(len(self.edge)), self.angle / 2)
@@ -240,8 +239,6 @@ class _Arcs:
         return (self.start if node == self.a[arc] else self.end)[arc].tolist()
 
     def _covered(self, arc: NDArray[np.int64], spans: NDArray[np.float64]) -> NDArray[np.bool_]:
-        import shapely
-
         covered = np.zeros(len(arc), dtype=bool)
         if not len(arc):
             return covered

@@ -15,6 +15,7 @@ from vorotool.errors import InputError, VerificationError, warn
 from vorotool.numeric.arrays import Floats, owners, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.products.formats import resolved
@@ -26,8 +27,6 @@ from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.points.point_set import known_of_points
 
 if TYPE_CHECKING:
-    import shapely
-
     from vorotool.types.mesh.space_cells import SpaceCellSet
     from vorotool.types.mesh.tetrahedralization import Tetrahedralization
     from vorotool.types.points.point_set import VolumePoints
@@ -177,8 +176,6 @@ def cell_colors(mesh: Triangulation, *, progress: Progress = None) -> NDArray[np
 
 def _clip_area(clip: Any, crs: Any) -> Any:
     """Union of the polygons, valid."""
-    import shapely
-
     polygons, own_crs = as_geometry(clip, "clip")
     if crs is not None and own_crs is not None and not same_crs(crs, own_crs):
         raise InputError(
@@ -201,8 +198,6 @@ def _clip_area(clip: Any, crs: Any) -> Any:
 
 def _clipped(cells: CellSet, area: Any) -> CellSet:
     """Cells cut to an area; those inside it stay as they are, bit for bit."""
-    import shapely
-
     shapes = cells.to_shapely()
     shapely.prepare(area)
     inside, meets = shapely.contains_properly(area, shapes), shapely.intersects(area, shapes)
@@ -215,16 +210,12 @@ def _clipped(cells: CellSet, area: Any) -> CellSet:
 
 def _polygons_of(shape: Any) -> Any:
     """The part of a shape that has area: of a boundary that is only touched, nothing."""
-    import shapely
-
     if shape.geom_type in ("Polygon", "MultiPolygon"):
         return shape
     return shapely.MultiPolygon([p for p in shapely.get_parts([shape]) if p.geom_type == "Polygon"])
 
 
 def _from_shapely(cells: CellSet, shapes: NDArray[Any]) -> CellSet:
-    import shapely
-
     parts, cell_of_part = shapely.get_parts(shapes, return_index=True)
     kept = ~shapely.is_empty(parts)
     parts, cell_of_part = parts[kept], cell_of_part[kept]
@@ -317,8 +308,6 @@ MARGIN = 0.25
 
 def cut_out(shapes: NDArray[Any], area: Any) -> NDArray[Any]:
     """Give the intersections of shapes with an area, as `shapely.intersection` gives them."""
-    import shapely
-
     made = np.empty(len(shapes), dtype=object)
     center = shapely.bounds(shapes).reshape(-1, 2, 2).mean(axis=1)
     waiting = [(np.arange(len(shapes)), Rings.of(area))]
@@ -341,8 +330,6 @@ def cut_out(shapes: NDArray[Any], area: Any) -> NDArray[Any]:
 
 def _cut_out_of(shapes: NDArray[Any], near: Any, whole: Any) -> NDArray[Any]:
     """Cut out of what is near; where GEOS cannot, which what crosses itself far away may be the cause of, of all."""
-    import shapely
-
     try:
         made = shapely.intersection(shapes, near)
     except shapely.errors.GEOSException:
@@ -361,8 +348,6 @@ class Rings:
     @classmethod
     def of(cls, area: Any) -> Rings:
         """Those of a shapely polygon, of one part or several."""
-        import shapely
-
         rings, part = shapely.get_rings(shapely.get_parts([area]), return_index=True)
         xy, ring = shapely.get_coordinates(rings, return_index=True)
         is_last = np.append(ring[1:] != ring[:-1], True)
@@ -411,8 +396,6 @@ class Rings:
 
     def area(self) -> Any:
         """Make a polygon of them, which need not be valid outside the bounds that they are around."""
-        import shapely
-
         lengths = np.diff(self.start)
         closed = np.insert(self.xy, self.start[1:], self.xy[self.start[:-1]], axis=0)
         rings = shapely.linearrings(closed, indices=owners(lengths + 1))
@@ -462,8 +445,6 @@ def voronoi_polygons(
     >>> [cell.wkt for cell in voronoi_polygons([[0, 0], [2, 0]]).geoms]
     ['POLYGON ((-2 -2, 1 -2, 1 2, -2 2, -2 -2))', 'POLYGON ((1 -2, 4 -2, 4 2, 1 2, 1 -2))']
     """
-    import shapely
-
     mesh = points if isinstance(points, Triangulation) else triangulated(points, threads=threads)
     corners = [*_widened(mesh), *_bounds_of(extend_to)]
     if not corners:

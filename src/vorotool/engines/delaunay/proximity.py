@@ -16,6 +16,7 @@ from vorotool.engines.delaunay.delaunay import core_mesh, triangulated
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.numeric.arrays import mask_of
 from vorotool.numeric.checks import checked_threads, is_choice
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.cells import KINDS, ProximityGraph
@@ -153,8 +154,6 @@ def verify_proximity_graph(graph: ProximityGraph) -> None:
 
 def _by_rule(graph: ProximityGraph) -> NDArray[np.bool_]:
     """Which edges of the triangulation have nothing in their disc or lune."""
-    import shapely
-
     mesh, is_relative = graph.mesh, graph.kind == "relative"
     exponent = int(np.frexp(np.abs(mesh.points).max(initial=0.0))[1])
     scaled = np.ldexp(mesh.points, -exponent)

@@ -20,6 +20,7 @@ from vorotool.numeric.arrays import Floats, Indices, ranges
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
@@ -356,8 +357,6 @@ class _Checked:
     """A shape as shapely has it."""
 
     def __init__(self, polygons: PolygonSet, is_boundary: bool) -> None:
-        import shapely
-
         is_last = np.zeros(len(polygons.xy), dtype=bool)
         is_last[polygons.ring_starts[1:] - 1] = np.diff(polygons.ring_starts) > 1
         is_last &= np.repeat(polygons.ring_kind == LINE, np.diff(polygons.ring_starts))
@@ -373,8 +372,6 @@ class _Checked:
     @cached_property
     def regions(self) -> Any:
         """Polygons that are filled."""
-        import shapely
-
         shapes = used_shapes(self.polygons)[~self.polygons.is_line]
         shapes = shapes[:0] if self.is_boundary else shapes
         return shapes[shapely.area(shapes) > 0]
@@ -382,14 +379,10 @@ class _Checked:
     @cached_property
     def region_tree(self) -> Any:
         """Of these."""
-        import shapely
-
         return shapely.STRtree(self.regions)
 
     def contains(self, places: Floats) -> NDArray[np.bool_]:
         """Whether places are inside polygons."""
-        import shapely
-
         found = np.zeros(len(places), dtype=bool)
         if len(self.regions):
             found[self.region_tree.query(shapely.points(places), predicate="intersects")[0]] = True
@@ -397,14 +390,10 @@ class _Checked:
 
     def nearest(self, places: Floats) -> NDArray[np.int64]:
         """The nearest edge to each place."""
-        import shapely
-
         return np.asarray(self.tree.nearest(shapely.points(places)), dtype=np.int64)
 
     def from_edge(self, edge: NDArray[np.int64], places: Floats) -> Floats:
         """The distance of each place from an edge."""
-        import shapely
-
         return np.asarray(shapely.distance(self.edges[edge], shapely.points(places)))
 
     def distance(self, places: Floats) -> Floats:

@@ -14,6 +14,7 @@ from vorotool.engines.skeleton.diagrams import diagram_of_all, skeleton_in
 from vorotool.errors import InputError
 from vorotool.numeric.arrays import Floats, Numbers, mask_of, starts_of
 from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
 from vorotool.types.box import Box, Extent, as_extent, bounds, corners_of, default_frame, extent_sides, is_extent
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -100,8 +101,6 @@ def shared_region(given: PolygonSet, clip: PolygonSet | None, frame: Extent | No
     """Give what a map in a frame and a clip shares out: what lies in both, if there are both; it may be nothing."""
     if clip is None or frame is None:
         return _region(given, clip or frame)
-    import shapely
-
     area = shapely.union_all(used_shapes(clip)[~clip.is_line])
     common = shapely.intersection(area, shapely.box(*extent_sides(frame)))
     return as_polygons([each for each in shapely.get_parts(common) if each.area > 0])
@@ -124,8 +123,6 @@ class _Space(Axis):
 
     def __init__(self, skeleton: Skeleton, region: PolygonSet, threads: int) -> None:
         super().__init__(skeleton, np.zeros(len(skeleton), dtype=np.intp), threads)
-        import shapely
-
         self.region = region
         self._area = shapely.union_all(used_shapes(region)[~region.is_line])
         self._shapes = shapely.union_all(used_shapes(skeleton.polygons)[~skeleton.polygons.is_line])
@@ -137,8 +134,6 @@ class _Space(Axis):
             self._is_whole &= self._is_near(self.middles.xy)
 
     def _is_near(self, places: Floats) -> NDArray[np.bool_]:
-        import shapely
-
         return np.asarray(shapely.distance(self._area, shapely.points(places)) <= self.rounding)
 
     def is_allowed(self, candidates: Candidates) -> NDArray[np.bool_]:
@@ -159,8 +154,6 @@ class _Space(Axis):
 
     def more(self) -> Candidates:
         """Give places where edges meet the border, and its corners."""
-        import shapely
-
         corners = np.unique(self.region.xy, axis=0)
         corners = corners[~shapely.intersects_xy(self._shapes, *corners.T)]
         tree = shapely.STRtree(_elements(self.sites.ends))
@@ -173,8 +166,6 @@ class _Space(Axis):
 
     def _on_border(self) -> Candidates:
         """Places inside arcs where they cross the border of the region."""
-        import shapely
-
         skeleton = self.skeleton
         measures = skeleton.measures(np.arange(len(skeleton)))
         places = np.stack([measures.source, measures.control, measures.target])
@@ -199,15 +190,11 @@ class _Space(Axis):
 
 def _elements(ends: Floats) -> Any:
     """Sites as points and lines of shapely, all as lines, which may have no length."""
-    import shapely
-
     return shapely.linestrings(ends)
 
 
 def _with_feet(skeleton: Skeleton, found: Candidates, rank: Numbers, region: PolygonSet) -> Discs:
     """Discs with all elements that they touch: vertices, and edges that they touch between their ends."""
-    import shapely
-
     axis = Axis(skeleton, np.full(len(skeleton), -1, dtype=np.intp), 1)
     tree = shapely.STRtree(_elements(axis.sites.ends))
     disc, site = tree.query(shapely.points(found.xy), predicate="dwithin", distance=found.radius + axis.rounding)

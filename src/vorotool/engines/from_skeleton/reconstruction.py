@@ -22,6 +22,7 @@ from vorotool.numeric.arrays import Floats, Indices, owners, starts_of
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.curves.flatten import chords_of, circle_tolerances, middles_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import Flatten, checked_flatten
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
@@ -332,8 +333,6 @@ class Ring(NamedTuple):
 
 def covered_rings(skeleton: Skeleton, arcs: Indices, tolerance: float | None) -> list[Ring]:
     """Rings around the discs along some arcs, polygon by polygon."""
-    import shapely
-
     if not len(arcs):
         return []
     to_corner = _to_corner(skeleton, arcs)

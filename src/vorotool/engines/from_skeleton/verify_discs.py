@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
 from vorotool.numeric.arrays import Floats, mask_of
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -108,8 +109,6 @@ def _check_order(discs: Discs, chosen: NDArray[np.intp], tolerance: float) -> No
 
 def _edges(discs: Discs, polygons: NDArray[np.intp]) -> Any:
     """Edges of some polygons."""
-    import shapely
-
     shapes = discs.polygons
     starts = shapes.ring_starts[shapes.polygon_starts]
     own = np.concatenate([np.arange(starts[k], starts[k + 1]) for k in polygons.tolist()])
@@ -120,15 +119,11 @@ def _edges(discs: Discs, polygons: NDArray[np.intp]) -> Any:
 
 
 def _distances(tree: STRtree, places: Floats) -> Floats:
-    import shapely
-
     (_, _), found = tree.query_nearest(shapely.points(places), return_distance=True, all_matches=False)
     return np.asarray(found)
 
 
 def _check_clear(discs: Discs, chosen: NDArray[np.intp], edges: Any, tolerance: float) -> STRtree:
-    import shapely
-
     tree = shapely.STRtree(edges)
     found = _distances(tree, discs.xy[chosen])
     if (at := first_wrong(~(np.abs(found - discs.radius[chosen]) <= tolerance))) is not None:
@@ -138,8 +133,6 @@ def _check_clear(discs: Discs, chosen: NDArray[np.intp], edges: Any, tolerance: 
 
 
 def _check_feature(discs: Discs, chosen: NDArray[np.intp], polygons: NDArray[np.intp], tolerance: float) -> None:
-    import shapely
-
     tree = _check_clear(discs, chosen, _edges(discs, polygons), tolerance)
     shapes = [shape for shape in used_shapes(discs.polygons)[polygons] if shape.geom_type.endswith("Polygon")]
     inside = shapely.union_all(shapes)
@@ -154,8 +147,6 @@ def _check_feature(discs: Discs, chosen: NDArray[np.intp], polygons: NDArray[np.
 
 def _check_empty(discs: Discs, within: PolygonSet, tolerance: float) -> None:
     """Discs between shapes, whose centers are in a region."""
-    import shapely
-
     everything = np.arange(len(discs))
     if not len(discs):
         return
@@ -180,8 +171,6 @@ def _is_held(discs: Discs, disc: int, tolerance: float) -> bool:
 
 def _check_none_larger(discs: Discs, disc: int, tree: STRtree, inside: Any, tolerance: float) -> None:
     """Squares by their centers: one may hold a larger disc's if the edges are farther than its corners reach."""
-    import shapely
-
     enough = float(discs.radius[disc]) * (1 + LARGER) + tolerance
     x0, y0, x1, y1 = inside.bounds
     side = max(x1 - x0, y1 - y0)

@@ -26,6 +26,7 @@ from vorotool.engines.tessellation.raster_objects import (
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.numeric.arrays import Indices, following, owners, ranges, starts_of, within
 from vorotool.numeric.checks import checked_threads, is_choice
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, finite_double, shown_number, whole_number
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
@@ -402,8 +403,6 @@ def _closed_walks(polygons: PolygonSet, is_node: NDArray[np.bool_]) -> tuple[Ind
 
 def _simplified_chains(chains: _Chains, tolerance: float) -> tuple[NDArray[np.float64], Indices]:
     """Places along each chain that are left, and where each begins."""
-    import shapely
-
     owner = owners(np.diff(chains.start))
     lines = shapely.linestrings(chains.places[chains.point], indices=owner)
     parts = shapely.get_parts(shapely.simplify(shapely.multilinestrings(lines), tolerance, preserve_topology=True))

@@ -21,6 +21,7 @@ from vorotool.errors import VorotoolWarning
 from vorotool.numeric.arrays import Floats, following, ranges, ranks_of, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.flatten import middles_of
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, finite_double
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
@@ -221,8 +222,6 @@ def _check_regions(
     threads: int,
     progress: Progress,
 ) -> None:
-    import shapely
-
     diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
     verify_segment_voronoi(diagram, threads=threads, progress=progress)
     sites = graph.coordinates()
@@ -246,8 +245,6 @@ def _check_regions(
 
 def _holding(shapes: Any, points: Any) -> NDArray[np.int64]:
     """In how many of some polygons each point lies."""
-    import shapely
-
     if not len(shapes):
         return np.zeros(len(points), dtype=np.int64)
     found = shapely.STRtree(shapes).query(points, predicate="intersects")[0]

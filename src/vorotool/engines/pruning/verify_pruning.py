@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
 from vorotool.numeric.arrays import Floats, mask_of, owners, ranges
+from vorotool.numeric.lazy import shapely
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.arc_measures import ArcMeasures
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -218,8 +219,6 @@ def _check_junctions(joined: Skeleton, skeleton: Skeleton, left: set[tuple[float
     is_left[nodes] = [rows[k] in left for k in nodes.tolist()]
     gone = nodes[~is_left[nodes]]
     if len(gone):
-        import shapely
-
         own = np.flatnonzero(joined.degree > 2)
         tree = shapely.STRtree(shapely.points(skeleton.vertices[gone]))
         near = tree.query(shapely.points(joined.vertices[own]), predicate="dwithin", distance=joined.radius[own])

@@ -13,6 +13,7 @@ from vorotool.engines.skeleton.verify_bounds import place_error
 from vorotool.engines.skeleton.verify_skeleton import check_arrays, verify_skeleton
 from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
 
 SEED_ERROR = 2.0**-20
@@ -72,8 +73,6 @@ def _check_gaps(samples: BoundarySamples, step: float) -> None:
 
 def _check_seeds(found: ApproximateSkeleton) -> None:
     """Ends of arcs are equally far from both seeds, and none is nearer."""
-    import shapely
-
     skeleton, samples = found.skeleton, found.shapes.samples
     xy, error = samples.xy, place_error(skeleton)
     sampled = np.flatnonzero((found.seeds >= 0).all(axis=1))
@@ -93,8 +92,6 @@ def _nearest_of_group(
     found: ApproximateSkeleton, tree: Any, places: Floats, seeds: NDArray[np.int32], reach: Floats
 ) -> Floats:
     """How far the nearest seed is that has a diagram with a given one; only what is within a reach is looked for."""
-    import shapely
-
     points, group = shapely.points(places), found.shapes.groups.of_samples(found.shapes.samples)
     if group is None:
         return tree.query_nearest(points, return_distance=True, all_matches=False)[1]

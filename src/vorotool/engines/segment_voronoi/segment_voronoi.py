@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolError
 from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.segment_voronoi import LATTICE_LIMIT, SegmentVoronoiDiagram
@@ -122,8 +123,6 @@ def _explained(symptom: str, points: NDArray[np.int32], segments: NDArray[np.int
 
 def _fault_of(points: NDArray[np.int32], segments: NDArray[np.int32]) -> str | None:
     """Where segments have more in common than an end."""
-    import shapely
-
     lines = shapely.linestrings(points[segments])
     tree = shapely.STRtree(lines)
     places, at = tree.query(shapely.points(points), predicate="intersects")

@@ -26,6 +26,7 @@ from vorotool.errors import InputError
 from vorotool.numeric.arrays import Indices, following, owners
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import angle_of, hypotenuse
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import is_among
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
@@ -313,8 +314,6 @@ def _with_portions(
 
 def gap_deviation(skeleton: Skeleton, exact: Skeleton) -> float:
     """Measure how far places on a skeleton with a gap are at most from the exact one."""
-    import shapely
-
     if not len(skeleton) or not len(exact):
         return 0.0
     tolerance = DEVIATION_STEPS * float(np.ptp(exact.polygons.xy, axis=0).max())

@@ -14,6 +14,7 @@ from vorotool.engines.skeleton.exact import diagram_of_graph, interior_skeleton,
 from vorotool.engines.skeleton.parts import outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.verify_regions import border_components, with_corners_apart
 from vorotool.numeric.arrays import mask_of, owners
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
 from vorotool.types.box import widened
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -77,8 +78,6 @@ def _check_in_graph(
 
 def _check_crossings(skeleton: Skeleton, graph: PlanarGraph, error: float) -> None:
     """Raise if an arc meets the shapes; those that lead to corners are looked at from their middle on."""
-    import shapely
-
     ends = skeleton.vertices[skeleton.arcs]
     middle = ends.mean(axis=1)
     for end in (0, 1):
@@ -92,8 +91,6 @@ def _check_crossings(skeleton: Skeleton, graph: PlanarGraph, error: float) -> No
 
 def _check_sides(skeleton: Skeleton) -> None:
     """Raise unless each arc is in its polygon, or in none."""
-    import shapely
-
     polygons = skeleton.polygons
     area = np.flatnonzero(~polygons.is_line)
     shapes = np.array(to_shapely(polygons), dtype=object)[area]
@@ -176,8 +173,6 @@ def places_on_arcs(skeleton: Skeleton, parameters: NDArray[np.float64]) -> Place
 
 def distances_to(skeleton: Skeleton, places: Places) -> NDArray[np.float64]:
     """(n,) distances of places from the nearest arc, right to a few ulp of the coordinates."""
-    import shapely
-
     tolerance = FLATTEN * float(np.ptp(np.concatenate([skeleton.vertices, places]), axis=0).max() or 1.0)
     points, start = skeleton.flattened(tolerance)
     lines = shapely.linestrings(points, indices=owners(np.diff(start)))

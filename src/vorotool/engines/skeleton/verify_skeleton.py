@@ -28,6 +28,7 @@ from vorotool.engines.skeleton.verify_regions import (
 from vorotool.errors import silent
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
@@ -89,8 +90,6 @@ def check_cut_regions(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph,
 
 def _areas_at_border(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph) -> tuple[Indices, Floats]:
     """Of stretches of the border in polygons, between cuts, the polygon and the area to the nearest site."""
-    import shapely
-
     rows = _stretches(skeleton, graph, left)
     if not len(rows) or not len(left.points):
         return np.zeros(0, dtype=np.int64), np.zeros(0)

@@ -10,6 +10,7 @@ from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.cut_curves import FAR, SLACK, CutCurves, CutEdges, cut_curves
 from vorotool.engines.voronoi.regions import LocalDiagrams
 from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import rows_of
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import packed
@@ -80,8 +81,6 @@ def crossings_between(
 
 def crossings_of(local: LocalDiagrams, edges: CutEdges) -> Crossings:
     """Find where borders meet the cut edges of their region, on whose lattice walls are cut already."""
-    import shapely
-
     borders = local.borders
     drawn = Drawn.nowhere(len(borders.places) + len(edges.points))
     tree = shapely.STRtree(shapely.linestrings(edges.lines))
@@ -94,8 +93,6 @@ def crossings_of(local: LocalDiagrams, edges: CutEdges) -> Crossings:
 
 def _draw_places(local: LocalDiagrams, edges: CutEdges, tree: Any, region: Indices, drawn: Drawn) -> None:
     """Tell which places of borders are at ends of cut edges or on these; places of sites are so exactly or not."""
-    import shapely
-
     node, edge, far = drawn.node, drawn.edge, drawn.far
     borders = local.borders
     count = len(borders.places)
@@ -124,8 +121,6 @@ def _pairs(
     local: LocalDiagrams, edges: CutEdges, tree: Any, pieces: Indices, region: Indices
 ) -> tuple[Indices, Indices, Indices, CutCurves]:
     """Pieces and the cut edges of their region that they come near to, and the curves of all such pieces."""
-    import shapely
-
     curves = cut_curves(local.borders, local.owned.graph, pieces)
     low, high = curves.between(*_boxes(edges, region[pieces]))
     held = np.flatnonzero(low <= high)

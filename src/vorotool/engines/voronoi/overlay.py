@@ -11,6 +11,7 @@ from vorotool.engines.voronoi.crossings import Crossings, Drawn, crossings_betwe
 from vorotool.engines.voronoi.cut_curves import NO_REGION, SLACK, CutEdges, controls_of, cut_curves
 from vorotool.engines.voronoi.regions import LocalDiagrams, faces_of_sides
 from vorotool.numeric.arrays import Floats, Indices, mask_of, owners, ranges
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import rows_of
 from vorotool.plain import plain
 from vorotool.types.box import Extent, corners_of
@@ -256,8 +257,6 @@ class RegionOverlay(Overlay):
     # ---- what lies in its region ------------------------------------------------------------------------
     def _is_kept(self, pieces: Pieces) -> NDArray[np.bool_]:
         """Whether parts of borders are in their region: all that hangs together between cuts is, or is not."""
-        import shapely
-
         count, nodes = len(pieces.piece), len(self.found.node)
         is_cut = self.is_cut.copy()
         is_cut[-1] = True  # at infinity

@@ -13,6 +13,7 @@ from vorotool.engines.voronoi.regions import NearestElements
 from vorotool.errors import VerificationError
 from vorotool.numeric.arrays import Floats, Indices, following, mask_of, ranges, ranks_of, starts_of
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
+from vorotool.numeric.lazy import shapely
 from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
@@ -179,8 +180,6 @@ def shells_of(rings: Rings, arcs: Arcs) -> Indices:
 
 def _around(holes: Indices, shells: Indices, rings: Rings, arcs: Arcs) -> Indices:
     """For each hole the smallest shell of its part that lies around it."""
-    import shapely
-
     own = shells[np.isin(rings.part[shells], rings.part[holes])]
     tree = shapely.STRtree([shapely.Polygon(_outline(each, rings, arcs)) for each in own.tolist()])
     inner = np.array([shapely.Polygon(_outline(each, rings, arcs)) for each in holes.tolist()])

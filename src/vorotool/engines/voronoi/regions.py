@@ -26,6 +26,7 @@ from vorotool.engines.voronoi.site_graph import (
 )
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
 from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, is_among, rows_of
 from vorotool.numeric.parallel import Progress
 from vorotool.plain import plain
@@ -187,8 +188,6 @@ def _meetings_of_points(
     joint: JointGraph, site: NDArray[np.int32], face: Indices, is_line: NDArray[np.bool_]
 ) -> Indices:
     """(k, 2) the same of sites that are places, unless an enclosure runs through these."""
-    import shapely
-
     graph, given = joint.graph, joint.polygons
     assert graph.vertices is not None
     lone = rings_at_one_place(graph, given)
@@ -211,8 +210,6 @@ def _meetings_of_points(
 
 def faces_of_sides(lines: Floats, sides: Indices) -> tuple[Indices, NDArray[Any]]:
     """Give the faces between segments as polygons of shapely, and the region that each is a part of."""
-    import shapely
-
     shapes = np.asarray(shapely.get_parts(shapely.polygonize(shapely.linestrings(lines))))
     if not len(shapes):
         return np.empty(0, dtype=np.int64), shapes
@@ -363,8 +360,6 @@ class NearestElements:
 
     def sites(self, places: Floats, region: int) -> Indices:
         """(k,) the smallest of the sites that cover each place on the lattice, else of those nearest to it."""
-        import shapely
-
         points = shapely.points(places)
         shapes, of_polygon = self._polygons
         covered = np.full(len(places), NOBODY, dtype=np.int64)
@@ -380,15 +375,11 @@ class NearestElements:
     @cached_property
     def _polygons(self) -> tuple[Any, Indices]:
         """Polygons that have an inside, and the site of each."""
-        import shapely
-
         shapes = used_shapes(self.local.polygons)
         kept = np.flatnonzero(shapely.area(shapes) > 0)
         return shapes[kept], self.local.site[kept].astype(np.int64)
 
     def _tree(self, region: int) -> tuple[Any, Indices]:
-        import shapely
-
         local, graph = self.local, self.local.owned.graph
         count = len(graph.points)
         points = self.lone[local.point_region[self.lone] == region]

@@ -12,6 +12,7 @@ from vorotool.engines.common import fail, first_wrong
 from vorotool.errors import UsageError
 from vorotool.numeric.arrays import Floats, Indices, following, owners
 from vorotool.numeric.curves.inverse_functions import PI, angle_of
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.types.arguments import check_value
 from vorotool.types.box import bounds, corners_of
@@ -169,8 +170,6 @@ class _SitePlaces:
     """The sites as geometry of shapely, and how far distances may be off."""
 
     def __init__(self, cells: VoronoiMap) -> None:
-        import shapely
-
         given = cells.polygons
         self.geometry = site_shapes(cells)
         self.tree = shapely.STRtree(self.geometry)
@@ -185,14 +184,10 @@ class _SitePlaces:
 
     def distances(self, site: NDArray[Any], places: Floats) -> Floats:
         """Of each place from one site."""
-        import shapely
-
         return shapely.distance(self.geometry[site], shapely.points(places))
 
     def least(self, places: Floats) -> Floats:
         """Of each place from the nearest site, with enclosures of those that meet the face that it is in."""
-        import shapely
-
         if self.faces is not None:
             return self.faces.least(places)
         found, distance = self.tree.query_nearest(shapely.points(places), return_distance=True, all_matches=False)
@@ -255,8 +250,6 @@ def _check_limit(cells: VoronoiMap, sites: _SitePlaces, limit: float) -> None:
 
 
 def _check_places(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Generator, count: int) -> None:
-    import shapely
-
     x, y, w, h = cells.frame
     places = np.array([x, y]) + random.random((count, 2)) * np.array([w, h])
     points = shapely.points(places)
@@ -299,8 +292,6 @@ def _check_shares(
     cells: VoronoiMap, sites: _SitePlaces, at_places: tuple[Floats, Floats], held: tuple[Indices, Indices], near: float
 ) -> None:
     """What is shared out is in cells, unless no site is near; what is not is in none, and sites stay in their faces."""
-    import shapely
-
     (places, least), (place, cell) = at_places, held
     points = shapely.points(places)
     shared = shared_out(cells)
@@ -327,8 +318,6 @@ def _check_ties(
     cells: VoronoiMap, sites: _SitePlaces, places: Floats, cell: Indices, shapes: NDArray[Any], near: float
 ) -> None:
     """Where several sites cover a place, or have the vertex that it is nearest to, it belongs to the first."""
-    import shapely
-
     points = shapely.points(places)
     place, site = sites.tree.query_nearest(points, all_matches=True)
     earlier = site < cell[place]
@@ -343,8 +332,6 @@ def _check_ties(
 
 def _depth(geometry: Any, point: Any) -> float:
     """How far a place is from the boundary of the polygons that cover it; 0 if none does."""
-    import shapely
-
     parts = shapely.get_parts(shapely.get_parts(geometry))
     covering = parts[shapely.covers(parts, point) & (shapely.area(parts) > 0)]
     return float(shapely.distance(shapely.boundary(covering), point).max(initial=0))
@@ -356,8 +343,6 @@ _BITS = 30
 
 def shared_out(cells: VoronoiMap, step: float = 0, grid: float | None = None) -> Any:
     """Give the area within the frame and the clip of a map, as geometry of shapely; with a step, rounded to that."""
-    import shapely
-
     x, y, w, h = cells.frame
     box = _rounded(shapely.box(x, y, x + w, y + h), step)
     if cells.clip is None:
@@ -370,15 +355,11 @@ def shared_out(cells: VoronoiMap, step: float = 0, grid: float | None = None) ->
 
 def _rounded(geometry: Any, step: float) -> Any:
     """Round coordinates to multiples of a power of two, exactly; by none, leave them."""
-    import shapely
-
     return shapely.transform(geometry, lambda xy: np.rint(xy / step) * step) if step else geometry
 
 
 def _steps(cells: VoronoiMap) -> list[float]:
     """Give the steps that the lattice may have: a frame that cuts a clip may reach farther than the map tells."""
-    import shapely
-
     assert cells.enclosures is not None
     corners = corners_of(cells.frame)
     placed, margin = np.concatenate([cells.polygons.xy, cells.enclosures.xy, corners]), 0.0
@@ -397,8 +378,6 @@ class EnclosedFaces:
     """Faces between the enclosures of a map on its lattice; crossings there are rounded or not."""
 
     def __init__(self, cells: VoronoiMap, geometry: NDArray[Any], near: float) -> None:
-        import shapely
-
         self.readings = [_Faces(cells, geometry, near, step, grid) for step in _steps(cells) for grid in (None, step)]
         self.boundaries = shapely.boundary(np.concatenate([each.shapes for each in self.readings]))
 
@@ -415,8 +394,6 @@ class _Faces:
     """Faces between lines, and the sites that meet the inside of each."""
 
     def __init__(self, cells: VoronoiMap, geometry: NDArray[Any], near: float, step: float, grid: float | None) -> None:
-        import shapely
-
         assert cells.enclosures is not None
         given = to_shapely(cells.enclosures)
         lines = _rounded(np.where(cells.enclosures.is_line, given, shapely.boundary(given)), step)
@@ -435,8 +412,6 @@ class _Faces:
 
     def _closed(self, lines: Any, shared: Any, geometry: NDArray[Any]) -> list[Any]:
         """The faces that enclosures close by themselves, and what is around them all."""
-        import shapely
-
         closed = [*shapely.get_parts(shapely.polygonize(shapely.get_parts(lines)))]
         bounds = shapely.box(*shapely.total_bounds([lines, shared, *geometry]))
         margin = max(bounds.length, 1.0)
@@ -444,8 +419,6 @@ class _Faces:
 
     def _wholes(self, shared: Any, around: list[Any], cuts: Any) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """For each face the one whose sites it may have, and that whose sites it surely has."""
-        import shapely
-
         middles = shapely.point_on_surface(self.shapes)
         possible, sure = np.arange(len(self.shapes)), np.arange(len(self.shapes))
         for k, each in enumerate(around, len(self.shapes)):
@@ -459,15 +432,11 @@ class _Faces:
         return possible, sure
 
     def _meeting(self, shapes: NDArray[Any]) -> list[NDArray[np.int64]]:
-        import shapely
-
         row, site = shapely.STRtree(self.geometry).query(shapes, predicate="intersects")
         return [site[row == k] for k in range(len(shapes))]
 
     def least(self, places: Floats) -> Floats:
         """Of each place from the nearest of the sites that surely meet its face; infinity where none surely does."""
-        import shapely
-
         points = shapely.points(places)
         least = np.full(len(points), np.nan)
         place, face = self.tree.query(points, predicate="dwithin", distance=self.near)
@@ -482,8 +451,6 @@ class _Faces:
 
     def may_have(self, places: Floats, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
         """(k,) whether a site may meet the face of each place."""
-        import shapely
-
         fits = np.zeros(len(places), dtype=bool)
         place, face = self.tree.query(shapely.points(places), predicate="dwithin", distance=self.near)
         for at, each in zip(place.tolist(), face.tolist(), strict=True):

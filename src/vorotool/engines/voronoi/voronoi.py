@@ -37,6 +37,7 @@ from vorotool.engines.voronoi.site_graph import (
 from vorotool.errors import InputError, RepairWarning, UsageError
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, finite_double, shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.box import Extent, as_extent, check_lengths, default_frame, is_extent
@@ -341,8 +342,6 @@ def _below(source: Floats, target: Floats, w: float, h: float) -> Floats:
 
 def _cut_to_cells(areas: Floats, cells: VoronoiMap) -> None:
     """Measure anew what of sites is in cells that have a cut: polylines instead of curves cross no site."""
-    import shapely
-
     at = distinct(cells.sites[cells.is_cut])
     at = at[at != OUTSIDE]
     shapes = cell_polygons(cells, None)[at]
@@ -376,8 +375,6 @@ def _has_ridges(cells: VoronoiMap) -> bool:
 
 
 def _take_vertices(reach: Floats, cells: VoronoiMap) -> None:
-    import shapely
-
     site, vertex = np.tile(cells.sites, 2).ravel(), np.repeat(cells.arcs, 2, axis=1).ravel()
     inner = site != OUTSIDE
     site, vertex = site[inner], vertex[inner]

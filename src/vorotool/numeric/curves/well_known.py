@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.flatten import chords_of, middles_of
+from vorotool.numeric.lazy import shapely
 
 PARTS = {
     "POLYGON": "LINEARRING",
@@ -58,8 +59,6 @@ class Linearizer:
 
     def geometry(self, node: Node) -> Any:
         """Give the geometry of shapely for a node."""
-        import shapely
-
         kind, parts = node.kind, node.parts
         if kind == "POINT":
             return shapely.Point(node.points[0]) if len(node.points) else shapely.Point()
@@ -78,8 +77,6 @@ class Linearizer:
         )
 
     def _ring(self, node: Node) -> Any:
-        import shapely
-
         vertices = self._line(node)
         if len(vertices) < 4 or (vertices[0, :2] != vertices[-1, :2]).any():
             raise ValueError("a ring is not closed, or has no area")
@@ -211,8 +208,6 @@ class Flat(NamedTuple):
 
 def geometry_of_texts(texts: Sequence[str | None], flatten: float | None = None) -> Flat:
     """Read well-known text."""
-    import shapely
-
     capitals = "\n".join(text for text in texts if isinstance(text, str)).upper()
     kinds = [kind for kind in CURVED if kind in capitals]  # none, nearly always: no text is looked at twice
     own = [k for k, text in enumerate(texts if kinds else []) if text and any(kind in text.upper() for kind in kinds)]
@@ -234,8 +229,6 @@ def _is_unicode(text: str) -> bool:
 
 def geometry_of_binary(items: Sequence[bytes | str | None], flatten: float | None = None) -> Flat:
     """Read well-known binary, plain or extended, as bytes or as hexadecimal digits."""
-    import shapely
-
     own = [k for k, item in enumerate(items) if item is not None and _is_read_here(item)]
     plain = np.array([*items, None], dtype=object)[:-1]
     plain[own] = None
@@ -256,8 +249,6 @@ def _read_plain(read: Callable[..., Any], items: NDArray[np.object_]) -> NDArray
 
 def without_curves(geometry: NDArray[np.object_], flatten: float | None = None) -> Flat:
     """Replace geometry of shapely that has curves in it, as collections may."""
-    import shapely
-
     held = np.flatnonzero(shapely.is_geometry(geometry))
     binary = {k: shapely.to_wkb(geometry[k]) for k in held[shapely.get_type_id(geometry[held]) >= _COLLECTION].tolist()}
     own = {k: _read_later(_BinaryReader, data) for k, data in binary.items() if _is_read_here(data)}
@@ -277,8 +268,6 @@ def _with_own(
     geometry: NDArray[np.object_], own: dict[int, Callable[[], tuple[Node, int]]], flatten: float | None
 ) -> Flat:
     """Put in what is read here; None where that cannot be."""
-    import shapely
-
     lines = Linearizer(flatten)
     for k, read in own.items():
         try:

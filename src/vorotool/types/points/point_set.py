@@ -143,8 +143,8 @@ def finite_rows(values: Any, axes: int) -> NDArray[np.float64]:
     """Copy the coordinates of points, all of them finite."""
     rows = coordinate_rows(values, "point", axes)
     finite = np.isfinite(rows)
-    bad = np.flatnonzero(~np.logical_and.reduce(finite.T))  # an `all` along rows this short is slow
-    if bad.size:
+    if not finite.all():
+        bad = np.flatnonzero(~finite.all(axis=1))
         row = int(bad[0])
         raise InputError(
             f"point {row + 1} is ({', '.join(map(str, rows[row].tolist()))}): coordinates must be finite; "
