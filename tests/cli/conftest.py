@@ -39,18 +39,21 @@ def workers():
 
 @pytest.fixture
 def run(tmp_path, monkeypatch, capfd):
-    """Run a command in an empty folder, with data on standard input if there are any.
+    """Run a command, given as words or as a line of words and more, with data on standard input if there are any.
 
-    A traceback fails the test whatever the command was.
+    It runs in an empty folder. It has to end with a code, None for any, and to say some texts on standard error; a
+    traceback fails the test.
     """
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "unraisablehook", sys.unraisablehook)  # which the command sets
 
-    def call(*arguments, data=None):
+    def call(line, *arguments, data=None, code=0, says=()):
         with nullcontext() if data is None else fed_input(data), pytest.raises(SystemExit) as end:
-            main([str(argument) for argument in arguments])
+            main([*str(line).split(), *map(str, arguments)])
         out, err = capfd.readouterr()
         assert "Traceback" not in err
+        assert code in (None, end.value.code), err
+        assert all(text in err for text in ([says] if isinstance(says, str) else says)), err
         return Outcome(end.value.code, out, err)
 
     return call

@@ -11,15 +11,14 @@ from support.processes.leftovers import leftovers
 
 
 def test_outputs_that_cannot_be_written(run, folder):
-    assert run("tessellate", "dots.csv", "-f", "png", "-o", "").code == 4
-    assert run("tessellate", "dots.csv", "-o", "no/such/a.png").code == 4
-    assert run("tessellate", "dots.csv", "-o", "/dev/full", "-f", "npy").code == 4
+    run("tessellate dots.csv -f png -o", "", code=4)
+    run("tessellate dots.csv -o no/such/a.png", code=4)
+    run("tessellate dots.csv -o /dev/full -f npy", code=4)
     for fmt in ("csv", "npz"):
-        assert run("delaunay", "dots.csv", "-o", "/dev/full", "-f", fmt).code == 4
-    assert run("tessellate", "dots.csv", "-o", "a.png", "--stats", "no/such/s.json").code == 4
+        run(f"delaunay dots.csv -o /dev/full -f {fmt}", code=4)
+    run("tessellate dots.csv -o a.png --stats no/such/s.json", code=4)
     (folder / "old.png").write_text("old")
-    done = run("tessellate", "dots.csv", "-o", "old.png", "--no-clobber")
-    assert done.code == 4
+    run("tessellate dots.csv -o old.png --no-clobber", code=4)
     assert (folder / "old.png").read_text() == "old"
     assert leftovers(folder) == []
 
@@ -39,9 +38,7 @@ def test_failed_write_leaves_the_older_file(run, folder, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("vorotool.formats.images.tiff_writer.write_tiff", fail)
-    done = run("tessellate", "dots.csv", "-o", "old.tif")
-    assert done.code == 4
-    assert "No space left" in done.err
+    run("tessellate dots.csv -o old.tif", code=4, says="No space left")
     assert (folder / "old.tif").read_text() == "old"
     assert leftovers(folder) == []
 
@@ -60,7 +57,7 @@ def test_binary_never_goes_to_a_terminal(folder):
 def test_binary_goes_through_a_pipe(run, process, folder):
     png, _ = process("tessellate", "dots.csv", "-f", "png", "-o", "-").communicate()
     assert png.startswith(b"\x89PNG")
-    assert "</svg>" in run("draw", "-", "-f", "svg", data=png).out
+    assert "</svg>" in run("draw - -f svg", data=png).out
 
 
 def test_broken_pipe_is_quiet(folder):
@@ -78,16 +75,13 @@ def test_statistics_replace_neither_input_nor_output(run, folder, command):
     before = source.read_bytes()
     os.link(source, folder / "same")
     for name in (source.name, "same", "out", "./out"):
-        done = run(*command, "-o", "out", "--stats", name)
-        assert done.code == 2
-        assert name in done.err
+        run(*command, "-o", "out", "--stats", name, code=2, says=name)
         assert not (folder / "out").exists()
     assert source.read_bytes() == before
     (folder / "old.json").write_text("old")
-    done = run(*command, "-o", "out", "--stats", "old.json", "--no-clobber")
-    assert done.code == 4
+    run(*command, "-o", "out", "--stats", "old.json", "--no-clobber", code=4)
     assert (folder / "old.json").read_text() == "old"
-    assert run(*command, "-o", os.devnull, "--stats", os.devnull).code == 0
+    run(*command, "-o", os.devnull, "--stats", os.devnull)
 
 
 def test_standard_input_is_not_replaced_either(process, folder):
@@ -142,21 +136,18 @@ def test_failures_are_known_before_the_first_output(run, folder):
         (["dots.csv", "--what", "table,labels", "--out-dir", "plain/in"], 4, "plain/in"),
         (["missing.csv", "--what", "table,labels", "--out-dir", "new"], 3, "missing.csv"),
     ]:
-        done = run("tessellate", *arguments)
-        assert done.code == code, done.err
-        assert words in done.err
+        run("tessellate", *arguments, code=code, says=words)
         assert {path.name for path in folder.iterdir()} == {
             *("dots.csv", "mask.pbm", "labels.npy", "b.labels.png", "plain")
         }
-    assert run("draw", "mask.pbm", "-o", "a.png", "--stats", "no/such/s.json").code == 4
+    run("draw mask.pbm -o a.png --stats no/such/s.json", code=4)
     assert not (folder / "a.png").exists()
 
 
 def test_the_folder_of_outputs_is_made(run, folder):
-    done = run("tessellate", "dots.csv", "--out-dir", "new/deep", "--what", "table", "--stats", "new/deep/s.json")
-    assert done.code == 0, done.err
+    run("tessellate dots.csv --out-dir new/deep --what table --stats new/deep/s.json")
     assert {path.name for path in (folder / "new/deep").iterdir()} == {"dots.csv", "s.json"}
-    assert run("draw", "mask.pbm", "--out-dir", "other/deep").code == 0
+    run("draw mask.pbm --out-dir other/deep")
     assert (folder / "other/deep/mask.png").exists()
 
 
@@ -164,6 +155,5 @@ def test_a_folder_without_permission(run, folder, monkeypatch):
     (folder / "locked").mkdir()
     monkeypatch.setattr("os.access", lambda path, mode, **_: "locked" not in str(path))  # root writes anywhere
     for options in (["-o", "locked/a.png"], ["--out-dir", "locked/in"], ["-o", "a.png", "--stats", "locked/s.json"]):
-        done = run("tessellate", "dots.csv", *options)
-        assert done.code == 4
+        run("tessellate dots.csv", *options, code=4)
         assert not (folder / "a.png").exists()

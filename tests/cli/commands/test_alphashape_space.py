@@ -19,8 +19,8 @@ def cloud(folder):
 
 def test_the_surface_is_that_of_the_library(run, cloud):
     shape = vorotool.alpha_shape(POINTS, r=0.3)
-    done = run("alphashape", "cloud.csv", "--space", "-r", "0.3", "--verify", "--stats", "stats.json")
-    assert (done.code, done.err) == (0, "")
+    done = run("alphashape cloud.csv --space -r 0.3 --verify --stats stats.json")
+    assert done.err == ""
     assert [[int(row[f"label_{corner}"]) - 1 for corner in "abc"] for row in done.rows] == shape.surface.tolist()
     stats = json.loads((cloud / "stats.json").read_text())
     expected = {"surface": len(shape.surface), "volume": shape.volume, "parts": shape.part_count}
@@ -42,36 +42,36 @@ def test_rows_of_all_results(run, cloud):
         "curves": len(family.spectrum),
     }
     for what, count in counts.items():
-        assert len(run("alphashape", "cloud.csv", "--space", "-r", "0.3", "--what", what).rows) == count, what
-    alpha = run("alphashape", "cloud.csv", "--space", "--alpha=-4", "--what", "edges")
-    assert alpha.out == run("alphashape", "cloud.csv", "--columns", "x,y,z=z", "-r", "0.25", "--what", "edges").out
+        assert len(run(f"alphashape cloud.csv --space -r 0.3 --what {what}").rows) == count, what
+    alpha = run("alphashape cloud.csv --space --alpha=-4 --what edges")
+    assert alpha.out == run("alphashape cloud.csv --columns x,y,z=z -r 0.25 --what edges").out
 
 
 def test_formats_choose_their_result(run, cloud):
     shape = vorotool.alpha_shape(POINTS, r=0.3)
     for name in ("shape.vtu", "shape.ply", "shape.stl", "shape.obj", "shape.npz", "shape.json"):
-        done = run("alphashape", "cloud.csv", "--space", "-r", "0.3", "-o", name)
-        assert (done.code, done.err) == (0, "")
+        done = run(f"alphashape cloud.csv --space -r 0.3 -o {name}")
+        assert done.err == ""
         vorotool.write(shape, cloud / f"own-{name}", what="tetrahedra" if name.endswith("vtu") else "surface")
         assert (cloud / name).read_bytes() == (cloud / f"own-{name}").read_bytes(), name
 
 
 def test_the_automatic_radius_is_told(run, cloud):
     r = vorotool.alpha_shape(POINTS).r
-    done = run("alphashape", "cloud.csv", "--space", "--what", "table")
-    assert f"r = {r!r}, the smallest radius whose shape is one region covering every point" in done.err
+    done = run(
+        "alphashape cloud.csv --space --what table",
+        says=f"r = {r!r}, the smallest radius whose shape is one region covering every point",
+    )
     assert len(done.rows) == 1
 
 
 def test_an_empty_result_says_where_it_begins(run, cloud):
     first = vorotool.alpha_complex(POINTS).radii("tetrahedra").min()
-    done = run("alphashape", "cloud.csv", "--space", "-r", "0.001")
-    assert f"the result has no surface: tetrahedra begin at r = {first:.12f}" in done.err
+    run("alphashape cloud.csv --space -r 0.001", says=f"has no surface: tetrahedra begin at r = {first:.12f}")
     (cloud / "flat.csv").write_text("x,y,z\n0,0,1\n2,0,1\n0,2,1\n")
-    flat = run("alphashape", "flat.csv", "--space", "-r", "2", "--verify")
-    assert "the result has no surface: the points span no tetrahedra" in flat.err
-    assert len(run("alphashape", "flat.csv", "--space", "-r", "2", "--what", "triangles").rows) == 1
-    assert "3 points in a plane span no tetrahedron" in run("alphashape", "flat.csv", "--space").err
+    run("alphashape flat.csv --space -r 2 --verify", says="the result has no surface: the points span no tetrahedra")
+    assert len(run("alphashape flat.csv --space -r 2 --what triangles").rows) == 1
+    run("alphashape flat.csv --space", code=3, says="3 points in a plane span no tetrahedron")
 
 
 @pytest.mark.parametrize(
@@ -85,6 +85,4 @@ def test_an_empty_result_says_where_it_begins(run, cloud):
     ],
 )
 def test_what_is_of_the_plane_is_refused(run, cloud, given, message):
-    done = run("alphashape", "cloud.csv", *given.split())
-    assert done.code == 2
-    assert message in done.err
+    run(f"alphashape cloud.csv {given}", code=2, says=message)

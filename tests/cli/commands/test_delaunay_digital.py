@@ -19,23 +19,23 @@ def pairs(text):
 
 
 def test_regions_of_images_are_linked(run, folder):
-    done = run("delaunay", DATA / "blobs.png", "--method", "digital", "--verify")
-    assert (done.code, done.err) == (0, "")
-    table = run("tessellate", DATA / "blobs.png", "--what", "neighbors")
+    done = run(f"delaunay {DATA}/blobs.png --method digital --verify")
+    assert done.err == ""
+    table = run(f"tessellate {DATA}/blobs.png --what neighbors")
     assert pairs(done.out) == pairs(table.out)
-    sites = {row["label"]: (row["x"], row["y"]) for row in run("delaunay", DATA / "blobs.png", "--what", "table").rows}
+    sites = {row["label"]: (row["x"], row["y"]) for row in run(f"delaunay {DATA}/blobs.png --what table").rows}
     assert all(sites[row["label_a"]] == (row["x_a"], row["y_a"]) for row in done.rows)
-    labels = run("delaunay", DATA / "cells.png", "--method", "digital")
+    labels = run(f"delaunay {DATA}/cells.png --method digital")
     assert pairs(labels.out) == pairs(done.out)  # that is their tessellation
 
 
 @pytest.mark.parametrize("what", ["edges", "triangles", "table", "cells"])
 def test_the_repair_gives_the_exact_result(run, what):
-    exact = run("delaunay", DOTS, "--what", what)
+    exact = run(f"delaunay {DOTS} --what {what}")
     done = run(
-        "delaunay", DOTS, *FRAME, "--method", "digital-valid", "--what", what, "--verify", "--stats", "stats.json"
+        f"delaunay {DOTS}", *FRAME, "--method", "digital-valid", "--what", what, "--verify", "--stats", "stats.json"
     )
-    assert (done.code, done.err) == (0, "")
+    assert done.err == ""
     assert done.out == exact.out
     repair = json.loads(Path("stats.json").read_text())["repair"]
     assert (repair["route"], repair["fault"]) == ("repaired", None)
@@ -48,7 +48,7 @@ def test_the_repair_keeps_the_direction_and_crs(run, folder):
     (folder / "a.geojson").write_text(json.dumps(points))
     for fmt in ("geojson", "svg"):
         exact, digital, valid = (
-            run("delaunay", "a.geojson", "--method", method, "-f", fmt).out
+            run(f"delaunay a.geojson --method {method} -f {fmt}").out
             for method in ("exact", "digital", "digital-valid")
         )
         assert valid == exact
@@ -56,29 +56,24 @@ def test_the_repair_keeps_the_direction_and_crs(run, folder):
 
 
 def test_objects_cannot_be_repaired(run):
-    done = run("delaunay", DATA / "blobs.png", "--method", "digital-valid")
-    assert done.code == 3
-    assert "blobs.png: label 1" in done.err
-    assert "--method" in done.err
-    done = run("delaunay", DATA / "blobs.png", "--method", "digital-valid", "--seeds", "centroids")
-    assert (done.code, done.err) == (0, "")
-    assert done.out == run("delaunay", DATA / "blobs.png").out
+    run(f"delaunay {DATA}/blobs.png --method digital-valid", code=3, says=["blobs.png: label 1", "--method"])
+    done = run(f"delaunay {DATA}/blobs.png --method digital-valid --seeds centroids")
+    assert done.err == ""
+    assert done.out == run(f"delaunay {DATA}/blobs.png").out
 
 
 def test_a_failed_certificate_is_said(run, monkeypatch):
     monkeypatch.setattr(engine._core.delaunay, "find_fault", lambda *_: "a side is wrong")
-    done = run("delaunay", DOTS, *FRAME, "--method", "digital-valid", "--stats", "stats.json")
-    assert done.code == 0
+    done = run(f"delaunay {DOTS}", *FRAME, "--method", "digital-valid", "--stats", "stats.json")
     assert done.err.startswith("warning: the digital triangulation could not be repaired")
-    assert done.out == run("delaunay", DOTS).out
+    assert done.out == run(f"delaunay {DOTS}").out
     stats = json.loads(Path("stats.json").read_text())
     assert stats["repair"]["route"] == "rebuilt"
     assert len(stats["warnings"]) == 1
 
 
 def test_compare(run):
-    done = run("delaunay", DOTS, *FRAME, "--what", "compare", "--stats", "stats.json")
-    assert done.code == 0
+    done = run(f"delaunay {DOTS}", *FRAME, "--what", "compare", "--stats", "stats.json")
     table = done.rows
     assert list(table[0]) == ["kind", "difference", "label_a", "label_b", "label_c", "cause", "voronoi_length"]
     comparison = vorotool.compare_digital(vorotool.read(DOTS), shape=(512, 512))
@@ -89,17 +84,14 @@ def test_compare(run):
     assert stats["edge_recall"] == comparison.edge_recall
     assert stats["suggestion"] in done.err
     for fmt in ("json", "npz"):
-        assert run("delaunay", DOTS, *FRAME, "--what", "compare", "-q", "-o", f"a.{fmt}").err == ""
+        assert run(f"delaunay {DOTS}", *FRAME, "--what", "compare", "-q", "-o", f"a.{fmt}").err == ""
     assert len(json.loads(Path("a.json").read_text())) == 30
 
 
 def test_limits_and_bad_input(run, folder):
-    done = run("delaunay", DOTS, *FRAME, "--method", "digital-valid", "--max-pixels", "1000")
-    assert done.code == 5
-    assert run("delaunay", DOTS, *FRAME, "--what", "compare", "--max-pixels", "1000").code == 5
-    assert run("delaunay", DOTS, *FRAME, "--method", "digital", "--max-pixels", "1000").code == 0  # streamed
+    run(f"delaunay {DOTS}", *FRAME, "--method", "digital-valid", "--max-pixels", "1000", code=5)
+    run(f"delaunay {DOTS}", *FRAME, "--what", "compare", "--max-pixels", "1000", code=5)
+    run(f"delaunay {DOTS}", *FRAME, "--method", "digital", "--max-pixels", "1000")  # streamed
     (folder / "low.csv").write_text("x,y\n-3,2\n5,2\n")
-    done = run("delaunay", "low.csv", "--method", "digital")
-    assert done.code == 3
-    assert "--window" in done.err
-    assert run("delaunay", "low.csv", "--method", "digital", "--window", "-5,0,20,9").code == 0
+    run("delaunay low.csv --method digital", code=3, says="--window")
+    run("delaunay low.csv --method digital --window -5,0,20,9")

@@ -27,8 +27,8 @@ def fibre(folder):
 @pytest.mark.parametrize("fmt", ["json", "graphml"])
 def test_joined_junctions(run, folder, fmt):
     (folder / "brick.json").write_text(BRICK)
-    done = run("skeleton-exact", "brick.json", "--join-junctions", "--verify", "-o", f"a.{fmt}", "--stats", "-")
-    assert (done.code, done.err) == (0, "")
+    done = run(f"skeleton-exact brick.json --join-junctions --verify -o a.{fmt} --stats -")
+    assert done.err == ""
     assert json.loads(done.out)["junctions_joined"] == 1
     joined = vorotool.join_junctions(vorotool.skeleton_exact(vorotool.read("brick.json")))
     if fmt == "graphml":
@@ -49,14 +49,14 @@ def test_branches_and_tables_of_joined_junctions(run):
             assert {name: a[name] for name in ("ends", "cycles", "area")} == {
                 name: b[name] for name in ("ends", "cycles", "area")
             }
-    rows = run("skeleton-exact", SHAPES, "--join-junctions", "--what", "branches").rows
+    rows = run(f"skeleton-exact {SHAPES} --join-junctions --what branches").rows
     assert {row["type"] for row in rows} <= {"junction-end", "junction-junction"}
     assert all(float(row["tortuosity"]) >= 1 for row in rows if row["tortuosity"])
 
 
 def test_open_border(run, fibre):
-    done = run("skeleton-exact", fibre, "--border", "open", "--verify", "-f", "json", "--stats", "stats.json")
-    assert (done.code, done.err) == (0, "")
+    done = run(f"skeleton-exact {fibre} --border open --verify -f json --stats stats.json")
+    assert done.err == ""
     made = json.loads(done.out)
     assert (made["border"], made["frame"]) == ("open", [-0.5, -0.5, 12, 9])
     assert [(row["x"], row["y"], row["r"]) for row in made["vertices"]] == [(-0.5, 4, 1.5), (11.5, 4, 1.5)]
@@ -64,9 +64,9 @@ def test_open_border(run, fibre):
     Path("made.json").write_text(done.out)
     read = vorotool.read("made.json")
     assert (read.border, read.on_frame.tolist()) == ("open", [True, True])
-    scaled = run("skeleton-exact", fibre, "--border", "open", "--spacing", "0.5,2um", "--verify", "-f", "csv").rows
+    scaled = run(f"skeleton-exact {fibre} --border open --spacing 0.5,2um --verify -f csv").rows
     assert [(float(row["x0"]), float(row["x1"]), float(row["r0"])) for row in scaled] == [(-0.25, 5.75, 3)]
-    line = run("skeleton-exact", fibre, "--border", "open", "--what", "centerline", "-f", "csv").rows
+    line = run(f"skeleton-exact {fibre} --border open --what centerline -f csv").rows
     assert [float(row["length"]) for row in line] == [12]
 
 
@@ -76,4 +76,4 @@ def test_closed_is_as_without(run, outline):
     closed, usual = run(*command, "--border", "closed"), run(*command)
     assert closed.out == usual.out
     opened = run(*command, "--border", "open", "--verify")
-    assert (opened.code, opened.out != usual.out) == (0, True)
+    assert opened.out != usual.out

@@ -57,7 +57,7 @@ def test_a_limit_of_distance_widens_the_default_frame(run):
     rooms = (
         "POLYGON((0 0,10 0,10 10,0 10,0 0))\nPOLYGON((13 0,20 0,20 7,13 7,13 0))\nPOLYGON((0 14,9 14,9 20,0 20,0 14))"
     )
-    done = run("voronoi", "-", "--max-distance", "4", "--what", "table", "--verify", data=rooms.encode())
+    done = run("voronoi - --max-distance 4 --what table --verify", data=rooms.encode())
     assert sum(float(row["area"]) for row in done.rows) == pytest.approx(623.6222, abs=1e-4)
 
 
@@ -74,8 +74,7 @@ def test_points_lines_and_polygons_of_each_format(run, folder, right, name):
         path.write_text(MIXED.to_json())
     else:
         save(MIXED, path)
-    done = run("voronoi", path, "-f", "npz", "-o", "cells.npz")
-    assert done.code == 0, done.err
+    run(f"voronoi {path} -f npz -o cells.npz")
     cells = vorotool.read(folder / "cells.npz")
     assert len(cells) == 6
     np.testing.assert_allclose(cells.areas, right.areas)
@@ -100,19 +99,18 @@ def test_points_lines_and_polygons_of_each_format(run, folder, right, name):
 )
 def test_each_kind_of_text(run, folder, name, text, count):
     (folder / name).write_text(text)
-    done = run("voronoi", name, "--what", "table", "-q", "--verify")
-    assert (done.code, len(done.rows)) == (0, count), done.err
+    done = run(f"voronoi {name} --what table -q --verify")
+    assert len(done.rows) == count
 
 
 def test_maps_and_skeletons_are_read_for_what_they_are_made_of(run, folder, mixed):
-    assert run("voronoi", mixed, "-q", "--by", "kind", "-o", "a.json").code == 0
-    assert run("voronoi", mixed, "-q", "--by", "kind", "-o", "a.npz").code == 0
+    run(f"voronoi {mixed} -q --by kind -o a.json")
+    run(f"voronoi {mixed} -q --by kind -o a.npz")
     for name in ("a.json", "a.npz"):
-        done = run("voronoi", name, "-f", "json")
-        assert name in done.err
+        done = run(f"voronoi {name} -f json", says=name)
         assert done.out == (folder / "a.json").read_text()
-    assert run("skeleton-exact", DATA / "two-shapes.json", "-o", "s.json").code == 0
-    done = run("voronoi", "s.json", "--what", "table")
+    run(f"skeleton-exact {DATA}/two-shapes.json -o s.json")
+    done = run("voronoi s.json --what table")
     assert len(done.rows) == 2
     assert "holds a skeleton" in done.err
 
@@ -129,13 +127,12 @@ def labels(folder):
 
 
 def test_masks_have_a_site_a_component(run, labels):
-    done = run("voronoi", labels, "--threshold", "0", "--what", "table", "--stats", "s.json", "-o", "a.csv")
-    assert done.code == 0
+    run(f"voronoi {labels} --threshold 0 --what table --stats s.json -o a.csv")
     stats = json.loads(Path("s.json").read_text())
     assert (stats["sites"], stats["outline"], stats["connectivity"]) == (4, "crack", 8)
-    by_contour = run("voronoi", labels, "--outline", "contour", "--seeds", "labels", "--what", "table")
+    by_contour = run(f"voronoi {labels} --outline contour --seeds labels --what table")
     assert float(by_contour.rows[0]["own_area"]) < 120
-    alone = run("voronoi", labels, "--threshold", "0", "--min-area", "2", "--what", "table", "-q")
+    alone = run(f"voronoi {labels} --threshold 0 --min-area 2 --what table -q")
     assert len(alone.rows) == 3
 
 
@@ -143,8 +140,7 @@ def test_masks_have_a_site_a_component(run, labels):
 
 
 def test_the_frame(run, mixed, folder):
-    done = run("voronoi", mixed, "--frame", "-5,-5,40,30.5", "--stats", "s.json", "-o", "a.geojson")
-    assert done.code == 0
+    run(f"voronoi {mixed} --frame -5,-5,40,30.5 --stats s.json -o a.geojson")
     shapes = [shape for shape in shapes_of((folder / "a.geojson").read_text()) if shape is not None]
     assert shapely.union_all(shapes).bounds == (-5, -5, 35, 25.5)
     assert shapely.coverage_is_valid(shapes)
@@ -158,18 +154,17 @@ def test_the_frame(run, mixed, folder):
 
 def test_a_limit_of_distance(run, mixed, folder):
     frame = ["--frame", "-50,-50,120,120"]
-    done = run("voronoi", mixed, "-q", "--max-distance", "1.5", *frame, "--flatten", "1e-4", "-o", "a.geojson")
-    assert done.code == 0
+    run(f"voronoi {mixed} -q --max-distance 1.5", *frame, "--flatten", "1e-4", "-o", "a.geojson")
     shapes = shapes_of((folder / "a.geojson").read_text())
     near = shapely.union_all([shape.buffer(1.5, quad_segs=256) for shape in SHAPES if shape is not None])
     covered = shapely.union_all([shape for shape in shapes if shape is not None])
     assert covered.symmetric_difference(near).area < 1e-3 * near.area
-    assert run("voronoi", mixed, "-q", "--max-distance", "1.5", *frame, "-o", "b.geojson").code == 0
+    run(f"voronoi {mixed} -q --max-distance 1.5", *frame, "-o", "b.geojson")
     flatten = ("--flatten", "1e-4", "--flatten", "auto")  # the last holds
-    assert run("voronoi", mixed, "-q", "--max-distance", "1.5", *frame, *flatten, "-o", "c.geojson").code == 0
+    run(f"voronoi {mixed} -q --max-distance 1.5", *frame, *flatten, "-o", "c.geojson")
     assert (folder / "b.geojson").read_bytes() == (folder / "c.geojson").read_bytes()
     assert (folder / "b.geojson").read_bytes() != (folder / "a.geojson").read_bytes()
-    assert run("voronoi", mixed, "-q", "--max-distance", "1.5", "-o", "a.json").code == 0
+    run(f"voronoi {mixed} -q --max-distance 1.5 -o a.json")
     assert vorotool.read(folder / "a.json").max_distance == 1.5
     assert {arc["kind"] for arc in json.loads((folder / "a.json").read_text())["arcs"]} >= {"circle", "line"}
 
@@ -186,62 +181,58 @@ def cuts(folder):
 
 
 def test_a_clip(run, mixed, cuts):
-    done = run("voronoi", mixed, "--clip", "clip.wkt", "--verify", "--stats", "s.json", "-o", "a.geojson")
-    assert done.code == 0
-    assert "clip.wkt" in done.err
+    run(f"voronoi {mixed} --clip clip.wkt --verify --stats s.json -o a.geojson", says="clip.wkt")
     clip = shapely.from_wkt((cuts / "clip.wkt").read_text())
     shapes = [shape for shape in shapes_of((cuts / "a.geojson").read_text()) if shape is not None]
     assert shapely.union_all(shapes).symmetric_difference(clip).area < 1e-9
     assert json.loads((cuts / "s.json").read_text())["frame"] == [-4, -4, 28, 20]
-    both = run("voronoi", mixed, "-q", "--clip", "clip.wkt", "--frame", "0,0,9,9")
+    both = run(f"voronoi {mixed} -q --clip clip.wkt --frame 0,0,9,9")
     shapes = [shape for shape in shapes_of(both.out) if shape is not None]
     assert shapely.union_all(shapes).symmetric_difference(clip.intersection(shapely.box(0, 0, 9, 9))).area < 1e-9
 
 
 def test_enclosures(run, mixed, cuts):
     options = ["--enclosures", "streets.wkt", "--frame", "-5,-5,30,30", "-q"]
-    done = run("voronoi", mixed, *options, "--verify", "-o", "a.geojson")
-    assert done.code == 0
+    run(f"voronoi {mixed}", *options, "--verify", "-o", "a.geojson")
     shapes = shapes_of((cuts / "a.geojson").read_text())
     right = vorotool.voronoi(MIXED, enclosures=vorotool.read(cuts / "streets.wkt"), frame=(-5, -5, 30, 30))
     assert is_equal(shapes, right.to_shapely())
     above = shapely.box(-9, 7, 30, 30)
     assert [round(shapes[k].intersection(above).area / shapes[k].area, 9) for k in (0, 3, 5)] == [0, 0, 1]
-    rows = run("voronoi", mixed, *options, "--what", "edges").rows
+    rows = run(f"voronoi {mixed}", *options, "--what", "edges").rows
     assert {row["r0"] == "" for row in rows} == {True, False}  # along an enclosure there is no one distance
 
 
 def test_all_cuts_together_are_kept_with_the_map(run, mixed, cuts):
     options = ["--clip", "clip.wkt", "--enclosures", "streets.wkt", "--max-distance", "2.5", "-q", "--verify"]
     for fmt in ("json", "npz"):
-        assert run("voronoi", mixed, *options, "-o", f"a.{fmt}").code == 0
+        run(f"voronoi {mixed}", *options, "-o", f"a.{fmt}")
     cells = vorotool.read(cuts / "a.json")
     assert cells == vorotool.read(cuts / "a.npz")
     assert (cells.max_distance, len(cells.clip), len(cells.enclosures)) == (2.5, 1, 2)
-    assert run("draw", "a.json", "-o", "a.svg").code == 0
+    run("draw a.json -o a.svg")
 
 
 def test_cuts_of_images_on_maps_are_on_the_map(run, folder, labels):
     (folder / "labels.pgw").write_text("2\n0\n0\n-2\n1001\n4999\n")
     (folder / "clip.wkt").write_text("POLYGON ((1010 4950, 1100 4950, 1100 4990, 1010 4990, 1010 4950))")
-    done = run("voronoi", labels, "--clip", "clip.wkt", "-q", "--verify")
-    assert done.code == 0, done.err
+    done = run(f"voronoi {labels} --clip clip.wkt -q --verify")
     shapes = [shape for shape in shapes_of(done.out) if shape is not None]
     clip = shapely.from_wkt((folder / "clip.wkt").read_text())
     assert shapely.union_all(shapes).symmetric_difference(clip).area < 1e-6
-    limited = run("voronoi", labels, "-q", "--max-distance", "3m", "--pixel-size", "2m", "--what", "table")
+    limited = run(f"voronoi {labels} -q --max-distance 3m --pixel-size 2m --what table")
     assert max(float(row["max_distance"]) for row in limited.rows) == pytest.approx(3)
 
 
 # ---- few sites ---------------------------------------------------------------------------------------
 def test_nothing_to_share_out(run, folder):
     (folder / "none.geojson").write_text('{"type": "FeatureCollection", "features": []}')
-    done = run("voronoi", "none.geojson")
-    assert (done.code, json.loads(done.out)["features"]) == (0, [])
-    assert run("voronoi", "none.geojson", "--what", "table").out.count("\n") == 1
+    done = run("voronoi none.geojson")
+    assert json.loads(done.out)["features"] == []
+    assert run("voronoi none.geojson --what table").out.count("\n") == 1
     (folder / "one.wkt").write_text("POINT (3 4)")
-    done = run("voronoi", "one.wkt", "--what", "edges")
-    assert (done.code, done.rows) == (0, [])
+    done = run("voronoi one.wkt --what edges")
+    assert done.rows == []
     assert "no edges: the input has 1 site" in done.err
 
 
@@ -250,17 +241,16 @@ def test_nothing_to_share_out(run, folder):
 
 def test_repairs_are_refused_when_asked(run, folder):
     (folder / "twice.wkt").write_text("POLYGON ((0 0, 4 0, 4 0, 4 4, 0 0))\nPOINT (9 9)")
-    done = run("voronoi", "twice.wkt", "--what", "table")
-    assert (done.code, "1 repeated vertex" in done.err) == (0, True)
-    done = run("voronoi", "twice.wkt", "--strict")
-    assert (done.code, "leave out --strict" in done.err) == (3, True)
+    run("voronoi twice.wkt --what table", says="1 repeated vertex")
+    run("voronoi twice.wkt --strict", code=3, says="leave out --strict")
 
 
 @pytest.mark.parametrize(("what", "frame"), [("cells", "0,0,2,2"), ("edges", "8,8,1,2"), ("discs", "0,0,2,2")])
 def test_a_clip_outside_of_the_frame_is_an_empty_result(run, folder, what, frame):
     (folder / "two.wkt").write_text("POINT (0 0)\nPOINT (1 1)\n")
     (folder / "far.wkt").write_text("POLYGON ((9 9, 10 9, 9 10, 9 9))\n")
-    done = run("voronoi", "two.wkt", "--frame", frame, "--clip", "far.wkt", "--what", what, "-f", "csv", "--verify")
-    assert (done.code, "all 2 cells are empty" in done.err) == (0, True), done.err
+    done = run(
+        f"voronoi two.wkt --frame {frame} --clip far.wkt --what {what} -f csv --verify", says="all 2 cells are empty"
+    )
     rows = done.out.splitlines()
     assert len(rows) == (3 if what in ("cells", "table") else 1)

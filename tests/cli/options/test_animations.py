@@ -39,15 +39,14 @@ def pixels(path):
 @pytest.mark.parametrize("fmt", ["gif", "apng", "webp"])
 def test_cells_grow(run, folder, fmt):
     style = ["--size", "60x60", "--what", "color", "--line-width", "cells=0"]
-    done = run("tessellate", "dots.csv", *style, "-o", f"out.{fmt}", "--frames", "5", "--fps", "4")
-    assert done.code == 0, done.err
+    run("tessellate dots.csv", *style, "-o", f"out.{fmt}", "--frames", "5", "--fps", "4")
     found = frames_of(f"out.{fmt}")
     assert len(found) == 5
     points = np.loadtxt("dots.csv", delimiter=",")
     y, x = np.mgrid[:60, :60]
     squares = np.min((x[..., None] - points[:, 0]) ** 2 + (y[..., None] - points[:, 1]) ** 2, axis=2).astype(int)
     farthest = isqrt(squares.max()) + 1
-    assert run("tessellate", "dots.csv", *style, "-o", "whole.png").code == 0
+    run("tessellate dots.csv", *style, "-o", "whole.png")
     whole, seeds = pixels("whole.png"), found[0]
     for number, frame in enumerate(found):
         reached = squares <= (Fraction(number, 4) * farthest) ** 2
@@ -58,11 +57,10 @@ def test_cells_grow(run, folder, fmt):
 def test_what_animate_stands_for(run, folder):
     command = ["tessellate", "dots.csv", "--size", "20x20", "--what", "color", "--animate", "--frames", "2"]
     for name, kind in (("a.gif", b"GIF89a"), ("a.png", b"\x89PNG"), ("a.webp", b"RIFF"), ("a", b"GIF89a")):
-        assert run(*command, "-o", name).code == 0
+        run(*command, "-o", name)
         assert (folder / name).read_bytes().startswith(kind)
     assert b"acTL" in (folder / "a.png").read_bytes()
-    many = run(*command, "--out-dir", "out")
-    assert many.code == 0
+    run(*command, "--out-dir", "out")
     assert [path.name for path in (folder / "out").iterdir()] == ["dots.gif"]
 
 
@@ -70,7 +68,7 @@ def test_many_colors_share_a_palette(run, folder):
     rng = np.random.default_rng(1)
     Image.fromarray(rng.integers(0, 256, (60, 60, 3), dtype=np.uint8)).save("photo.png")
     style = ["--size", "60x60", "--what", "color", "--layers", "seeds", "--overlay", "photo.png"]
-    assert run("tessellate", "dots.csv", *style, "-o", "out.gif", "--frames", "2").code == 0
+    run("tessellate dots.csv", *style, "-o", "out.gif", "--frames", "2")
     difference = np.abs(frames_of("out.gif")[0].astype(int) - pixels("photo.png"))
     assert difference.mean() < 40  # 256 colors for 3600
 

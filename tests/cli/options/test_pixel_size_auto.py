@@ -36,11 +36,10 @@ FILES = [
 @pytest.mark.parametrize(("kind", "sides", "unit", "words"), FILES)
 def test_what_a_file_carries_is_what_a_user_would_type(run, tmp_path, kind, sides, unit, words):
     write(tmp_path / "in.tif", kind, sides, unit)
-    plain = run("tessellate", "in.tif", "--what", "table")
-    assert f"{words}: --pixel-size" in plain.err
-    auto = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto", "--stats", "s.json")
-    typed = run("tessellate", "in.tif", "--what", "table", "--pixel-size", words)
-    assert (auto.code, auto.out) == (0, typed.out) != (0, plain.out)
+    plain = run("tessellate in.tif --what table", says=f"{words}: --pixel-size")
+    auto = run("tessellate in.tif --what table --pixel-size auto --stats s.json")
+    typed = run("tessellate in.tif --what table --pixel-size", words)
+    assert auto.out == typed.out != plain.out
     assert "note" not in auto.err
     stats = json.loads((tmp_path / "s.json").read_text())
     assert f"{stats['pixel_size']:g} {stats['unit']}" == words
@@ -59,13 +58,11 @@ def test_what_a_file_carries_is_what_a_user_would_type(run, tmp_path, kind, side
 )
 def test_files_without_a_size(run, tmp_path, kind, sides, unit, words):
     write(tmp_path / "in.tif", kind, sides, unit)
-    done = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
-    assert done.code == 3
+    done = run("tessellate in.tif --what table --pixel-size auto", code=3)
     assert done.err.startswith("error: in.tif: ")
     assert words in done.err
     assert "--pixel-size 0.325um" in done.err
-    plain = run("tessellate", "in.tif", "--what", "table")
-    assert plain.code == 0
+    plain = run("tessellate in.tif --what table")
     assert ("--spacing" in plain.err) == (sides[0] != sides[1])
 
 
@@ -75,9 +72,8 @@ def test_files_without_a_size(run, tmp_path, kind, sides, unit, words):
 )
 def test_outputs_carry_sizes_on(run, tmp_path, kind, sides, unit, words, what):
     write(tmp_path / "in.tif", kind, sides, unit)
-    assert run("tessellate", "in.tif", "-o", "out.tif", "--what", what, "-q").code == 0
-    done = run("tessellate", "out.tif", "--what", "table", *(["--threshold", "1"] if what == "distance" else []))
-    assert "out.tif" in done.err
+    run(f"tessellate in.tif -o out.tif --what {what} -q")
+    run("tessellate out.tif --what table", *(["--threshold", "1"] if what == "distance" else []), says="out.tif")
     with tifffile.TiffFile(tmp_path / "out.tif") as file:
         assert (file.is_ome, file.is_imagej) == (kind == "ome", kind == "imagej")
         assert file.asarray().shape == MASK.shape
@@ -95,6 +91,5 @@ def test_ome_xml_that_is_hostile(run, tmp_path):
     ]
     for body in bodies:
         tifffile.imwrite(tmp_path / "in.tif", MASK, description=body, metadata=None)
-        done = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
-        assert (done.code, "states no pixel size" in done.err) == (3, True), body
-        assert run("tessellate", "in.tif", "-o", "out.png").code == 0
+        run("tessellate in.tif --what table --pixel-size auto", code=3, says="states no pixel size")
+        run("tessellate in.tif -o out.png")

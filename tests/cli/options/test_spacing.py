@@ -34,10 +34,7 @@ def test_labels_and_distances(run, dots):
         ("distance", sweep.distances()),
         ("distance2", sweep.squared_distances()),
     ):
-        done = run(
-            "tessellate", "dots.csv", *FRAME, "--spacing", "0.325,0.5", "--what", what, "-o", "a.npy", "--verify"
-        )
-        assert done.code == 0
+        done = run("tessellate dots.csv", *FRAME, "--spacing", "0.325,0.5", "--what", what, "-o", "a.npy", "--verify")
         assert np.array_equal(np.load(dots / "a.npy"), right)
     assert "note: squared distances are in squares of a step of 1/40" in done.err
 
@@ -45,12 +42,12 @@ def test_labels_and_distances(run, dots):
 @pytest.mark.parametrize("limit", ["1.5", "1500nm"])
 def test_bare_lengths_are_in_the_unit_of_the_spacing(run, dots, limit):
     args = ["--spacing", "0.325,0.5um", "--max-distance", limit, "-o", "a.npy", "--verify"]
-    assert run("tessellate", "dots.csv", *FRAME, *args).code == 0
+    run("tessellate dots.csv", *FRAME, *args)
     assert np.array_equal(np.load(dots / "a.npy"), tessellated((0.5, 0.325), max_distance=1.5).labels)
 
 
 def test_tables_are_in_the_unit_which_they_name(run, dots):
-    rows = run("tessellate", "dots.csv", *FRAME, "--spacing", "0.325,0.5um", "--what", "table").rows
+    rows = run("tessellate dots.csv", *FRAME, "--spacing", "0.325,0.5um", "--what", "table").rows
     image = tessellated((0.5, 0.325))
     squares = Tessellator(image.seeds, image.frame, sides=image.sides).squared_distances()
     table = vorotool.region_table(image, distance2=squares)
@@ -58,25 +55,24 @@ def test_tables_are_in_the_unit_which_they_name(run, dots):
     for name in table:
         assert [float(row[name]) for row in rows] == table[name].tolist()
     assert {row["unit"] for row in rows} == {"um"}
-    rows = run("tessellate", "dots.csv", *FRAME, "--spacing", "0.325,0.5um", "--what", "neighbors").rows
+    rows = run("tessellate dots.csv", *FRAME, "--spacing", "0.325,0.5um", "--what", "neighbors").rows
     borders = vorotool.neighbor_table(image)
     assert [float(row["border_length"]) for row in rows] == borders["border_length"].tolist()
     assert [float(row["centroid_distance"]) for row in rows] == borders["centroid_distance"].tolist()
 
 
 def test_statistics_name_the_step_and_the_arithmetic(run, dots):
-    run("tessellate", "dots.csv", *FRAME, "--spacing", "0.325,0.5um", "-o", "a.npy", "--stats", "s.json")
+    run("tessellate dots.csv", *FRAME, "--spacing", "0.325,0.5um", "-o", "a.npy", "--stats", "s.json")
     stats = json.loads((dots / "s.json").read_text())
     assert (stats["spacing"], stats["unit"]) == ([0.325, 0.5], "um")
     assert (stats["distance2_step"], stats["arithmetic"]) == ("1/40", "float64")
-    run("tessellate", "dots.csv", *FRAME, "--spacing", "1,2000001", "-o", "a.npy", "--stats", "s.json")
+    run("tessellate dots.csv", *FRAME, "--spacing", "1,2000001", "-o", "a.npy", "--stats", "s.json")
     assert json.loads((dots / "s.json").read_text())["arithmetic"] == "float64 with int128"
 
 
 def test_too_large_a_range_is_refused_before_work(run, dots):
     window = "1000000,1000000,5,5"
-    done = run("tessellate", "dots.csv", "--window", window, "--spacing", "1,1999999", "-o", "a.npy")
-    assert (done.code, "is too far from the frame" in done.err) == (3, True)
+    run(f"tessellate dots.csv --window {window} --spacing 1,1999999 -o a.npy", code=3, says="is too far from the frame")
 
 
 # ---- images --------------------------------------------------------------------------------------
@@ -92,15 +88,13 @@ def write(path, kind, sides=(0.325, 0.5)):
 @pytest.mark.parametrize("kind", ["ome", "imagej"])
 def test_auto_takes_what_the_file_says(run, tmp_path, kind):
     write(tmp_path / "in.tif", kind)
-    plain = run("tessellate", "in.tif", "--what", "table")
-    assert "--spacing" in plain.err
-    auto = run("tessellate", "in.tif", "--what", "table", "--spacing", "auto", "--stats", "s.json")
-    typed = run("tessellate", "in.tif", "--what", "table", "--spacing", "0.325,0.5µm")
-    assert (auto.code, auto.err, auto.out) == (0, "", typed.out) != (0, "", plain.out)
+    plain = run("tessellate in.tif --what table", says="--spacing")
+    auto = run("tessellate in.tif --what table --spacing auto --stats s.json")
+    typed = run("tessellate in.tif --what table --spacing 0.325,0.5µm")
+    assert (auto.err, auto.out) == ("", typed.out) != ("", plain.out)
     assert json.loads((tmp_path / "s.json").read_text())["spacing"] == [0.325, 0.5]
-    refused = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
-    assert (refused.code, "--spacing" in refused.err) == (3, True)
-    run("tessellate", "in.tif", "-o", "a.npy", "--spacing", "auto", "--max-distance", "2um")
+    run("tessellate in.tif --what table --pixel-size auto", code=3, says="--spacing")
+    run("tessellate in.tif -o a.npy --spacing auto --max-distance 2um")
     right = vorotool.tessellate(MASK, spacing=(0.5, 0.325), max_distance=2).labels
     assert np.array_equal(np.load(tmp_path / "a.npy"), right)
 
@@ -111,20 +105,18 @@ def test_images_that_are_written_say_the_spacing(run, dots, monkeypatch, name, l
     write(dots / "in.tif", "ome", (2, 2))
     frame = FRAME if name == "dots.csv" else []
     for end in (".tif", ".ome.zarr"):
-        assert run("tessellate", name, *frame, "--spacing", "0.325,0.5um", "-q", "-o", f"out{end}").code == 0
+        run(f"tessellate {name}", *frame, "--spacing", "0.325,0.5um", "-q", "-o", f"out{end}")
         args = ["tessellate", f"out{end}", "--what", "table", "--stats", "s.json"]
-        assert run(*args, "--spacing", "auto").code == 0
+        run(*args, "--spacing", "auto")
         stats = json.loads((dots / "s.json").read_text())
         assert (stats["spacing"], stats["unit"].replace("µ", "u")) == ([0.325, 0.5], "um")
 
 
 def test_auto_needs_a_file_that_says_it(run, tmp_path):
     np.save(tmp_path / "in.npy", MASK)
-    done = run("tessellate", "in.npy", "--spacing", "auto", "-o", "a.png")
-    assert (done.code, "--spacing" in done.err) == (3, True)
+    run("tessellate in.npy --spacing auto -o a.png", code=3, says="--spacing")
     write(tmp_path / "in.tif", "ome", (0.32512345, 1.2345678))
-    done = run("tessellate", "in.tif", "--spacing", "auto", "-o", "a.png")
-    assert (done.code, "no common step that is coarse enough" in done.err) == (3, True)
+    run("tessellate in.tif --spacing auto -o a.png", code=3, says="no common step that is coarse enough")
 
 
 def test_a_map_with_pixels_that_are_no_squares(run, tmp_path):
@@ -133,9 +125,8 @@ def test_a_map_with_pixels_that_are_no_squares(run, tmp_path):
     about = {"driver": "GTiff", "count": 1, "height": 24, "width": 32, "dtype": "uint8"}
     with rasterio.open(tmp_path / "in.tif", "w", **about, crs="EPSG:2056", transform=transform) as file:
         file.write(MASK, 1)
-    asked = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
-    assert (asked.code, "--pixel-size 1" in asked.err) == (3, True)
-    rows = run("tessellate", "in.tif", "--what", "table", "--spacing", "auto").rows
+    run("tessellate in.tif --what table --pixel-size auto", code=3, says="--pixel-size 1")
+    rows = run("tessellate in.tif --what table --spacing auto").rows
     # 42 pixels in columns 4 to 10 and rows 3 to 8: center (7, 5.5)
     assert (float(rows[0]["x"]), float(rows[0]["y"])) == (2600000 + 7.5 * 30, 1200000 - 6 * 25)
     assert float(rows[0]["object_area"]) == 42 * 750
@@ -145,7 +136,7 @@ def test_a_map_with_pixels_that_are_no_squares(run, tmp_path):
         y, x = np.nonzero(mask)
         assert float(row["bbox_x"]) == 2600000 + x.min() * 30
         assert float(row["bbox_y"]) == 1200000 - (y.max() + 1) * 25
-    typed = run("tessellate", "in.tif", "--what", "table", "--spacing", "30,25m").rows
+    typed = run("tessellate in.tif --what table --spacing 30,25m").rows
     assert (float(typed[0]["x"]), float(typed[0]["y"])) == (7 * 30, 5.5 * 25)
 
 
@@ -163,13 +154,12 @@ def test_images_that_pass_by_have_the_same_bytes(run, tmp_path, monkeypatch, wha
     limit = ["--max-distance", "2"] if not what.startswith("distance") else []
     is_table = what in ("table", "neighbors")
     end = "csv" if is_table else "npy"
-    assert run(*args, *limit, "-o", f"held.{end}").code == 0
+    run(*args, *limit, "-o", f"held.{end}")
     monkeypatch.setattr("vorotool.jobs.tessellation.LARGE", 100)
     monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.SWEEP_PIXELS", 60 * 7)
     monkeypatch.setattr("vorotool.engines.tessellation.frames.BAND_PIXELS", 60 * 11)
-    done = run(*args, *limit, "-o", f"passed.{end}", "--stats", "s.json", "--chunk", "60x8")
-    assert done.code == 2  # chunks are for stores
-    assert run(*args, *limit, "-o", f"passed.{end}", "--stats", "s.json").code == 0
+    run(*args, *limit, "-o", f"passed.{end}", "--stats", "s.json", "--chunk", "60x8", code=2)
+    run(*args, *limit, "-o", f"passed.{end}", "--stats", "s.json")
     assert (tmp_path / f"passed.{end}").read_bytes() == (tmp_path / f"held.{end}").read_bytes()
     stats = json.loads((tmp_path / "s.json").read_text())
     assert stats["spacing"] == [0.325, 0.5]

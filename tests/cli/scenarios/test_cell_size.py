@@ -43,8 +43,7 @@ def test_points(run, tmp_path, kind):
         np.savetxt(tmp_path / "in.csv", XY, delimiter=",", header="x,y", comments="", fmt="%.1f")
     else:
         write(tmp_path / "in.geojson", [shapely.Point(xy) for xy in XY])
-    done = run("tessellate", f"in.{kind}", "--cell-size", "25", "-o", "out.tif", "--verify", "-q")
-    assert done.code == 0, done.err
+    run(f"tessellate in.{kind} --cell-size 25 -o out.tif --verify -q")
     labels, transform, crs, nodata = read(tmp_path / "out.tif")
     assert (transform.a, transform.e, crs, nodata) == (25, -25, "EPSG:2056" if kind == "geojson" else None, None)
     low, high = XY.min(axis=0), XY.max(axis=0)
@@ -54,14 +53,14 @@ def test_points(run, tmp_path, kind):
 
 
 def test_polygons_are_those_of_rasterio(run, folder_of_data):
-    run("tessellate", "lakes.geojson", "--cell-size", "0.05", "--max-distance", "0", "-o", "out.tif", "-q")
+    run("tessellate lakes.geojson --cell-size 0.05 --max-distance 0 -o out.tif -q")
     labels, transform, _, nodata = read("out.tif")
     assert nodata == 0
     features = json.loads((folder_of_data / "lakes.geojson").read_text(encoding="utf-8"))["features"]
     shapes = [(each["geometry"], k + 1) for k, each in enumerate(features)]
     expected = rasterio.features.rasterize(shapes, labels.shape, transform=transform, dtype="uint16")
     assert (labels == expected).all()
-    rows = run("tessellate", "lakes.geojson", "--cell-size", "0.05", "--what", "table", "-q").rows
+    rows = run("tessellate lakes.geojson --cell-size 0.05 --what table -q").rows
     assert [row["name"] for row in rows] == ["Lake Michigan", "Lake Superior", "Lake Huron"]
     counts = np.bincount(labels.ravel())[1:]
     assert np.allclose([float(row["object_area"]) for row in rows], counts * 0.05**2)
@@ -78,14 +77,12 @@ def folder_of_data(tmp_path):
 
 def test_allocation_lines_up_with_a_mask(run, folder_of_data):
     """A GeoTIFF mask, its allocation, and vectors of both are at one place."""
-    assert (
-        run("tessellate", "lakes.geojson", "--cell-size", "0.1", "--max-distance", "0", "-o", "a.tif", "-q").code == 0
-    )
-    assert run("tessellate", "a.tif", "-o", "b.tif", "-q").code == 0
+    run("tessellate lakes.geojson --cell-size 0.1 --max-distance 0 -o a.tif -q")
+    run("tessellate a.tif -o b.tif -q")
     a, b = read("a.tif"), read("b.tif")
     assert a[1:3] == b[1:3]
     assert (b[0][a[0] > 0] == a[0][a[0] > 0]).all()
-    done = run("skeleton-exact", "a.tif", "--what", "shape", "--prune", "none", "-f", "geojson", "-q")
+    done = run("skeleton-exact a.tif --what shape --prune none -f geojson -q")
     shapes = [shapely.from_geojson(json.dumps(each["geometry"])) for each in json.loads(done.out)["features"]]
     features = json.loads((folder_of_data / "lakes.geojson").read_text(encoding="utf-8"))["features"]
     lakes = [shapely.from_geojson(json.dumps(each["geometry"])) for each in features]
@@ -95,8 +92,10 @@ def test_allocation_lines_up_with_a_mask(run, folder_of_data):
 
 def test_small_features_are_told_of(run, tmp_path):
     write(tmp_path / "in.geojson", [shapely.box(0, 0, 100, 100), shapely.box(3, 3, 4, 4), shapely.box(30, 30, 50, 50)])
-    done = run("tessellate", "in.geojson", "--cell-size", "10", "-o", "out.tif")
-    assert "warning: 2 of 3 features have no cell, because they are small, covered or outside: 2, 3" in done.err
+    run(
+        "tessellate in.geojson --cell-size 10 -o out.tif",
+        says="warning: 2 of 3 features have no cell, because they are small, covered or outside: 2, 3",
+    )
     labels, *_ = read(tmp_path / "out.tif")
     assert (labels == 1).all()
 
@@ -111,7 +110,7 @@ def test_distances_are_in_units_of_the_map(run, tmp_path, cell, factor):
     window = ["--window", "2600000,1200000,150,200"]
     words = ["tessellate", "in.geojson", "--cell-size", cell, *window, *factor, "-q", "--stats", "s.json"]
     for what in ("distance", "distance2"):
-        assert run(*words, "--what", what, "-o", f"{what}.tif").code == 0
+        run(*words, "--what", what, "-o", f"{what}.tif")
     unit = 2 if factor else 1
     stats = json.loads((tmp_path / "s.json").read_text())
     step = Fraction(stats["distance2_step"])
@@ -134,10 +133,10 @@ def test_the_largest_distance_is_in_units_of_the_map(run, tmp_path):
     write(tmp_path / "in.geojson", [shapely.Point(2650500, 1250500)])
     words = ["--cell-size", "1000", "--window", "2600000,1200000,101000,101000", "-q", "-o", "out.tif"]
     for length in ("20000", "20km"):
-        assert run("tessellate", "in.geojson", *words, "--max-distance", length).code == 0
+        run("tessellate in.geojson", *words, "--max-distance", length)
         labels, *_ = read(tmp_path / "out.tif")
         y, x = np.indices(labels.shape) - 50
         assert (labels > 0).tolist() == (x * x + y * y <= 400).tolist()
-    rows = run("tessellate", "in.geojson", *words[:5], "--what", "table", "--max-distance", "20km").rows
+    rows = run("tessellate in.geojson", *words[:5], "--what", "table", "--max-distance", "20km").rows
     assert float(rows[0]["max_distance"]) == 20000
     assert float(rows[0]["area"]) == np.count_nonzero(labels) * 10**6

@@ -28,7 +28,7 @@ def rows_of(text):
 
 
 def test_a_row_a_feature(run, shapes):
-    rows = rows_of(run("skeleton-exact", shapes, "-q", "--what", "discs", "--verify").out)
+    rows = rows_of(run(f"skeleton-exact {shapes} -q --what discs --verify").out)
     assert [(row["id"], row["x"], row["y"], row["r"], row["feet"]) for row in rows] == [
         ("pool", "5", "1", "1", "2"),
         ("pond", "2", "7", "2", "4"),
@@ -52,13 +52,13 @@ def test_empty_discs_in_a_frame_and_a_clip(run, tmp_path):
     (tmp_path / "points.csv").write_text("x,y\n0,0\n4,0\n4,4\n0,4\n")
     (tmp_path / "clip.wkt").write_text("POLYGON ((1 0, 3 0, 2 3, 1 0))\n")
     points = tmp_path / "points.csv"
-    (row,) = rows_of(run("voronoi", points, "--what", "discs", "--frame", "0,0,4,4", "--verify").out)
+    (row,) = rows_of(run(f"voronoi {points} --what discs --frame 0,0,4,4 --verify").out)
     assert (row["x"], row["y"], row["feet"], row["label_3"]) == ("2", "2", "4", "4")
     assert "label" not in row
     clip = tmp_path / "clip.wkt"
-    (row,) = rows_of(run("voronoi", points, "--what", "discs", "--clip", clip, "--verify").out)
+    (row,) = rows_of(run(f"voronoi {points} --what discs --clip {clip} --verify").out)
     assert (row["x"], row["y"]) == ("2", "2")
-    both = run("voronoi", points, "--what", "discs", "--clip", clip, "--frame", "0,0,4,1", "--verify", "--count", "2")
+    both = run(f"voronoi {points} --what discs --clip {clip} --frame 0,0,4,1 --verify --count 2")
     assert (rows_of(both.out)[0]["x"], rows_of(both.out)[0]["y"]) == ("2", "1")
-    run("voronoi", points, "--what", "discs", "-o", tmp_path / "empty.svg")
+    run(f"voronoi {points} --what discs -o {tmp_path}/empty.svg")
     assert "<circle" in (tmp_path / "empty.svg").read_text()

@@ -60,8 +60,7 @@ CASES = [
 )
 def test_images_line_up_with_their_input(run, tmp_path, transform, crs, options, what):
     write(tmp_path / "in.tif", transform=transform, crs=crs, **options)
-    done = run("tessellate", "in.tif", "-o", "out.tif", "--what", what)
-    assert done.code == 0
+    done = run(f"tessellate in.tif -o out.tif --what {what}")
     assert "results are in its coordinates" not in done.err
     before, after = about(tmp_path / "in.tif"), about(tmp_path / "out.tif")
     assert after[0].almost_equals(before[0], 1e-12)
@@ -73,7 +72,7 @@ def test_pixels_that_are_points(run, tmp_path):
     path = write(tmp_path / "in.tif")
     with rasterio.open(path, "r+") as file:
         file.update_tags(AREA_OR_POINT="Point")
-    assert run("tessellate", "in.tif", "-o", "out.tif").code == 0
+    run("tessellate in.tif -o out.tif")
     assert about(tmp_path / "out.tif") == about(path)
     assert about(path)[4] == "Point"
 
@@ -124,10 +123,9 @@ def test_vectors_are_those_of_pixels_on_the_map(run, tmp_path, command, transfor
     has_many_arcs = "offset" in command or "shape" in command.split()
     closeness = 1e-4 if has_many_arcs and not is_fine else 1e-6
     flatten = ["--flatten", closeness] if command.startswith("skeleton") else []
-    on_map = run(*command.split(), "in.tif", "-f", "geojson", *flatten)
-    assert (on_map.code, "in.tif" in on_map.err) == (0, True)
-    pixels = run(*command.split(), "in.tif", "-f", "geojson", "--pixel-size", "1", *flatten)
-    assert (pixels.code, pixels.err.startswith("note: 26 of 56 cells are empty") or not pixels.err) == (0, True)
+    on_map = run(command, "in.tif", "-f", "geojson", *flatten, says="in.tif")
+    pixels = run(command, "in.tif", "-f", "geojson", "--pixel-size", "1", *flatten)
+    assert pixels.err.startswith("note: 26 of 56 cells are empty") or not pixels.err
     on_map, pixels = json.loads(on_map.out), json.loads(pixels.out)
     assert on_map["crs"]["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
     assert "crs" not in pixels
@@ -144,8 +142,8 @@ def test_vectors_are_those_of_pixels_on_the_map(run, tmp_path, command, transfor
 @pytest.mark.parametrize("transform", [NORTH_UP, SOUTH_UP])
 def test_the_table_of_regions(run, tmp_path, transform):
     write(tmp_path / "in.tif", transform=transform)
-    rows = run("tessellate", "in.tif", "--what", "table", "-q").rows
-    run("tessellate", "in.tif", "-o", "labels.tif", "-q")
+    rows = run("tessellate in.tif --what table -q").rows
+    run("tessellate in.tif -o labels.tif -q")
     with rasterio.open(tmp_path / "labels.tif") as file:
         labels, side = file.read(1), transform.a
         for row in rows:
@@ -158,8 +156,8 @@ def test_the_table_of_regions(run, tmp_path, transform):
         masses = [shapely.centroid(shapely.MultiPoint(np.argwhere(component(k))[:, ::-1])) for k in range(3)]
         centers = [placed(transform, mass.x + 0.5, mass.y + 0.5) for mass in masses]
         assert np.allclose([(float(row["x"]), float(row["y"])) for row in rows], centers, rtol=1e-12)
-    neighbors = run("tessellate", "in.tif", "--what", "neighbors", "-q").rows
-    meters = run("tessellate", "in.tif", "--what", "neighbors", "-q", "--pixel-size", str(side)).rows
+    neighbors = run("tessellate in.tif --what neighbors -q").rows
+    meters = run("tessellate in.tif --what neighbors -q --pixel-size", str(side)).rows
     assert neighbors == meters
 
 
@@ -167,8 +165,8 @@ def test_paths_between_places_of_the_image(run, tmp_path):
     """Places among the options are in pixels, as without a map."""
     write(tmp_path / "in.tif", MASK)
     options = ["--what", "centerline", "--from", "7,5", "--to", "18,13", "-f", "geojson"]
-    on_map = json.loads(run("skeleton-exact", "in.tif", *options).out)
-    pixels = json.loads(run("skeleton-exact", "in.tif", *options, "--pixel-size", "1").out)
+    on_map = json.loads(run("skeleton-exact in.tif", *options).out)
+    pixels = json.loads(run("skeleton-exact in.tif", *options, "--pixel-size", "1").out)
     placed = affine_transform(geometry(pixels["features"]), [25, 0, 0, -25, 2600012.5, 1199987.5])
     assert placed.hausdorff_distance(geometry(on_map["features"])) < 1e-6
 
@@ -185,8 +183,7 @@ def test_clip_is_on_the_map(run, tmp_path):
     assert geometry(cells).symmetric_difference(area).area < 1e-3
     clip["crs"]["properties"]["name"] = "EPSG:3857"
     (tmp_path / "clip.geojson").write_text(json.dumps(clip))
-    done = run(*command)
-    assert (done.code, "in.tif in EPSG:2056" in done.err) == (3, True)
+    run(*command, code=3, says="in.tif in EPSG:2056")
 
 
 @pytest.mark.parametrize(
@@ -199,18 +196,15 @@ def test_clip_is_on_the_map(run, tmp_path):
 )
 def test_maps_that_results_cannot_follow(run, tmp_path, transform, code, words):
     write(tmp_path / "in.tif", transform=transform)
-    done = run("skeleton-exact", "in.tif", "-o", "a.geojson")
-    assert (done.code, words in done.err) == (code, True)
-    done = run("skeleton-exact", "in.tif", "-o", "a.geojson", "--pixel-size", "auto")
-    assert (done.code, "--pixel-size 1" in done.err) == (3, True)
-    done = run("skeleton-exact", "in.tif", "-o", "a.geojson", "--pixel-size", "1")
-    assert (done.code, done.err) == (0, "")
+    run("skeleton-exact in.tif -o a.geojson", code=code, says=words)
+    run("skeleton-exact in.tif -o a.geojson --pixel-size auto", code=3, says="--pixel-size 1")
+    done = run("skeleton-exact in.tif -o a.geojson --pixel-size 1")
+    assert done.err == ""
 
 
 def test_a_system_without_a_code(run, tmp_path):
     write(tmp_path / "in.tif", crs="+proj=laea +lat_0=10 +lon_0=20 +datum=WGS84")
-    done = run("skeleton-exact", "in.tif", "-f", "geojson")
-    assert "without an EPSG code" in done.err
+    done = run("skeleton-exact in.tif -f geojson", says="without an EPSG code")
     assert "crs" not in json.loads(done.out)
 
 
@@ -221,19 +215,18 @@ def test_a_system_without_a_code(run, tmp_path):
 def test_tiles(run, tmp_path, size, what):
     (tmp_path / "in.csv").write_text("x,y\n2,0\n700,500\n1,600\n1200,90\n")
     options = ["tessellate", "in.csv", "--size", size, "--what", what, "-q", "-o"]
-    assert run(*options, "strips.tif").code == 0
-    assert run(*options, "tiles.tif", "--tiled").code == 0
+    run(*options, "strips.tif")
+    run(*options, "tiles.tif", "--tiled")
     with rasterio.open(tmp_path / "strips.tif") as strips, rasterio.open(tmp_path / "tiles.tif") as tiles:
         assert tiles.block_shapes == [(512, 512)]
         assert (strips.read(1) == tiles.read(1)).all()
     image = tifffile.imread(tmp_path / "tiles.tif")
     assert (image == tifffile.imread(tmp_path / "strips.tif")).all()
     if what == "labels":
-        rows = [run("tessellate", f"{name}.tif", "--what", "table", "-q", "--seeds", "labels").rows
+        rows = [run(f"tessellate {name}.tif --what table -q --seeds labels").rows
                 for name in ("strips", "tiles")]  # fmt: skip
         assert rows[0] == rows[1]
-    done = run("tessellate", "in.csv", "--size", size, "-o", "a.png", "--tiled")
-    assert (done.code, "--tiled" in done.err) == (2, True)
+    run(f"tessellate in.csv --size {size} -o a.png --tiled", code=2, says="--tiled")
 
 
 # ---- nodata --------------------------------------------------------------------------------------
@@ -242,13 +235,13 @@ def test_nodata_is_background(run, tmp_path, options):
     values = MASK.copy()
     values[:, 40:] = 7
     write(tmp_path / "in.tif", values, nodata=7)
-    assert run("tessellate", "in.tif", "-o", "out.npy", *options).code == 0
+    run("tessellate in.tif -o out.npy", *options)
     plain = np.where(values == 7, 0, values)
     if options:
         plain = (plain > 100) != ("--invert" in options)
         plain = np.where(values == 7, 0, plain).astype(np.uint8) * 255
     tifffile.imwrite(tmp_path / "plain.tif", plain)
-    assert run("tessellate", "plain.tif", "-o", "plain.npy").code == 0
+    run("tessellate plain.tif -o plain.npy")
     assert (np.load(tmp_path / "out.npy") == np.load(tmp_path / "plain.npy")).all()
 
 
@@ -259,9 +252,9 @@ def test_nodata_of_images_that_are_not_held(run, tmp_path, monkeypatch, options)
     values = MASK.copy()
     values[:, 40:] = 7
     write(tmp_path / "in.tif", values, nodata=7)
-    assert run("tessellate", "in.tif", "-o", "held.tif", *options).code == 0
+    run("tessellate in.tif -o held.tif", *options)
     monkeypatch.setattr(streamed, "LARGE", 100)
-    assert run("tessellate", "in.tif", "-o", "rows.tif", *options).code == 0
+    run("tessellate in.tif -o rows.tif", *options)
     assert (tmp_path / "held.tif").read_bytes() == (tmp_path / "rows.tif").read_bytes()
 
 
@@ -269,9 +262,9 @@ def test_nodata_that_is_no_number(run, tmp_path):
     values = np.where(MASK == 255, 1, np.nan).astype(np.float32)
     values[0] = 0
     write(tmp_path / "in.tif", values, nodata=np.nan)
-    assert run("tessellate", "in.tif", "-o", "out.npy").code == 0
+    run("tessellate in.tif -o out.npy")
     tifffile.imwrite(tmp_path / "plain.tif", MASK)
-    assert run("tessellate", "plain.tif", "-o", "plain.npy").code == 0
+    run("tessellate plain.tif -o plain.npy")
     assert (np.load(tmp_path / "out.npy") == np.load(tmp_path / "plain.npy")).all()
 
 
@@ -287,10 +280,9 @@ def test_world_files(run, tmp_path, image, world):
     (tmp_path / world).write_text("25\n0\n0\n-25\n2600012.5\n1199987.5\n")
     write(tmp_path / "map.tif")
     options = ["--what", "table", *(["--threshold", "100"] if image.endswith("jpg") else [])]
-    done = run("tessellate", image, *options)
-    assert image in done.err
-    assert done.out == run("tessellate", "map.tif", "--what", "table").out
-    assert run("tessellate", image, "-o", "out.tif", *options[2:]).code == 0
+    done = run(f"tessellate {image}", *options, says=image)
+    assert done.out == run("tessellate map.tif --what table").out
+    run(f"tessellate {image} -o out.tif", *options[2:])
     transform, crs, *_ = about(tmp_path / "out.tif")
     assert (transform, crs) == (NORTH_UP, None)
 
@@ -299,10 +291,7 @@ def test_world_files(run, tmp_path, image, world):
 def test_world_files_that_are_none(run, tmp_path, text):
     tifffile.imwrite(tmp_path / "a.tif", MASK)
     (tmp_path / "a.tfw").write_text(text)
-    done = run("tessellate", "a.tif", "-o", "out.png")
-    assert done.code == 3
-    assert "a.tfw" in done.err
-    assert "correct or remove it" in done.err
+    run("tessellate a.tif -o out.png", code=3, says=["a.tfw", "correct or remove it"])
 
 
 # ---- damage --------------------------------------------------------------------------------------
@@ -311,18 +300,16 @@ def test_world_files_that_are_none(run, tmp_path, text):
 def test_control_points_are_not_used(run, tmp_path):
     points = tuple(float(k) for k in range(24))
     tifffile.imwrite(tmp_path / "a.tif", MASK, extratags=[(33922, 12, 24, points, True)])
-    done = run("tessellate", "a.tif", "--what", "table")
-    assert (done.code, "placed by control points, which are not used" in done.err) == (0, True)
+    run("tessellate a.tif --what table", says="placed by control points, which are not used")
 
 
 def test_many_images_of_maps(run, tmp_path):
     (tmp_path / "in").mkdir()
     write(tmp_path / "in" / "a.tif")
     write(tmp_path / "in" / "b.tif", transform=from_origin(0, 0, 50, 50))
-    assert run("tessellate", "in", "--table", "all.csv", "--out-dir", "out", "-f", "tiff", "-q").code == 0
+    run("tessellate in --table all.csv --out-dir out -f tiff -q")
     assert about(tmp_path / "out" / "b.tif")[:2] == about(tmp_path / "in" / "b.tif")[:2]
     write(tmp_path / "in" / "c.tif", crs="EPSG:3857")
-    done = run("tessellate", "in", "--table", "all.csv", "-q")
-    assert done.code == 3
+    done = run("tessellate in --table all.csv -q", code=3)
     for each in ("EPSG:2056", "in/a.tif", "EPSG:3857", "in/c.tif"):
         assert each in done.err

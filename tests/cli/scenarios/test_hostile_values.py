@@ -110,7 +110,7 @@ def test_no_value_of_an_option_is_a_defect(run, folder, name, option, values):
     given = [*INPUTS[name], *needed.get(name, needed.get("", ()))]
     if {"mask.pgm", "space.csv"} & set(needed.get(name, needed.get("", ()))):
         given.remove(given[0])
-    codes = {value[:60]: run(name, *given, f"{option.opts[-1]}={value}").code for value in values}
+    codes = {value[:60]: run(name, *given, f"{option.opts[-1]}={value}", code=None).code for value in values}
     assert {value: code for value, code in codes.items() if code not in (0, 2, 3, 4, 5)} == {}
 
 
@@ -145,7 +145,7 @@ def test_no_coordinate_is_a_defect(run, folder, way):
     for name, text in POINTS.items():
         (folder / name).write_text(text)
         command, *options = way.split()
-        assert run(command, name, *options).code in (0, 2, 3, 5), name
+        assert run(command, name, *options, code=None).code in (0, 2, 3, 5), name
 
 
 @pytest.mark.parametrize(
@@ -160,7 +160,5 @@ def test_no_coordinate_is_a_defect(run, folder, way):
     ],
 )
 def test_columns_are_numbers_of_ascii_digits(run, folder, columns, code, words):
-    outcome = run("delaunay", "dots.csv", "--columns", columns, "-o", "a.csv")
-    assert outcome.code == code
-    assert words in outcome.err
+    outcome = run(f"delaunay dots.csv --columns {columns} -o a.csv", code=code, says=words)
     assert len(outcome.err) < 400

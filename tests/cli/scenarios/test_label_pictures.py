@@ -42,8 +42,7 @@ def outermost(labels):
 
 
 def test_cells_have_borders_of_a_pixel(run, nuclei):
-    done = run("tessellate", "labels.png", "--what", "color", "--layers", "cells", "-o", "out.png")
-    assert done.code == 0, done.err
+    run("tessellate labels.png --what color --layers cells -o out.png")
     cells = vorotool.tessellate(vorotool.seeds_from_raster(nuclei)).labels
     right, below = np.zeros((2, *cells.shape), bool)
     right[:, :-1], below[:-1] = cells[:, :-1] < cells[:, 1:], cells[:-1] < cells[1:]
@@ -52,29 +51,23 @@ def test_cells_have_borders_of_a_pixel(run, nuclei):
     found = is_color(pixels(), WHITE)
     np.testing.assert_array_equal(found, right | below)
     assert not (found & ~find_boundaries(cells, connectivity=1, mode="thick")).any()
-    plain = run(
-        "tessellate", "labels.png", "--what", "color", "--layers", "cells", "--line-width", "cells=0", "-o", "b.png"
-    )
-    assert plain.code == 0
+    run("tessellate labels.png --what color --layers cells --line-width cells=0 -o b.png")
     assert not is_color(pixels("b.png"), WHITE).any()
 
 
 @pytest.mark.parametrize("seeds", ["labels", "components"])
 def test_objects_are_outlines(run, nuclei, seeds):
-    done = run("tessellate", "labels.png", "--what", "color", "--seeds", seeds, "-o", "out.png")
-    assert done.code == 0, done.err
+    run(f"tessellate labels.png --what color --seeds {seeds} -o out.png")
     objects = vorotool.seeds_from_raster(nuclei, mode=seeds)
     labels = np.zeros(nuclei.shape, int)
     labels[objects.y, objects.x] = objects.labels
     np.testing.assert_array_equal(is_color(pixels(), VIOLET), outermost(labels))
-    filled = run("tessellate", "labels.png", "--what", "color", "--layers", "cells,objects", "-o", "out.png")
-    assert filled.code == 0
+    run("tessellate labels.png --what color --layers cells,objects -o out.png")
     np.testing.assert_array_equal(is_color(pixels(), VIOLET), nuclei > 0)
 
 
 def test_one_path_an_object(run, nuclei):
-    done = run("tessellate", "labels.png", "-f", "svg", "--layers", "cells,objects,seeds", "--seeds", "labels")
-    assert done.code == 0, done.err
+    done = run("tessellate labels.png -f svg --layers cells,objects,seeds --seeds labels")
     groups = {group.get("id"): group for group in ET.fromstring(done.out).iter(f"{NS}g")}
     assert [path.get("id") for path in groups["seeds"]] == [f"seed-{k}" for k in range(1, 9)]
     assert [path.get("id") for path in groups["objects"]] == [f"object-{k}" for k in range(1, 9)]

@@ -25,8 +25,8 @@ def lakes(folder):
 
 @pytest.mark.parametrize(("read", "written"), list(zip(FORMATS, [*FORMATS[1:], FORMATS[0]], strict=True)))
 def test_lakes_become_centerlines_with_attributes_and_system(run, lakes, read, written):
-    done = run("skeleton-exact", f"lakes.{read}", "--crs", "EPSG:2056", "--what", "centerline", "-o", f"axes.{written}")
-    assert (done.code, done.err) == (0, "")
+    done = run(f"skeleton-exact lakes.{read} --crs EPSG:2056 --what centerline -o axes.{written}")
+    assert done.err == ""
     axes = load(lakes / f"axes.{written}")
     assert axes.crs.to_epsg() == 2056
     assert axes["name"].tolist() == ["Zugersee", "Aegerisee"]
@@ -43,11 +43,9 @@ def test_points_and_what_they_are_clipped_to_are_brought_into_one_system(run, fo
     area = frame([shapely.box(2_680_000, 1_200_000, 2_700_000, 1_240_000)], n=[1])
     area.to_file(folder / clip, driver="GPKG" if clip.endswith("gpkg") else "GeoJSON")
     options = ("--what", "cells", "--clip", clip, "-o", "cells.gpkg")
-    done = run("delaunay", "towns.gpkg", *options)
-    assert done.code == 3
-    assert "--crs" in done.err
-    done = run("delaunay", "towns.gpkg", *options, "--crs", "EPSG:2056")
-    assert (done.code, done.err) == (0, "note: 2 of 4 cells are empty: those of sites 1, 2\n")
+    run("delaunay towns.gpkg", *options, code=3, says="--crs")
+    done = run("delaunay towns.gpkg", *options, "--crs", "EPSG:2056")
+    assert done.err == "note: 2 of 4 cells are empty: those of sites 1, 2\n"
     cells = load(folder / "cells.gpkg")
     assert shapely.union_all(cells.geometry).area == pytest.approx(20_000 * 40_000)
     assert cells["n"].tolist() == [1, 2, 3, 4]
@@ -65,7 +63,7 @@ def test_streams_on_both_sides(run, process, lakes, fmt):
     assert (started.returncode, err) == (0, b"")
     (lakes / f"made.{fmt}").write_bytes(out)
     assert set(load(lakes / f"made.{fmt}")["name"]) == {"Zugersee", "Aegerisee"}
-    assert run("skeleton-exact", "-", "-q", "--with", "name", "-o", f"again.{fmt}", data=data).code == 0
+    run(f"skeleton-exact - -q --with name -o again.{fmt}", data=data)
     assert (lakes / f"again.{fmt}").read_bytes() == out
 
 
@@ -96,9 +94,9 @@ def test_what_lacks_is_named_with_the_way_to_get_it(lakes, arguments, lacking, m
 
 def test_numbers_of_a_table_are_numbers_in_a_map(run, folder):
     (folder / "towns.csv").write_text("x,y,people,code\n2,1,500,007\n7,5,,010\n1,6,1250.50,3\n")
-    done = run("delaunay", "towns.csv", "--what", "cells")
+    done = run("delaunay towns.csv --what cells")
     properties = [feature["properties"] for feature in json.loads(done.out)["features"]]
     assert [each["people"] for each in properties] == [500, None, 1250.5]
     assert [each["code"] for each in properties] == ["007", "010", "3"]
-    assert run("delaunay", "towns.csv", "--what", "cells", "-o", "cells.gpkg").code == 0
+    run("delaunay towns.csv --what cells -o cells.gpkg")
     assert load(folder / "cells.gpkg")["people"].dtype == float

@@ -27,13 +27,13 @@ def texts(path):
 def test_objects_have_their_ids_once(run, folder, objects, command):
     name, *options = command.split()
     layers = {"draw": "labels", "tessellate": "cells,seeds,labels"}.get(name, "polygons,skeleton,labels")
-    assert run(name, "objects.npy", *options, "--layers", layers, "-o", "a.svg").code == 0
+    run(name, "objects.npy", *options, "--layers", layers, "-o", "a.svg")
     assert sorted(text for _, _, text in texts(folder / "a.svg")) == ["12", "3", "700"]
     assert 'paint-order="stroke"' in (folder / "a.svg").read_text()
 
 
 def test_ids_are_inside_their_objects(run, folder, objects):
-    run("draw", "objects.npy", "--layers", "labels", "-o", "a.svg")
+    run("draw objects.npy --layers labels -o a.svg")
     scale = 1000 / (80 + 2 * 0.02 * 80)
     for x, y, text in texts(folder / "a.svg"):
         column, row = (int(float(k) / scale - 0.02 * 80) for k in (x, y))
@@ -49,5 +49,5 @@ def test_ids_of_features_may_be_texts(run, folder):
     ]
     (folder / "a.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
     for fmt in ("svg", "png"):
-        assert run("skeleton-exact", "a.geojson", "--layers", "polygons,labels", "-o", f"a.{fmt}").code == 0
+        run(f"skeleton-exact a.geojson --layers polygons,labels -o a.{fmt}")
     assert [text for _, _, text in texts(folder / "a.svg")] == ["&lt;lake&gt; é", "1"]

@@ -38,8 +38,7 @@ def crs_of(text):
 
 @pytest.mark.parametrize("name", ["stations.geojson", "stations.csv", "stations.wkt"])
 def test_polygons_to_clip_to_in_another_system_are_refused(run, maps, name):
-    done = run("delaunay", name, "--what", "cells", "--clip", "meters.geojson", "-o", "cells.geojson")
-    assert done.code == 3
+    done = run(f"delaunay {name} --what cells --clip meters.geojson -o cells.geojson", code=3)
     message = done.err.splitlines()[-1]
     assert all(word in message for word in ("meters.geojson", "EPSG:3057", name))
     assert "--crs OGC:CRS84" in message or "--crs EPSG:4326" in message
@@ -47,22 +46,21 @@ def test_polygons_to_clip_to_in_another_system_are_refused(run, maps, name):
 
 
 def test_polygons_to_clip_to_in_the_same_system_by_another_name(run, maps):
-    done = run("delaunay", "stations.geojson", "--what", "cells", "--clip", "degrees.geojson")
-    assert (done.code, done.err) == (0, f"warning: stations.geojson: {DEGREES}\n")
+    done = run("delaunay stations.geojson --what cells --clip degrees.geojson")
+    assert done.err == f"warning: stations.geojson: {DEGREES}\n"
     assert crs_of(done.out) == "urn:ogc:def:crs:OGC:1.3:CRS84"
     assert all(feature["geometry"] for feature in json.loads(done.out)["features"])
 
 
 def test_polygons_to_clip_to_that_name_no_system_take_that_of_the_points(run, maps):
-    done = run("delaunay", "stations.geojson", "--what", "cells", "--clip", "unnamed.geojson")
-    assert done.code == 0
+    done = run("delaunay stations.geojson --what cells --clip unnamed.geojson")
     [note] = done.err.splitlines()[1:]
     assert all(word in note for word in ("unnamed.geojson", "OGC:CRS84", "stations.geojson"))
 
 
 def test_points_that_name_no_system_take_that_of_the_polygons(run, maps):
-    done = run("delaunay", "plain.csv", "--what", "cells", "--clip", "degrees.geojson")
-    assert (done.code, crs_of(done.out)) == (0, "EPSG:4326")
+    done = run("delaunay plain.csv --what cells --clip degrees.geojson")
+    assert crs_of(done.out) == "EPSG:4326"
     note, warning = done.err.splitlines()
     assert all(word in note for word in ("plain.csv", "EPSG:4326", "degrees.geojson"))
     assert warning.startswith("warning: plain.csv: ")
@@ -70,9 +68,7 @@ def test_points_that_name_no_system_take_that_of_the_polygons(run, maps):
 
 @pytest.mark.parametrize("name", ["bare.geojson", "plain.csv"])
 def test_points_that_name_no_system_and_lie_elsewhere_are_refused(run, maps, name):
-    done = run("delaunay", name, "--what", "cells", "--clip", "meters.geojson")
-    assert done.code == 3
-    assert "meters.geojson" in done.err
+    run(f"delaunay {name} --what cells --clip meters.geojson", code=3, says="meters.geojson")
 
 
 @pytest.mark.parametrize(
@@ -85,31 +81,28 @@ def test_points_that_name_no_system_and_lie_elsewhere_are_refused(run, maps, nam
 )
 def test_the_system_is_carried_on_and_degrees_are_a_warning(run, maps, name, command, options):
     done = run(command, name, *options)
-    assert done.code == 0
     assert f"warning: {name}: {DEGREES}" in done.err.splitlines()
     assert crs_of(done.out) in ("urn:ogc:def:crs:OGC:1.3:CRS84", "urn:ogc:def:crs:EPSG::4326")
 
 
 def test_a_drawing_is_no_map(run, folder):
     (folder / "drawing.geojson").write_text(box(0.5, 0.5, 100.5, 50.5))
-    done = run("skeleton-exact", "drawing.geojson", "-f", "geojson")
-    assert (done.code, crs_of(done.out)) == (0, None)
+    done = run("skeleton-exact drawing.geojson -f geojson")
+    assert crs_of(done.out) is None
     assert "warning" not in done.err
     assert "drawing.geojson" in done.err
-    assert run("draw", "drawing.geojson", "-f", "svg").err == ""
+    assert run("draw drawing.geojson -f svg").err == ""
 
 
 def test_a_system_is_declared_for_inputs_that_name_none(run, maps):
     for command, name in (("skeleton-exact", "unnamed.geojson"), ("skeleton-approx", "unnamed.geojson")):
         options = ("--step", "0.5") if command == "skeleton-approx" else ()
         done = run(command, name, *options, "-f", "geojson", "--input-crs", "epsg:3857")
-        assert (done.code, done.err, crs_of(done.out)) == (0, "", "urn:ogc:def:crs:EPSG::3857")
-    done = run("skeleton-exact", "unnamed.geojson", "-f", "geojson", "--input-crs", "OGC:CRS84")
+        assert (done.err, crs_of(done.out)) == ("", "urn:ogc:def:crs:EPSG::3857")
+    done = run("skeleton-exact unnamed.geojson -f geojson --input-crs OGC:CRS84")
     assert done.err == f"warning: unnamed.geojson: {DEGREES}\n"
-    assert run("skeleton-exact", "degrees.geojson", "--input-crs", "CRS:84").code == 0
-    done = run("skeleton-exact", "degrees.geojson", "--input-crs", "EPSG:3857")
-    assert done.code == 3
-    assert "degrees.geojson" in done.err
+    run("skeleton-exact degrees.geojson --input-crs CRS:84")
+    run("skeleton-exact degrees.geojson --input-crs EPSG:3857", code=3, says="degrees.geojson")
 
 
 @pytest.mark.parametrize(
@@ -127,7 +120,7 @@ def test_a_system_is_declared_for_inputs_that_name_none(run, maps):
 def test_files_that_cannot_state_the_system_are_named_once(run, folder, arguments, files):
     points = [{"type": "Point", "coordinates": place} for place in ([3, 1], [9, 2], [4, 8])]
     (folder / "meters.geojson").write_text(collection(points, crs="EPSG:3057"))
-    done = run("delaunay", "meters.geojson", *arguments)
+    done = run("delaunay meters.geojson", *arguments)
     named = [line for line in done.err.splitlines() if "--input-crs" in line]
-    assert (done.code, len(named)) == (0, int(files is not None))
+    assert len(named) == int(files is not None)
     assert files is None or (files in named[0] and "EPSG:3057" in named[0])

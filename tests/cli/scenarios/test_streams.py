@@ -68,8 +68,8 @@ WANTED = {}
 def wanted_of(line, run, folder):
     """Run the command here, and what follows it in a shell."""
     command, _, rest = line.removeprefix("V ").partition("; ")
-    done = run(*command.split())
-    assert (done.code, done.err) == (0, "")
+    done = run(command)
+    assert done.err == ""
     WANTED[line] = done.out.encode() + bash(folder, rest).stdout
     return WANTED[line]
 
@@ -126,9 +126,7 @@ def test_what_is_refused(run, folder, line, code, words):
     """A shell makes the files, and the command runs here."""
     before, _, command = line.rpartition("V ")
     assert bash(folder, before).returncode == 0
-    done = run(*command.split(), data=(folder / "dots.csv").read_bytes())
-    assert (done.code, done.out) == (code, ""), done
-    assert words in done.err
+    run(command, data=(folder / "dots.csv").read_bytes(), code=code, says=words)
     check_that_nothing_is_left(folder)
 
 
@@ -152,11 +150,11 @@ def test_pipes_in_a_folder_are_left_out(run, folder):
     (folder / "dots.csv").rename(folder / "inputs/dots.csv")
     os.mkfifo(folder / "inputs/pipe.csv")
     note = "note: inputs/pipe.csv is a pipe: skipped\n"
-    done = run("tessellate", "inputs", "--out-dir", "out", "-f", "npy")
-    assert (done.code, done.err) == (0, f"{note}1/1 inputs/dots.csv: done\n")
-    done = run("tessellate", "inputs/*", "--out-dir", "out", "-f", "npy", "--dry-run")
-    assert (done.code, done.err, len(done.out.splitlines())) == (0, note, 1)
-    assert run("tessellate", "inputs", "--out-dir", "out", "-f", "npy", "-q").err == ""
+    done = run("tessellate inputs --out-dir out -f npy")
+    assert done.err == f"{note}1/1 inputs/dots.csv: done\n"
+    done = run("tessellate inputs/* --out-dir out -f npy --dry-run")
+    assert (done.err, len(done.out.splitlines())) == (note, 1)
+    assert run("tessellate inputs --out-dir out -f npy -q").err == ""
     assert Path("out/dots.npy").exists()
 
 
@@ -172,4 +170,4 @@ def test_standard_input_that_does_not_wait(run, folder, process):
     os.close(writing)
     out, err = child.communicate(timeout=600)
     assert (child.returncode, err) == (0, b"")
-    assert out.decode() == run("tessellate", "dots.csv", "--size", "9x9", "-f", "text", "-q").out
+    assert out.decode() == run("tessellate dots.csv --size 9x9 -f text -q").out
