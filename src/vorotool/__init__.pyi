@@ -2,17 +2,17 @@
 
 # Made of the table in __init__.py by tools/public_names.py; `make lint` compares both.
 
-from vorotool.engines.alpha.alpha_hull import (
-    alpha_hull as alpha_hull,
-)
-from vorotool.engines.alpha.alpha_shape import (
+from vorotool.engines.alpha.alpha_complex import (
     alpha_complex as alpha_complex,
 )
-from vorotool.engines.alpha.alpha_shape import (
+from vorotool.engines.alpha.alpha_complex import (
     alpha_curves as alpha_curves,
 )
-from vorotool.engines.alpha.alpha_shape import (
+from vorotool.engines.alpha.alpha_complex import (
     alpha_edges as alpha_edges,
+)
+from vorotool.engines.alpha.alpha_hull import (
+    alpha_hull as alpha_hull,
 )
 from vorotool.engines.alpha.alpha_shape import (
     alpha_shape as alpha_shape,

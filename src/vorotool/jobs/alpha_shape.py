@@ -9,7 +9,8 @@ from functools import cached_property, partial
 from math import inf
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.engines.alpha.alpha_shape import alpha_curves, alpha_edges, chosen_radius
+from vorotool.engines.alpha.alpha_complex import alpha_curves, alpha_edges
+from vorotool.engines.alpha.alpha_shape import chosen_radius
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
@@ -61,7 +62,7 @@ class ShapeProducts(Results):
         mesh = mesh if isinstance(mesh, SeedSet) else placed_mesh(o.pixel_size, mesh)
         self._allow_empty = isinstance(points, SeedSet) or not len(points)
         how = {"phase": "alpha complex", "rule": o.rule, "allow_empty": self._allow_empty}
-        self.family: AlphaComplex = self.call("engines.alpha.alpha_shape:alpha_complex", mesh, **how)
+        self.family: AlphaComplex = self.call("engines.alpha.alpha_complex:alpha_complex", mesh, **how)
         check_columns(o, self.family.mesh.properties)
         self.world = world_of_sites(run, o, self.family.mesh, points)
         self.has_shape = bool(set(o.what) & OF_ONE_SHAPE)

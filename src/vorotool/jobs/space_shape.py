@@ -46,7 +46,7 @@ class SpaceShapeProducts(Results):
         note_repeated_labels(run, points, mesh)
         self._allow_empty = not len(points)
         how: Any = {"phase": "alpha complex", "allow_empty": self._allow_empty}
-        self.family: SpaceAlphaComplex = self.call("engines.alpha.alpha_shape:alpha_complex", mesh, **how)
+        self.family: SpaceAlphaComplex = self.call("engines.alpha.alpha_complex:alpha_complex", mesh, **how)
         self.has_shape = bool(set(options.what) & OF_ONE_SHAPE)
         if self.has_shape and self.radius is None and unjoined(self.family) is None:
             regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"

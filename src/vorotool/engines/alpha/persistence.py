@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from vorotool import _core
-from vorotool.engines.alpha.alpha_shape import alpha_complex, automatic_rank
+from vorotool.engines.alpha.alpha_complex import alpha_complex
+from vorotool.engines.alpha.alpha_shape import automatic_rank
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.engines.delaunay.delaunay import is_of_space
 from vorotool.errors import InputError, UsageError
