@@ -9,7 +9,7 @@ GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png ve
                     silhouettes.svg silhouettes-chord.svg silhouettes.csv slider.html lakes.svg offsets.svg \
                     cells.svg outside.svg alpha.svg houses.svg territories.svg nuclei.svg thickness.png \
                     thickness-dark.png discs.svg parts.svg sociology.svg sociology.csv colonies.svg persistence.svg \
-                    strokes.svg strokes-dark.svg knot.png
+                    strokes.svg strokes-dark.svg knot.png knot.html
 
 NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
          figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h
@@ -262,6 +262,10 @@ $(FIGURES)/gallery-nuclei.svg: data/nuclei.tif $(BUILD)/.installed | $(FIGURES)
 # Purpose: the surface of a scanned knot, from its points alone.
 $(FIGURES)/gallery-knot.png: data/knot.xyz $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) alphashape $< --space -r 1.3 --what surface --verify -o $@
+
+# Purpose: a page that turns it, with a slider over all radii.
+$(FIGURES)/gallery-knot.html: data/knot.xyz $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) alphashape $< --space -r 1.3 -o $@
 
 # Purpose: cell sociology: the Voronoi cells of objects, relative neighbors,
 $(FIGURES)/gallery-sociology.svg: data/blobs.png $(BUILD)/.installed | $(FIGURES)

@@ -189,7 +189,8 @@ class ShapeProducts(Results):
 
         r = self.shape.r if self.has_shape else self.radius
         r = None if r is None else length_in_units(self.options.pixel_size, r)
-        write_alpha_html(out, self.written("family", "html"), self.written("curves", "html"), r=r)
+        family, curves = self.written("family", "html"), self.written("curves", "html")
+        write_alpha_html(out, family, curves, r=r, unit=self.page_unit)
 
     def frames(self, what: str) -> Callable[[Fraction], NDArray[np.uint8]]:
         """Draw shapes whose radius grows to that of the shape, or to the largest critical one if that is infinite."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from vorotool.engines.alpha.alpha_shape import chosen_radius
 from vorotool.engines.alpha.space_shape import space_curves, unjoined
-from vorotool.jobs.alpha_shape import json_number, radius_text
+from vorotool.jobs.alpha_shape import ShapeProducts, json_number, radius_text
 from vorotool.jobs.inputs import (
     JobInput,
     check_columns,
@@ -70,6 +70,8 @@ class SpaceShapeProducts(Results):
         if what == "curves":
             return self.curves
         return self.shape if what in OF_ONE_SHAPE else self.family
+
+    check_page, write_page = ShapeProducts.check_page, ShapeProducts.write_page
 
     def emptiness(self, what: str) -> str:
         """Say from which radius on there are parts of a kind."""

@@ -109,6 +109,8 @@ PICTURES = ("svg", "png")
 AS_SVG, AS_PNG = (option(f"-f {name}", f'fmt="{name}"') for name in PICTURES)
 AS_PICTURE = option("-f svg or png", 'fmt="svg" or "png"')
 """Pictures, in messages that advise one."""
+AS_MESH = option("-f ply or vtu", 'fmt="ply" or "vtu"')
+"""Meshes in space, for other programs."""
 
 TABLES = ("csv", "tsv", "json", "npz")
 """Formats of tables."""

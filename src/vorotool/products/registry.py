@@ -176,17 +176,20 @@ _POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE_LAYERS)
 _GENERAL = ("AlphaShape", "geojson wkt", _SHAPE_LAYERS)
 _SURFACES = _pictures("surface edges points labels", "render.layers.space:surface")
 _SURFACE = _product("surface", "SpaceAlphaShape", f"{_TABLES} npy obj ply stl vtu", _SURFACES, "surface", own=_SOLID,
-    usual_for=("ply", "stl"))
-_SHAPE_TETRAHEDRA = _product("tetrahedra", "SpaceAlphaShape", f"{_TABLES} npy vtu", own=_SOLID, usual_for=("vtu",))
-_SHAPE_TRIANGLES = _product("triangles", "SpaceAlphaShape", f"{_TABLES} npy obj ply stl vtu", own=_SOLID)
+    has_page=True, usual_for=("ply", "stl"))
+_SHAPE_TETRAHEDRA = _product("tetrahedra", "SpaceAlphaShape", f"{_TABLES} npy vtu", own=_SOLID, has_page=True,
+    usual_for=("vtu",))
+_SHAPE_TRIANGLES = _product("triangles", "SpaceAlphaShape", f"{_TABLES} npy obj ply stl vtu", own=_SOLID,
+    has_page=True)
 _SPACE_SHAPES = (
     _SURFACE._replace(usual_for=("obj", "ply", "stl")),
     _SHAPE_TETRAHEDRA,
     _SHAPE_TRIANGLES,
-    _product("edges", "SpaceAlphaShape", f"{_TABLES} npy obj vtu", _SURFACES, "surface edges points", own=_SOLID),
-    _product("family", "SpaceAlphaComplex", _TABLES),
+    _product("edges", "SpaceAlphaShape", f"{_TABLES} npy obj vtu", _SURFACES, "surface edges points", own=_SOLID,
+        has_page=True),
+    _product("family", "SpaceAlphaComplex", _TABLES, has_page=True),
     _product("spectrum", "SpaceAlphaComplex", f"{_TABLES} npy"),
-    _product("curves", "", _TABLES),
+    _product("curves", "", _TABLES, has_page=True),
     _product("table", "SpaceAlphaShape", _TABLES),
 )
 _ALPHASHAPE = (

@@ -30,7 +30,8 @@ LENGTHS = frozenset(
 )
 _UNSCALED = (Meaning.NUMBER, Meaning.AXIS)
 AREAS = frozenset({"area", "object_area"})
-"""Columns of tables that are lengths, coordinates included, and areas; the others are numbers, labels and names."""
+VOLUMES = frozenset({"volume"})
+"""Columns of tables that are lengths, coordinates included, areas and volumes; others are numbers, labels and names."""
 
 
 def scaled(
@@ -126,7 +127,7 @@ def scaled_table(
 ) -> Table:
     """Return a table of tessellations, triangulations or alpha shapes in other units."""
     columns = table.stored()
-    scale = {LENGTHS: _scale(factor, of_steps=of_steps), AREAS: _scale(factor * factor, of_steps=of_steps)}
+    scale = {names: _scale(factor**k, of_steps=of_steps) for k, names in enumerate((LENGTHS, AREAS, VOLUMES), 1)}
     made = {name: _scaled_column(name, column, scale, properties) for name, column in columns.items()}
     if origin is not None:
         made |= _placed_columns(columns, scale[LENGTHS], origin, pixel, y_up=y_up, properties=properties)
@@ -163,8 +164,9 @@ def _scaled_column(
     name: str, column: Any, scale: Mapping[frozenset[str], tuple[float, float]], properties: Collection[str]
 ) -> Any:
     ours = "" if name in properties else name.removeprefix("voro_")
-    if ours not in LENGTHS | AREAS:
+    found = next((names for names in scale if ours in names), None)
+    if found is None:
         return column
-    times, over = scale[LENGTHS if ours in LENGTHS else AREAS]
+    times, over = scale[found]
     values = column if isinstance(column, np.ndarray) else np.ma.asanyarray(column)
     return values * times / over

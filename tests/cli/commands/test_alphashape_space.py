@@ -56,6 +56,38 @@ def test_formats_choose_their_result(run, cloud):
         assert (cloud / name).read_bytes() == (cloud / f"own-{name}").read_bytes(), name
 
 
+def test_a_page_opens_at_the_radius(run, cloud):
+    for options, r, unit in (
+        ("-r 0.3", 0.3, ""),
+        ("-r 0.3 --what curves", 0.3, ""),
+        ("-r 5um --pixel-size 10um", 5.0, "\\u00b5m"),
+        ("", vorotool.alpha_shape(POINTS).r, ""),
+    ):
+        done = run("alphashape", "cloud.csv", "--space", *options.split(), "-q", "-o", "page.html")
+        assert (done.code, done.err) == (0, ""), options
+        page = (cloud / "page.html").read_text()
+        assert f'const data = {{"r":{r!r},"unit":"{unit}",' in page
+        assert page.count("</script>") == 1
+
+
+def test_a_page_of_too_many_simplices_is_refused(run, cloud, monkeypatch):
+    monkeypatch.setattr("vorotool.render.pages.html.MOST_SIMPLICES", 100)
+    done = run("alphashape", "cloud.csv", "--space", "-r", "0.3", "-o", "page.html")
+    assert done.code == 5
+    assert "edges and triangles are too many for a page, at most 100: use -f ply or vtu, or -f svg or png" in done.err
+    assert not (cloud / "page.html").exists()
+
+
+def test_curves_are_in_the_unit(run, cloud):
+    plain, scaled = (
+        run("alphashape", "cloud.csv", "--space", "--what", "curves", *options).rows[-1]
+        for options in ((), ("--pixel-size", "2um"))
+    )
+    factors = {"r": 2, "area": 4, "volume": 8, "parts": 1}
+    for name, factor in factors.items():
+        assert float(scaled[name]) == pytest.approx(factor * float(plain[name]))
+
+
 def test_the_automatic_radius_is_told(run, cloud):
     r = vorotool.alpha_shape(POINTS).r
     done = run(

@@ -16,12 +16,12 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from vorotool.errors import LimitError, option
 from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.numbers import nearest_double
-from vorotool.products.formats import AS_PICTURE, AS_SVG
+from vorotool.products.formats import AS_MESH, AS_PICTURE, AS_SVG
 from vorotool.render.canvas.styles import cell_color
 from vorotool.render.label_images.svg import crack_loops
-from vorotool.render.pages.plots import CURVES
 from vorotool.types.alpha.complex import AlphaComplex
 from vorotool.types.alpha.radii import Radius
+from vorotool.types.alpha.space import SpaceAlphaComplex
 from vorotool.types.box import bounds
 from vorotool.types.fields import is_up
 from vorotool.types.images import LabelImage
@@ -33,12 +33,15 @@ from vorotool.types.table import Table
 from vorotool.types.voronoi.tables import cell_rings
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
-_PLACE = "/*DATA*/null"
+_PLACE, _VIEW = "/*DATA*/null", "/*VIEW*/"
 
 
-def write_page(out: BinaryIO, name: str, data: Mapping[str, Any]) -> None:
-    """Write the page of a name with its data."""
-    before, after = Path(__file__).with_name(name).read_text(encoding="utf-8").split(_PLACE)
+def write_page(out: BinaryIO, name: str, data: Mapping[str, Any], view: str = "") -> None:
+    """Write the page of a name with its data, and with the script of a view where it has several."""
+    page = Path(__file__).with_name(name).read_text(encoding="utf-8")
+    if view:
+        page = page.replace(_VIEW, Path(__file__).with_name(view).read_text(encoding="utf-8").rstrip())
+    before, after = page.split(_PLACE)
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     out.write(f"{before}{text.replace('<', chr(92) + 'u003c')}{after}".encode())  # no text ends the script
 
@@ -79,12 +82,19 @@ def packed(values: ArrayLike, dtype: DTypeLike) -> str:
 MOST_POINTS = 100_000
 """Some 30 MB of data: browsers draw so many in about a second."""
 
+MOST_SIMPLICES = 1_000_000
+"""Edges and triangles in space: some 70 MB of data."""
+
 ALPHA_PAGE = "alpha_page.html"
 
 
-def check_family_size(family: AlphaComplex) -> None:
+def check_family_size(family: AlphaComplex | SpaceAlphaComplex) -> None:
     """Refuse a page that no browser would draw."""
-    _check_count(len(family.points), MOST_POINTS, "points", f"use {AS_PICTURE}")
+    if isinstance(family, SpaceAlphaComplex):
+        count = len(family.edges) + len(family.triangle_min)
+        _check_count(count, MOST_SIMPLICES, "edges and triangles", f"use {AS_MESH}, or {AS_PICTURE}")
+    else:
+        _check_count(len(family.points), MOST_POINTS, "points", f"use {AS_PICTURE}")
 
 
 def _check_count(count: int, most: int, what: str, instead: str) -> None:
@@ -92,26 +102,100 @@ def _check_count(count: int, most: int, what: str, instead: str) -> None:
         raise LimitError(f"{count} {what} are too many for a page, at most {most}: {instead}")
 
 
-def write_alpha_html(out: BinaryIO, family: AlphaComplex, curves: Table, *, r: Radius | None = None) -> None:
-    """Write a page with a slider over r: the shape, the classes of its edges, and curves."""
+def write_alpha_html(
+    out: BinaryIO,
+    family: AlphaComplex | SpaceAlphaComplex,
+    curves: Table,
+    *,
+    r: Radius | None = None,
+    unit: str | None = None,
+) -> None:
+    """Write a page with a slider over r: the shape, the classes of its parts, and curves."""
     check_family_size(family)
+    names = [name for name in curves if name != "r"]
+    data = {
+        "r": _first_radius(family, r),
+        "unit": unit or "",
+        "spectrum": packed(family.spectrum, "<f8"),
+        "curves": {name: packed(curves[name], "<f8" if name in _MEASURES else "<i4") for name in names},
+    }
+    if isinstance(family, SpaceAlphaComplex):
+        write_page(out, ALPHA_PAGE, data | _in_space(family), "space_view.js")
+    else:
+        write_page(out, ALPHA_PAGE, data | _in_plane(family), "plane_view.js")
+
+
+_MEASURES = ("perimeter", "area", "volume")
+"""Curves that are no counts."""
+
+
+def _in_plane(family: AlphaComplex) -> dict[str, Any]:
+    """Give the places of points, edges and triangles, and their ranks."""
     points, mesh = family.points, family.mesh
     low, high = bounds(points) if len(points) else (np.zeros(2), np.zeros(2))
     extent = Extent(low, high, y_up=is_up(mesh))
     whole = {"edges": family.edges, "triangles": mesh.triangles}
     whole |= {name: getattr(family, name) for name in ("rank_min", "rank_mid", "rank_max", "triangle_rank")}
-    data = {
-        "r": _first_radius(family, r),
+    return {
         **extent.sides,
         "xy": extent.places(points),
         **{name: packed(values, "<i4") for name, values in whole.items()},
-        "spectrum": packed(family.spectrum, "<f8"),
-        "curves": {name: packed(curves[name], "<f8") for name in CURVES},
     }
-    write_page(out, ALPHA_PAGE, data)
 
 
-def _first_radius(family: AlphaComplex, r: Radius | None) -> float:
+def _in_space(family: SpaceAlphaComplex) -> dict[str, Any]:
+    """Give the places of points around their middle, and edges and triangles with ranks: those that are ever seen."""
+    triangles, edges, mesh = family.ranks("triangles"), family.ranks("edges"), family.mesh
+    edges[:, 1] = np.minimum(edges[:, 1], _on_triangles(family))
+    points = np.where(mesh.is_duplicate, -1, len(family.spectrum)).astype(np.int32)
+    np.minimum.at(points, family.edges, edges[:, :1])
+    return {
+        "distinct": len(points) - mesh.duplicates,
+        "places": packed(_around_middle(family.points), "<f4"),
+        **_ranked("triangle", family.triangles, triangles),
+        **_ranked("edge", family.edges, edges),
+        "point_min": packed(points, "<i4"),
+    }
+
+
+def _on_triangles(family: SpaceAlphaComplex) -> NDArray[np.int32]:
+    """Give the first rank at which each edge is on a triangle."""
+    keys = _keys(family.edges)
+    order = np.argsort(keys)
+    first = np.full(len(keys), len(family.spectrum), dtype=np.int32)
+    for pair in ([0, 1], [0, 2], [1, 2]):
+        sides = order[np.searchsorted(keys, _keys(family.triangles[:, pair]), sorter=order)]
+        np.minimum.at(first, sides, family.triangle_min)
+    return first
+
+
+def _keys(pairs: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Give numbers of pairs of indices, whatever their order."""
+    return pairs.min(axis=1).astype(np.int64) << 32 | pairs.max(axis=1)
+
+
+def _ranked(name: str, corners: NDArray[np.int32], ranks: NDArray[np.int32]) -> dict[str, str]:
+    """Give simplices and their ranks, without those that bound a tetrahedron as soon as another one."""
+    is_seen = ranks[:, 0] < ranks[:, 2]
+    columns = dict(zip(("min", "mid", "max"), ranks[is_seen].T, strict=True))
+    return {f"{name}s": packed(corners[is_seen], "<u4")} | {
+        f"{name}_{each}": packed(values, "<i4") for each, values in columns.items()
+    }
+
+
+def _around_middle(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Move the middle of points to 0, and the farthest one to the distance 1."""
+    if not len(points):
+        return points
+    exponent = -int(np.frexp(np.abs(points).max())[1])  # a power of two keeps differences within range
+    near = np.ldexp(points, exponent)
+    near = near - (near.min(axis=0) + near.max(axis=0)) / 2
+    size = float(np.abs(near).max()) or 1.0  # squares of what is small would vanish
+    near /= size
+    return near / (float(np.sqrt((near * near).sum(axis=1).max())) or 1.0)
+
+
+def _first_radius(family: AlphaComplex | SpaceAlphaComplex, r: Radius | None) -> float:
     """The radius, or one beyond all where it is infinite."""
     finite = family.spectrum[np.isfinite(family.spectrum)]
     largest = float(finite[-1]) if len(finite) else 1.0
