@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property, partial
 from math import prod
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
@@ -31,6 +30,8 @@ from vorotool.types.table import Table
 from vorotool.types.volumes.volume import LabelVolume, VoxelFrame
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from vorotool.engines.label_images.measured_regions import Regions
     from vorotool.engines.tessellation.tessellate import PropagatedRows
     from vorotool.types.points.seed_set import SeedSet
@@ -65,12 +66,10 @@ class Stream:
 
     def write(self, out: Any, fmt: Any, parts: Iterator[NDArray[Any]], count: int, *, threads: int) -> None:
         """Write parts of so many rows or slices to a file."""
-        from vorotool.formats.images.label_images import write_label_image
-        from vorotool.formats.volumes.writer import write_volume
-
-        writer: Any = write_label_image if isinstance(self.frame, Frame) else write_volume
+        is_flat = isinstance(self.frame, Frame)
+        writer = "images.label_images:write_label_image" if is_flat else "volumes.writer:write_volume"
         shape = (count, *self.frame.shape[1:])
-        writer(out, parts, shape=shape, dtype=self.dtype, fmt=fmt, threads=threads, **self.about)
+        resolved(f"formats.{writer}")(out, parts, shape=shape, dtype=self.dtype, fmt=fmt, threads=threads, **self.about)
 
     def expected(self, count: int, size_of: Callable[[NDArray[Any]], int]) -> int:
         """Estimate the bytes of the whole from those of some parts of so many rows or slices, which differ."""

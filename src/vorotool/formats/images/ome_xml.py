@@ -14,6 +14,9 @@ from vorotool.numeric.numbers import shown_number
 LARGEST_XML = 2**25
 """Bytes that are parsed at most; of an image with many planes they are some millions."""
 
+PIXEL = "pixel"
+"""What OME calls a length that is in no unit."""
+
 _SIZES = ("PhysicalSizeX", "PhysicalSizeY")
 _TYPES = {"uint8", "uint16", "uint32", "int8", "int16", "int32"}
 

@@ -217,6 +217,9 @@ def _free(path: str | os.PathLike[str]) -> int | None:
     folder = os.path.dirname(os.path.realpath(path))
     while not os.path.exists(folder):
         folder = os.path.dirname(folder)
-    from shutil import disk_usage  # which loads bz2 and lzma, and small jobs do without
+    if sys.platform == "win32":
+        from shutil import disk_usage
 
-    return disk_usage(folder).free
+        return disk_usage(folder).free
+    disk = os.statvfs(folder)  # shutil loads bz2 and lzma, and small jobs do without
+    return disk.f_bavail * disk.f_frsize

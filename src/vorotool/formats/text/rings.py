@@ -85,8 +85,6 @@ def _invalid(
     points: Floats, nesting: Nesting, *, is_coverage: bool, in_box: bool = False, threads: int = 0
 ) -> NDArray[np.bool_]:
     """(f,) whether each feature is invalid, or overlaps or misses the vertices of others of its coverage."""
-    import shapely
-
     rings, polygons, cells = nesting
     faults = _core.arrangement.polygon_faults(
         np.ascontiguousarray(points), rings, polygons, is_coverage and not in_box, threads, None
@@ -99,6 +97,8 @@ def _invalid(
     doubtful &= ~bad
     chosen = np.flatnonzero(doubtful)
     if chosen.size:
+        import shapely
+
         own = select(points, nesting, chosen)
         bad[chosen] = ~shapely.is_valid(geometry(*own)) | (_is_turned_over(*own) if is_coverage else False)
     if in_box and bad.any():

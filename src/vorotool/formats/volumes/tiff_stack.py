@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, option
 from vorotool.formats.images.image_grids import grid_of, missing_values, side_of_imagej, unescaped
-from vorotool.formats.images.ome_xml import decimal_side, parse_ome
+from vorotool.formats.images.ome_xml import PIXEL, decimal_side, parse_ome
 from vorotool.formats.images.tiff_layout import TiffLayout, decode_rows, is_decoded_here
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout
 from vorotool.formats.io.arrays import plain_values
@@ -285,9 +285,6 @@ def _slices_of_shape(name: str, said: Mapping[str, Any]) -> int | None:
 
 
 # ---- OME -----------------------------------------------------------------------------------------
-PIXEL = "pixel"
-"""What OME calls a length that is in no unit."""
-
 _NO_LENGTH = "reference frame"
 _MOST_DIGITS = 12
 _MOST_REPEATS = 4

@@ -10,10 +10,9 @@ from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import UsageError, option
 from vorotool.formats.images.image_grids import NO_UNIT, NODATA, imagej_unit, ratio_of, resolution, resolution_tags
-from vorotool.formats.images.ome_xml import ome_document, ome_type, shown_side
+from vorotool.formats.images.ome_xml import PIXEL, ome_document, ome_type, shown_side
 from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, write_pages
 from vorotool.formats.io.arrays import write_npy
-from vorotool.formats.volumes.tiff_stack import PIXEL
 from vorotool.types.pixels import PixelGrid
 from vorotool.types.volumes.volume import LabelVolume, Volume, VoxelGrid
 
