@@ -1,7 +1,7 @@
 """How long the smallest job of each command takes, beside what it cannot do without: `tools/start_up.py [ROUNDS]`.
 
-Prints a row a command: the least time of some rounds that take turns, times as long as its imports (numpy and click, or
-click alone for `--help`), and the functions and files of ours that it runs.
+Prints a row a command: the least time of some rounds that take turns, times as long as its imports (click, numpy,
+shapely, Pillow, as far as the job loads them), and the functions and files of ours that it runs.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ JOBS = {
     "skeleton-exact": ("shape.json", "-f", "csv"),
     "skeleton-approx": ("shape.json", "-f", "csv", "--step", "20"),
 }
-NEEDED = {"--help": "import click", "": "import numpy, click"}
+LIBRARIES = ("click", "numpy", "shapely", "PIL")
 COUNTED = """
 import sys
 found = set()
@@ -39,7 +39,7 @@ try:
 except SystemExit:
     pass
 sys.setprofile(None)
-print(len(found), len({name for name, _ in found}))
+print(len(found), len({name for name, _ in found}), *(name for name in LIBRARIES if name in sys.modules))
 """
 
 
@@ -50,12 +50,12 @@ def seconds(*command: str) -> float:
     return time.perf_counter() - begin
 
 
-def counted(arguments: list[str]) -> tuple[int, int]:
-    """Count the functions of ours that a job runs, not bodies of classes and modules, and their files."""
-    text = f"PACKAGE, ARGUMENTS = {str(PACKAGE)!r}, {arguments!r}\n{COUNTED}"
+def counted(arguments: list[str]) -> tuple[int, int, str]:
+    """Count the functions of ours that a job runs, not bodies of classes and modules, their files, what it loads."""
+    text = f"PACKAGE, ARGUMENTS, LIBRARIES = {str(PACKAGE)!r}, {arguments!r}, {LIBRARIES!r}\n{COUNTED}"
     done = subprocess.run([sys.executable, "-c", text], check=True, capture_output=True, text=True)
-    functions, files = done.stdout.split()[-2:]
-    return int(functions), int(files)
+    functions, files, *loaded = done.stdout.splitlines()[-1].split()
+    return int(functions), int(files), ", ".join(loaded)
 
 
 def main() -> None:
@@ -68,17 +68,18 @@ def main() -> None:
             for command, (name, *options) in JOBS.items()
         }
         jobs["--help"] = ["delaunay", "--help"]
-        timed = {f"needed {name}": ["-c", code] for name, code in NEEDED.items()}
+        facts = {name: counted(arguments) for name, arguments in jobs.items()}
+        timed = {loaded: ["-c", f"import {loaded}"] for _, _, loaded in facts.values()}
         timed |= {name: ["-m", "vorotool", *arguments] for name, arguments in jobs.items()}
         times: dict[str, list[float]] = {name: [] for name in timed}
         for _ in range(rounds):
             for name, arguments in timed.items():
                 times[name].append(seconds(sys.executable, *arguments))
-        sys.stdout.write(f"{'job':16} {'ms':>5} {'times':>6} {'functions':>10} {'files':>6}\n")
-        for name, arguments in jobs.items():
-            least, needed = min(times[name]), min(times["needed --help" if name == "--help" else "needed "])
-            functions, files = counted(arguments)
-            sys.stdout.write(f"{name:16} {1000 * least:5.0f} {least / needed:6.2f} {functions:10} {files:6}\n")
+        sys.stdout.write(f"{'job':16} {'ms':>5} {'times':>6} {'functions':>10} {'files':>6}  imports\n")
+        for name, (functions, files, loaded) in facts.items():
+            least = min(times[name])
+            ratio = least / min(times[loaded])
+            sys.stdout.write(f"{name:16} {least * 1e3:5.0f} {ratio:6.2f} {functions:10} {files:6}  {loaded}\n")
 
 
 if __name__ == "__main__":
