@@ -54,6 +54,6 @@ if [ -n "${MINUTES:-}" ]; then
     # The workers of the fuzzer say nothing: reports go to files.
     rm -f "$work"/report.*
     ASAN_OPTIONS="$ASAN_OPTIONS:log_path=$PWD/$work/report" UBSAN_OPTIONS="$UBSAN_OPTIONS:log_path=$PWD/$work/report" \
-        sanitized tests/fuzz/bytes.py --minutes "$MINUTES" --seed "${SEED:-1}" --workers "$(nproc)" \
+        sanitized tests/fuzz/run.py bytes --minutes "$MINUTES" --seed "${SEED:-1}" --workers "$(nproc)" \
         || { cat "$work"/report.* 2> /dev/null; exit 1; }
 fi

@@ -16,13 +16,11 @@ import random
 import resource
 import shutil
 import signal
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.byte_mutations import mutated
 from fuzz.byte_oracle import LIMIT, READ, REFUSED, WRONG, batch_of_two, judge, write_bundle
 from fuzz.byte_seeds import Bundle, seeds
@@ -226,7 +224,3 @@ def main() -> int:
         _replayed(fuzzer, fuzzer.arguments.keep)
         return 0
     return fuzzer.run()
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -6,18 +6,15 @@ permutation of its points and another number of threads, which must give the sam
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import Cases, Comparison, Verdict
 from support.families.point_families import FAMILIES, draw
 from support.oracles.delaunay_oracle import delaunay_triangles
 from vorotool import VorotoolError, delaunay, verify_triangulation
 
 SMALL = 7
+NAMES = list(FAMILIES)
 
 
 def failure(points: np.ndarray, rng: np.random.Generator) -> str | None:
@@ -42,19 +39,13 @@ def failure(points: np.ndarray, rng: np.random.Generator) -> str | None:
     return None
 
 
-def main() -> int:
-    """Run all cases; exit 1 if any failed."""
-    cases = Cases(options(10**5).parse_args())
-    names, points_seen = list(FAMILIES), 0
-    for case in cases:
-        rng, name = cases.random(case), names[case % len(names)]
-        n = int(rng.integers(0, SMALL + 1)) if rng.random() < 0.5 else int(2 ** rng.uniform(3, 10 if case % 50 else 13))
-        points = draw(name, n, cases.seed(case))
-        cases.judge(case, name, failure(points, rng), f"{len(points)} points")
-        points_seen += len(points)
-    cases.print_families()
-    return cases.end(f"cases, {points_seen:,} points")
+def check(case: int, cases: Cases) -> Verdict:
+    """Triangulate some points."""
+    rng, name = cases.random(case), NAMES[case % len(NAMES)]
+    n = int(rng.integers(0, SMALL + 1)) if rng.random() < 0.5 else int(2 ** rng.uniform(3, 10 if case % 50 else 13))
+    points = draw(name, n, cases.seed(case))
+    cases.counts["points"] += len(points)
+    return name, failure(points, rng), f"{len(points)} points"
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+COMPARISON = Comparison(10**5, check)

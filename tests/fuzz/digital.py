@@ -7,15 +7,11 @@ how many sets needed each step of the repair.
 
 from __future__ import annotations
 
-import sys
-from collections import Counter
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import Cases, Comparison, Verdict
 from vorotool import VorotoolError, delaunay, repair_digital, verify_triangulation
 
 SIDES = (64, 128, 256, 512, 1024)
@@ -82,22 +78,13 @@ def failure(m, seeds, needed):
     return None
 
 
-def main() -> int:
-    """Run all sets; exit 1 if any failed."""
-    sets = Cases(options(500, "set").parse_args(), "set")
-    needed: Counter[str] = Counter()
-    sites = 0
-    for number in sets:
-        name, m, seeds = draw(sets.random(number))
-        if len(seeds) == 0:
-            seeds = np.array([[m // 2, m // 2]])
-        sets.judge(number, name, failure(m, seeds, needed), f"{len(seeds)} seeds in {m} x {m}")
-        sites += len(seeds)
-    sets.print_families()
-    for name, count in sorted(needed.items()):
-        print(f"{name:20} in {count:6,} of {sets.count:,} sets")
-    return sets.end(f"sets, {sites:,} sites")
+def check(case: int, cases: Cases) -> Verdict:
+    """Repair the triangulation of some seeds."""
+    name, m, seeds = draw(cases.random(case))
+    if len(seeds) == 0:
+        seeds = np.array([[m // 2, m // 2]])
+    cases.counts["sites"] += len(seeds)
+    return name, failure(m, seeds, cases.counts), f"{len(seeds)} seeds in {m} x {m}"
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+COMPARISON = Comparison(500, check, "set")

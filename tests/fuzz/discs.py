@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import shapely
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import run_families
+from fuzz.runner import of_families
 from support.families.skeleton_shapes import FAMILIES, TOUCHING
 from vorotool import Skeleton, VorotoolError, largest_empty_discs, points_along, skeleton_exact, verify_discs
 from vorotool.engines.from_skeleton.largest_discs import discs_of_skeleton
@@ -105,5 +101,4 @@ def failure(shape: object, random: np.random.Generator) -> str | None:
     return None
 
 
-if __name__ == "__main__":
-    sys.exit(run_families(SHAPES, failure, 1000))
+COMPARISON = of_families(1000, SHAPES, failure)

@@ -6,14 +6,10 @@ vertices end where their axes do.
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import shapely
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import run_families
+from fuzz.runner import of_families
 from support.families.stems import disc_with_stems, letter, lines_of, lost, mask_of
 from support.families.strips import Strip, strip
 from vorotool import VerificationError, centerline, extend_ends, outlines, prune, skeleton_exact, verify_extended
@@ -71,5 +67,4 @@ def strip_failure(made: Strip) -> str | None:
     return None
 
 
-if __name__ == "__main__":
-    sys.exit(run_families([discs, letters, strips], failure, 1000))
+COMPARISON = of_families(1000, [discs, letters, strips], failure)

@@ -13,13 +13,11 @@ import random
 import select
 import shutil
 import signal
-import sys
 import tempfile
 import time
 from collections import Counter
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz import faulty
 from fuzz.write_events import Steps, announce, install
 from fuzz.writers import ENDS, WRITERS, ended, import_modules, leftovers, outputs, run, write_inputs
@@ -221,7 +219,3 @@ def main():
     counted = [f"{name}: {count}" for name, count in counts.items()]
     print(", ".join([*counted, f"{len(wrong)} failures"]))
     return int(bool(wrong))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -7,13 +7,9 @@ the results must follow when the features are permuted or given twice, whatever 
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import Cases, Comparison, Verdict
 from support.families.polygon_families import FAMILIES as RINGS
 from support.families.skeleton_shapes import DATA
 from vorotool import PolygonSet, VorotoolError, outlines, read, skeleton_exact
@@ -259,26 +255,15 @@ def of_data(rng) -> str | None:
     return None
 
 
-def main() -> int:
-    """Run all; exit 1 if any failed."""
-    arguments = options(20000).parse_args()
-    cases = Cases(arguments)
-    for case in cases:
-        cases.judge(case, *one_case(case, cases.random(case)))
-    cases.print_families()
-    return cases.end("sets of features")
-
-
-def one_case(case: int, rng) -> tuple[str, str | None]:
-    """The family of a case, and what is wrong with it."""
-    kind = case % (len(FAMILIES) + 1)
+def check(case: int, cases: Cases) -> Verdict:
+    """Judge some features together; now and then those of real polygons."""
+    rng, kind = cases.random(case), case % (len(FAMILIES) + 1)
     if case % 500 == 499:
-        return "data", of_data(rng)
+        return "data", of_data(rng), ""
     batch = int(rng.choice([8, 40, 1 << 13]))
     if kind == len(FAMILIES):
-        return "labels", failure_of_labels(rng, batch)
-    return FAMILIES[kind].__name__, failure(as_set(FAMILIES[kind](rng)), rng, batch)
+        return "labels", failure_of_labels(rng, batch), ""
+    return FAMILIES[kind].__name__, failure(as_set(FAMILIES[kind](rng)), rng, batch), ""
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+COMPARISON = Comparison(20_000, check)

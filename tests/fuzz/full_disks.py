@@ -11,11 +11,9 @@ import os
 import random
 import resource
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.faulty import can_mount, mount
 from fuzz.writers import ended, import_modules, leftovers, outputs, run, write_inputs
 from support.processes.heard_signals import hear_signals
@@ -183,7 +181,3 @@ def main():
         print(f"not tried: {name}: {reason}")
     print(f"{count} full disks, {len(untried)} not tried, {wrong} failures")
     return int(bool(wrong))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -10,13 +10,10 @@ from __future__ import annotations
 
 import argparse
 import random
-import sys
 import time
 from collections.abc import Iterable
 from itertools import count, islice
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
 from support.processes.machine_runs import Setting, differences, drawn_setting, run, settings, whole
 
 SLICE = 100
@@ -107,7 +104,3 @@ def main() -> int:
             if time.monotonic() - start >= arguments.seconds:
                 break
     return comparison.end(time.monotonic() - start)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

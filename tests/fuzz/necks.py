@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import shapely
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import run_families
+from fuzz.runner import of_families
 from support.families.skeleton_shapes import FAMILIES
 from support.oracles.neck_oracle import disagreement
 from vorotool import VorotoolError, necks, parts, skeleton_exact, verify_necks, verify_parts
@@ -51,5 +47,4 @@ def wrong_parts(pieces, ratio, found):
     return None
 
 
-if __name__ == "__main__":
-    sys.exit(run_families(FAMILIES, failure, 1000))
+COMPARISON = of_families(1000, FAMILIES, failure)

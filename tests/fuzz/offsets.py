@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import shapely
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import run_families
+from fuzz.runner import of_families
 from support.families.skeleton_shapes import FAMILIES, TOUCHING
 from support.oracles.offset_oracle import check_offsets, check_rebuilt
 from vorotool import VorotoolError, offset, rebuild, skeleton_exact, verify_offsets
@@ -49,5 +45,4 @@ def failure(shape: object, random: np.random.Generator, some: slice = slice(None
     return None
 
 
-if __name__ == "__main__":
-    sys.exit(run_families(SHAPES, failure, 1000, f"shapes x {DISTANCES} distances"))
+COMPARISON = of_families(1000, SHAPES, failure)

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import run_families
+from fuzz.runner import of_families
 from support.oracles.outline_oracle import numbered_objects, pixel_sides, random_labels, ring_areas, unit_sides
 from vorotool import VorotoolError, VorotoolWarning, outlines, planar_graph, skeleton_exact, verify_skeleton
 
@@ -42,5 +39,4 @@ def faces_of(graph: object) -> list[tuple[int, ...]]:
     return sorted(tuple(graph.polygons_of(face).tolist()) for face in range(graph.faces))
 
 
-if __name__ == "__main__":
-    sys.exit(run_families([random_labels], failure, 20_000, "images"))
+COMPARISON = of_families(20_000, [random_labels], failure)

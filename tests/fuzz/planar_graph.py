@@ -6,18 +6,15 @@ ones are compared with the definition in rationals: segments, the edges that eac
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import Cases, Comparison, Verdict
 from support.families.polygon_families import FAMILIES, LINE, draw, graph_of
 from support.oracles import planar_graph_oracle as oracle
 from vorotool import VorotoolError, verify_planar_graph
 
 SMALL = 11
+NAMES = list(FAMILIES)
 
 
 def failure(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> str | None:
@@ -42,22 +39,16 @@ def failure(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> str
     return None
 
 
-def main() -> int:
-    """Run all cases; exit 1 if any failed."""
-    cases = Cases(options(10**5).parse_args())
-    names = list(FAMILIES)
-    for case in cases:
-        rng, name = cases.random(case), names[case % len(names)]
-        n = int(rng.integers(1, SMALL + 1)) if rng.random() < 0.5 else int(2 ** rng.uniform(3, 8))
-        vertices, rings = draw(name, n, cases.seed(case))
-        try:
-            wrong = failure(vertices, rings)
-        except Exception as error:  # whatever it is, the case is to be known
-            wrong = repr(error)
-        cases.judge(case, name, wrong, f"{len(vertices)} vertices")
-    cases.print_families()
-    return cases.end("cases")
+def check(case: int, cases: Cases) -> Verdict:
+    """Make the graph of some rings."""
+    rng, name = cases.random(case), NAMES[case % len(NAMES)]
+    n = int(rng.integers(1, SMALL + 1)) if rng.random() < 0.5 else int(2 ** rng.uniform(3, 8))
+    vertices, rings = draw(name, n, cases.seed(case))
+    try:
+        wrong = failure(vertices, rings)
+    except Exception as error:  # whatever it is, the case is to be known
+        wrong = repr(error)
+    return name, wrong, f"{len(vertices)} vertices"
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+COMPARISON = Comparison(10**5, check)

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import run_families
+from fuzz.runner import of_families
 from support.families.skeleton_shapes import FAMILIES
 from support.oracles.pruning_oracle import disagreement, thresholds
 from vorotool import VorotoolError, critical_values, prune, skeleton_exact, verify_pruning
@@ -37,5 +33,4 @@ def failure(shape: object, random: np.random.Generator) -> str | None:
     return None
 
 
-if __name__ == "__main__":
-    sys.exit(run_families(FAMILIES, failure, 1000))
+COMPARISON = of_families(1000, FAMILIES, failure)

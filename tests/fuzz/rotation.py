@@ -5,15 +5,12 @@ A third of the rotated shapes is rounded to 2^-20 of the extent too, so that ver
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import Cases, Comparison, Verdict
 from support.families.skeleton_shapes import holed, several, star, valid
 from support.oracles.rotation_oracle import Pair, Rotation, fault
 from vorotool import InputError, outlines
@@ -40,18 +37,15 @@ def failure(case: int, random: np.random.Generator, worst: dict[int, float]) -> 
     return fault(pair, worst) if len(pair.first) else "repaired"
 
 
-def main() -> int:
-    """Run all cases; exit 1 if any failed."""
-    cases = Cases(options(1000).parse_args())
-    repaired, worst = 0, dict[int, float]()
-    for case in cases:
-        wrong = failure(case, cases.random(case), worst)
-        repaired += wrong == "repaired"
-        cases.judge(case, FAMILIES[case % len(FAMILIES)].__name__, None if wrong == "repaired" else wrong)
-    moves = ", ".join(f"{angle} degrees: {move:.3f}" for angle, move in sorted(worst.items()))
-    print(f"largest moves of what is pruned by an angle, as multiples of the placement: {moves}")
-    return cases.end(f"shapes, {repaired} of them repaired")
+def check(case: int, cases: Cases) -> Verdict:
+    """Rotate a shape; the largest moves of what is pruned by an angle are multiples of the placement."""
+    worst: dict[int, float] = {}
+    wrong = failure(case, cases.random(case), worst)
+    for angle, move in worst.items():
+        name = f"largest move at {angle} degrees"
+        cases.counts[name] = max(cases.counts[name], move)
+    cases.counts["repaired"] += wrong == "repaired"
+    return FAMILIES[case % len(FAMILIES)].__name__, None if wrong == "repaired" else wrong, ""
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+COMPARISON = Comparison(1000, check)

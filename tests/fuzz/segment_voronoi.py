@@ -10,16 +10,13 @@ few sites with brute force.
 
 from __future__ import annotations
 
-import sys
-import time
+import argparse
 from collections import Counter
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import Cases, Comparison, Verdict
 from support.families.segment_families import FAMILIES, LIMIT, coarse, draw, renumbered, symmetries
 from support.oracles import boost_oracle, segment_oracle
 from vorotool import VorotoolError
@@ -123,32 +120,23 @@ def failure(points: np.ndarray, segments: np.ndarray, rng: np.random.Generator, 
     return wrong
 
 
-def main() -> int:
-    """Run the cases; exit 1 if any failed."""
-    parser = options(10**4)
-    parser.add_argument(
-        "--symmetries", type=int, choices=range(1, 9), default=8, help="that each graph is checked under"
-    )
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add which graphs are drawn."""
+    parser.add_argument("--symmetries", type=int, choices=range(1, 9), default=8, help="to check each graph under")
     parser.add_argument("--largest", type=int, default=400)
     parser.add_argument("--family", choices=FAMILIES, nargs="+", default=list(FAMILIES))
-    arguments = parser.parse_args()
-    cases, done, seconds = Cases(arguments), Counter[str](), Counter[str]()
-    segments_seen = 0
-    for case in cases:
-        drawing, symmetry = divmod(case, arguments.symmetries)
-        name = arguments.family[drawing % len(arguments.family)]
-        n = int(np.exp(cases.random(drawing).uniform(0, np.log(arguments.largest))))
-        points, segments = draw(name, n, cases.seed(drawing))
-        points = list(symmetries(points))[(symmetry + drawing * (arguments.symmetries < 8)) % 8]
-        begin = time.monotonic()
-        wrong = failure(points, segments, cases.random(drawing, symmetry), done)
-        seconds[name] += time.monotonic() - begin
-        cases.judge(case, name, wrong, f"{len(segments)} segments")
-        segments_seen += len(segments)
-    for name, count in (cases.families + done).items():
-        print(f"{name:18} {count:8,} cases {f'{seconds[name]:8.1f} s' if name in seconds else ''}")
-    return cases.end(f"cases, {segments_seen:,} segments")
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def check(case: int, cases: Cases) -> Verdict:
+    """Judge the diagram of a graph under one of the symmetries."""
+    given = cases.arguments
+    drawing, symmetry = divmod(case, given.symmetries)
+    name = given.family[drawing % len(given.family)]
+    n = int(np.exp(cases.random(drawing).uniform(0, np.log(given.largest))))
+    points, segments = draw(name, n, cases.seed(drawing))
+    points = list(symmetries(points))[(symmetry + drawing * (given.symmetries < 8)) % 8]
+    cases.counts["segments"] += len(segments)
+    return name, failure(points, segments, cases.random(drawing, symmetry), cases.counts), f"{len(segments)} segments"
+
+
+COMPARISON = Comparison(10_000, check, add_options=add_options)

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import run_families
+from fuzz.runner import of_families
 from support.families.skeleton_shapes import FAMILIES
 from vorotool import VorotoolError
 from vorotool.convert.polygons import as_polygons
@@ -44,5 +41,4 @@ def failure(shape: Any, rng: np.random.Generator) -> str | None:
     return None
 
 
-if __name__ == "__main__":
-    sys.exit(run_families(FAMILIES, failure, 2000))
+COMPARISON = of_families(2000, FAMILIES, failure)

@@ -8,7 +8,6 @@ met, or from the exact skeleton not where no corner is flatter than 170 degrees.
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 import warnings
 from pathlib import Path
@@ -169,7 +168,3 @@ def main() -> int:
     print(f"median order of errors away from corners {order:.2f}")
     print(f"{time.monotonic() - start:.0f} s")
     return int(violations > 0 or failures > 0 or median > 3 or not 1.8 <= order <= 2.2)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

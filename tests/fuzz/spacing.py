@@ -8,17 +8,14 @@ configuration. The comparison looks at every seed, in 64-bit integers where they
 from __future__ import annotations
 
 import os
-import sys
 from fractions import Fraction
 from math import gcd, isqrt
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import compare
+from fuzz.runner import of_measured
 from support.families.families import random_case
 from vorotool import _core
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
@@ -112,5 +109,4 @@ def check(random: np.random.Generator, side: int) -> tuple[str, int, int]:
     return case.name, wrong.size, int(wrong.sum())
 
 
-if __name__ == "__main__":
-    sys.exit(compare("pixel", check, lambda case: 600 if case % 8 == 0 else SMALL))
+COMPARISON = of_measured("pixel", check, lambda case: 600 if case % 8 == 0 else SMALL)

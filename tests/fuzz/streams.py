@@ -6,14 +6,11 @@ of the contract, nothing else is said or left behind, and nothing hangs. As many
 """
 
 import itertools
-import sys
 import tempfile
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
 from support.families.stream_cases import CASES, INPUTS, OUTPUTS, Expected, fault
 from vorotool.numeric.parallel import in_order
@@ -27,7 +24,6 @@ def main() -> int:
     arguments.count = min(arguments.count, len(COMBINATIONS) - arguments.first)
     cases = Cases(arguments, "run")
     order = np.random.default_rng(arguments.seed).permutation(len(COMBINATIONS))
-    ways: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as name:
         expected = Expected(Path(name))
 
@@ -38,12 +34,5 @@ def main() -> int:
         for number, wrong in in_order(judged, cases, 0):
             case, given, left = COMBINATIONS[order[number]]
             cases.judge(number, case.command, wrong, f"{case.line} -f {case.fmt}, from {given} to {left}")
-            ways.update((f"from {given}", f"to {left}"))
-    cases.print_families()
-    for way, count in sorted(ways.items()):
-        print(f"{way:18} {count:10,} runs")
+            cases.counts.update((f"from {given}", f"to {left}"))
     return cases.end(f"runs of {len(CASES)} cases")
-
-
-if __name__ == "__main__":
-    sys.exit(main())

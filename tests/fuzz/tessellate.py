@@ -7,13 +7,10 @@ a pixel counts once a configuration.
 from __future__ import annotations
 
 import os
-import sys
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import compare
+from fuzz.runner import of_measured
 from support.families.families import fine_case, random_case
 from support.oracles.oracles import nearest_labels, nearest_labels_of_fine_seeds
 from vorotool import _core
@@ -46,5 +43,4 @@ def check(rng: np.random.Generator, side: int) -> tuple[str, int, int]:
     return name, right.size, int(wrong.sum())
 
 
-if __name__ == "__main__":
-    sys.exit(compare("pixel", check, lambda case: 1000 if case % 8 == 0 else 40))
+COMPARISON = of_measured("pixel", check, lambda case: 1000 if case % 8 == 0 else 40)

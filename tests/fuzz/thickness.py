@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 import warnings
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import run_families
+from fuzz.runner import of_families
 from support.oracles.outline_oracle import random_labels
 from support.oracles.thickness_oracle import check_thickness
 from vorotool import VorotoolError, VorotoolWarning, outlines, skeleton_exact, verify_thickness
@@ -39,5 +36,4 @@ def failure(labels: np.ndarray, random: np.random.Generator) -> str | None:
     return None
 
 
-if __name__ == "__main__":
-    sys.exit(run_families([random_labels], failure, 2000, "images"))
+COMPARISON = of_families(2000, [random_labels], failure)

@@ -1,7 +1,7 @@
 """All comparisons and all harnesses for a time in all: `make fuzz MINUTES=30 SEED=1`.
 
-Each script has its share of the time, two of them run side by side, and what each counted is printed as a table. A
-script that has compared nothing in its share fails.
+Each has its share of the time, two of them run side by side, and what each counted is printed as a table. One that has
+compared nothing in its share fails.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -34,43 +35,20 @@ class Share:
         return [*self.arguments, self.option, f"{seconds / 60 if self.option == '--minutes' else seconds:.3f}"]
 
 
-ENGINES = (
-    Share("tessellate.py", ("--pixels", MORE)),
-    Share("spacing.py", ("--pixels", MORE)),
-    Share("volumes.py", ("--voxels", MORE)),
-    Share("predicates.py", ("--calls", MORE), parts=2),
-    Share("delaunay.py"),
-    Share("cells.py"),
-    Share("written.py"),
-    Share("alphashape.py"),
-    Share("digital.py"),
-    Share("planar_graph.py"),
-    Share("segment_voronoi.py"),
-    Share("segment_voronoi.py", ("--family", "clusters", "--largest", "100", "--symmetries", "1")),
-    Share("voronoi.py"),
-    Share("voronoi_cuts.py"),
-    Share("skeletons.py"),
-    Share("skeleton_approx.py"),
-    Share("pruning.py"),
-    Share("offsets.py"),
-    Share("rotation.py"),
-    Share("outlines.py"),
-    Share("distances.py"),
-    Share("features.py", parts=2),
-)
-"""Results compared with brute force, with other libraries, or with each other."""
+def comparisons() -> list[Share]:
+    """Results compared with brute force, with other libraries, or with each other."""
+    names = [path.stem for path in sorted(HERE.glob("*.py")) if "\nCOMPARISON = " in path.read_text(encoding="utf-8")]
+    units = {name: import_module(f"fuzz.{name}").COMPARISON.unit for name in names}
+    clusters = ("--family", "clusters", "--largest", "100", "--symmetries", "1")
+    return [*(Share(name, (f"--{units[name]}s", MORE)) for name in names), Share("segment_voronoi", clusters)]
+
 
 HARNESSES = (
-    Share("bytes.py", ("--workers", "1"), 8, "--minutes"),
-    Share("faults.py", ("--kills", MORE, "--places", "0", "--batches", "0", "--pairs", "0"), 6, "--minutes"),
-    Share(
-        "faults.py",
-        ("--kills", "0", "--places", MORE, "--batches", MORE, "--pairs", MORE),
-        4,
-        "--minutes",
-    ),
-    Share("streams.py", ("--runs", MORE), parts=4),
-    Share("machines.py", parts=3),
+    Share("bytes", ("--workers", "1"), 8, "--minutes"),
+    Share("faults", ("--kills", MORE, "--places", "0", "--batches", "0", "--pairs", "0"), 6, "--minutes"),
+    Share("faults", ("--kills", "0", "--places", MORE, "--batches", MORE, "--pairs", MORE), 4, "--minutes"),
+    Share("streams", ("--runs", MORE), parts=4),
+    Share("machines", parts=3),
 )
 """What is around the engines: damaged files, kills and full disks, pipes and descriptors, other processors."""
 
@@ -96,17 +74,10 @@ class Ended:
 def run(share: Share, seconds: float, seed: int) -> Ended:
     """Run a script for its time; one that goes on for ten times as long hangs."""
     start = time.monotonic()
-    command = [sys.executable, str(HERE / share.script), *share.limited(seconds), "--seed", str(seed)]
+    command = [sys.executable, str(HERE / "run.py"), share.script, *share.limited(seconds), "--seed", str(seed)]
+    given = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "errors": "replace"}
     try:
-        done = subprocess.run(
-            command,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            timeout=10 * seconds + 120,
-            check=False,
-        )
+        done = subprocess.run(command, timeout=10 * seconds + 120, check=False, **given)
     except subprocess.TimeoutExpired as late:
         printed = late.stdout.decode(errors="replace") if isinstance(late.stdout, bytes) else late.stdout or ""
         return Ended(share, f"{printed}\nit does not end", 1, time.monotonic() - start)
@@ -118,9 +89,10 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--minutes", type=float, default=30)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", choices=sorted({share.script for share in ENGINES + HARNESSES}), nargs="+")
+    parser.add_argument("--only", nargs="+")
     arguments = parser.parse_args()
-    shares = [share for share in HARNESSES + ENGINES if arguments.only is None or share.script in arguments.only]
+    known = [*HARNESSES, *comparisons()]
+    shares = [share for share in known if arguments.only is None or share.script in arguments.only]
     part = 60 * arguments.minutes * SIDE_BY_SIDE / sum(share.parts for share in shares)
     failed = 0
     with ThreadPoolExecutor(SIDE_BY_SIDE) as pool:
@@ -132,7 +104,3 @@ def main() -> int:
             failed += bool(ended.code)
     print(f"{len(shares)} scripts in {arguments.minutes:g} minutes, {failed} of them failed")
     return int(failed > 0)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -8,16 +8,13 @@ comparison takes the least of a distance and a label axis by axis, or seed by se
 
 from __future__ import annotations
 
-import sys
 from math import isqrt
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import compare
+from fuzz.runner import of_measured
 from vorotool import _core
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
 
@@ -149,5 +146,4 @@ def check(random: np.random.Generator, side: int) -> tuple[str, int, int]:
     return case.family, wrong.size, int(wrong.sum())
 
 
-if __name__ == "__main__":
-    sys.exit(compare("voxel", check, lambda case: 150 if case % 4 == 0 else 40))
+COMPARISON = of_measured("voxel", check, lambda case: 150 if case % 4 == 0 else 40)

@@ -12,16 +12,14 @@ left out with a warning, only the map itself is checked.
 from __future__ import annotations
 
 import re
-import sys
 import warnings
-from pathlib import Path
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 import shapely
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import Cases, Comparison, Verdict
 from support.families.site_families import WHOLE, mixed_sites
 from support.oracles.voronoi_oracle import assert_nearest
 from vorotool import VoronoiMap, VorotoolError, verify_voronoi, voronoi
@@ -104,48 +102,52 @@ def _is_apart(shapes: list[Any]) -> bool:
     return len(shapes) < 2 or not any(shapely.intersects(each, shapes[:k]).any() for k, each in enumerate(shapes) if k)
 
 
-def failure(
-    shapes: list[Any], by: list[int] | None, first: VoronoiMap | None, case: list[int]
-) -> tuple[str | None, VoronoiMap | None]:
-    """What is wrong with the map of these shapes, if anything; and the map."""
+def map_of(shapes: list[Any], by: list[int] | None) -> VoronoiMap | None:
+    """The map of shapes; None where the lattice closes one, which is left out."""
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         cells = voronoi(shapes, by=by, threads=1)
-    if any(
-        re.search("bounds? nothing", str(each.message)) for each in told
-    ):  # thinner than the lattice: it is left out
-        verify_voronoi(cells, places=0)
-        return None, None
-    verify_voronoi(cells, places=PLACES)
+    is_thin = any(re.search("bounds? nothing", str(each.message)) for each in told)
+    verify_voronoi(cells, places=0 if is_thin else PLACES)
+    return None if is_thin else cells
+
+
+def failure(shapes: list[Any], by: list[int] | None, first: VoronoiMap | None, case: list[int]) -> str | None:
+    """What is wrong with the map of these shapes, if anything."""
+    cells = map_of(shapes, by)
+    if cells is None:
+        return None
     assert_nearest(geometry_of(shapes, by), cells, seed=case, count=PLACES)
-    if first is not None:
-        return unlike_the_first(cells, first), first
-    return changed_bits(shapes, by, cells, np.random.default_rng(case)), cells
+    return unlike_the_first(cells, first) if first else changed_bits(shapes, by, cells, np.random.default_rng(case))
 
 
-def main() -> int:
-    """Run the cases; exit 1 if any failed."""
-    cases = Cases(options(10**5).parse_args())
-    first: tuple[int, VoronoiMap | None] = (-1, None)
-    sites = 0
-    for case in cases:
-        drawing, symmetry = divmod(case, 8)
-        random, draw = cases.random(drawing), FAMILIES[drawing % len(FAMILIES)]
-        count = int(np.exp(random.uniform(0, np.log(30))))
-        shapes = draw(random, count)
-        by = random.integers(0, 1 + count // 2, count).tolist() if random.random() < 0.25 else None
-        known = first[1] if first[0] == drawing and symmetry else None
-        wrong = None
-        try:
-            wrong, made = failure(under_symmetry(shapes, symmetry), by, known, cases.seed(case))
-            first = (drawing, made)
-        except (VorotoolError, AssertionError, ValueError) as error:
-            wrong = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"
-        cases.judge(case, draw.__name__, wrong, f"{count} shapes")
-        sites += count
-    cases.print_families()
-    return cases.end(f"cases, {sites:,} shapes")
+@lru_cache(maxsize=1)
+def unturned(drawing: int, seed: int) -> tuple[str, list[Any], list[int] | None]:
+    """The family of a drawing, its shapes, and which of them are one site."""
+    random, draw = np.random.default_rng([seed, drawing]), FAMILIES[drawing % len(FAMILIES)]
+    count = int(np.exp(random.uniform(0, np.log(30))))
+    shapes = draw(random, count)
+    return draw.__name__, shapes, random.integers(0, 1 + count // 2, count).tolist() if random.random() < 0.25 else None
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+@lru_cache(maxsize=1)
+def first_map(drawing: int, seed: int) -> VoronoiMap | None:
+    """The map of a drawing as it is drawn."""
+    return map_of(*unturned(drawing, seed)[1:])
+
+
+def check(case: int, cases: Cases) -> Verdict:
+    """Judge the map of shapes under one of the symmetries, beside that of the shapes as they were drawn."""
+    drawing, symmetry = divmod(case, 8)
+    name, shapes, by = unturned(drawing, cases.arguments.seed)
+    cases.counts["shapes"] += len(shapes)
+    wrong = None
+    try:
+        first = first_map(drawing, cases.arguments.seed) if symmetry else None
+        wrong = failure(under_symmetry(shapes, symmetry), by, first, cases.seed(case))
+    except (VorotoolError, AssertionError, ValueError) as error:
+        wrong = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"
+    return name, wrong, f"{len(shapes)} shapes"
+
+
+COMPARISON = Comparison(10**5, check)

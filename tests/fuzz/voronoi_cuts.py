@@ -9,15 +9,12 @@ counted: at most one in 500 may be.
 
 from __future__ import annotations
 
-import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import shapely
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import Cases, Comparison, Verdict
 from support.families.cut_scenes import lattice_clip, lattice_lines, lattice_sites
 from support.oracles.cut_oracle import assert_nearest_in_regions, meets_itself, regions_of_lines
 from vorotool import VoronoiMap, VorotoolError, verify_voronoi, voronoi
@@ -41,7 +38,7 @@ def check_shared(cells: VoronoiMap) -> None:
         assert shapely.coverage_is_valid(shapes) or meets_itself(shapes)
 
 
-def check(kind: str, side: int, limit: float | None, random: np.random.Generator, seed: list[int]) -> int:
+def check_scene(kind: str, side: int, limit: float | None, random: np.random.Generator, seed: list[int]) -> int:
     """Make a scene and its map, and compare them; gives how many sites there are."""
     sites = lattice_sites(random, side)
     if kind == "clip":
@@ -65,28 +62,21 @@ def check(kind: str, side: int, limit: float | None, random: np.random.Generator
     return len(sites)
 
 
-def main() -> int:
-    """Run the cases; exit 1 if any failed."""
-    cases = Cases(options(10**5).parse_args())
-    sites = refused = 0
-    for case in cases:
-        random = cases.random(case)
-        kind, side = KINDS[case % 2], LATTICES[case // 2 % 3]
-        limit = float(side * random.choice([0.125, 0.25, 0.3, 0.5])) if case // 6 % 2 else None
-        wrong = None
-        try:
-            with warnings.catch_warnings(action="ignore"):
-                sites += check(kind, side, limit, random, cases.seed(case))
-        except (VorotoolError, AssertionError, ValueError) as error:
-            if REFUSED in str(error):
-                refused += 1
-            else:
-                wrong = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"
-        cases.judge(case, kind, wrong, f"lattice of {side}, limit {limit}")
-    cases.print_families()
-    ended = cases.end(f"maps, {sites:,} sites, {refused} refused")
-    return int(ended or refused > max(1, MOST_REFUSED * cases.count))
+def check(case: int, cases: Cases) -> Verdict:
+    """Judge the map of a scene."""
+    random = cases.random(case)
+    kind, side = KINDS[case % 2], LATTICES[case // 2 % 3]
+    limit = float(side * random.choice([0.125, 0.25, 0.3, 0.5])) if case // 6 % 2 else None
+    wrong = None
+    try:
+        with warnings.catch_warnings(action="ignore"):
+            cases.counts["sites"] += check_scene(kind, side, limit, random, cases.seed(case))
+    except (VorotoolError, AssertionError, ValueError) as error:
+        wrong = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"
+        if REFUSED in wrong:
+            cases.counts["refused"] += 1
+            wrong = "too many are refused" if cases.counts["refused"] > 3 + MOST_REFUSED * cases.count else None
+    return kind, wrong, f"lattice of {side}, limit {limit}"
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+COMPARISON = Comparison(10**5, check)

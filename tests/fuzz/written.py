@@ -8,9 +8,7 @@ are nearly so, terraces in UTM whose walls are equal up to rounding, and pieces 
 from __future__ import annotations
 
 import json
-import sys
 import tempfile
-from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -19,9 +17,8 @@ import numpy as np
 import shapely
 from shapely import affinity
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from fuzz.runner import Cases, options
+from fuzz.runner import Cases, Comparison, Verdict
 from vorotool import VorotoolError
 
 FORMATS = ("geojson", "wkt", "gpkg")
@@ -160,31 +157,25 @@ def fault(path: Path, fmt: str, decimals: int | None, area: float | None) -> str
     return f"areas sum to {total}, not {expected}" if far else None
 
 
-def main() -> int:
-    """Run all sets; exit 1 if anything failed."""
-    cases = Cases(options(300, "set").parse_args(), "set")
-    counts: Counter[str] = Counter()
-    with tempfile.TemporaryDirectory() as folder:
-        for case in cases:
-            rng = cases.random(case)
-            families = [*POINTS, *SHAPES]
-            family: Any = families[case % len(families)]
-            try:
-                given = family(rng)
-                made = of_points(given, rng) if family in POINTS else of_shapes(given, rng) if given else iter(())
-                for name, value, what, area in made:
-                    fmt, decimals = FORMATS[int(rng.integers(3))], DECIMALS[int(rng.integers(3))]
-                    path = Path(folder) / f"a.{fmt}"
-                    path.unlink(missing_ok=True)
-                    vorotool.write(value, path, what=what, decimals=decimals)
-                    counts[name] += 1
-                    wrong = fault(path, fmt, decimals, area)
-                    about = f"{name} as {fmt} with {decimals} decimals"
-                    cases.judge(case, family.__name__, wrong and f"{about}: {wrong}")
-            except VorotoolError as error:
-                cases.judge(case, family.__name__, f"{type(error).__name__}: {error}")
-    return cases.end(f"sets, {sum(counts.values()):,} files, {dict(counts)}")
+def check(case: int, cases: Cases) -> Verdict:
+    """Write all results of some points or polygons, and read them back."""
+    rng, families = cases.random(case), [*POINTS, *SHAPES]
+    family: Any = families[case % len(families)]
+    wrong = []
+    try:
+        given = family(rng)
+        made = of_points(given, rng) if family in POINTS else of_shapes(given, rng) if given else iter(())
+        for name, value, what, area in made:
+            fmt, decimals = FORMATS[int(rng.integers(3))], DECIMALS[int(rng.integers(3))]
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder) / f"a.{fmt}"
+                vorotool.write(value, path, what=what, decimals=decimals)
+                found = fault(path, fmt, decimals, area)
+            cases.counts[name] += 1
+            wrong += [f"{name} as {fmt} with {decimals} decimals: {found}"] * (found is not None)
+    except VorotoolError as error:
+        wrong.append(f"{type(error).__name__}: {error}")
+    return family.__name__, "; ".join(wrong) or None, ""
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+COMPARISON = Comparison(300, check, "set")

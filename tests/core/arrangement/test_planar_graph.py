@@ -86,13 +86,6 @@ def test_holes_without_an_area(hole, polygon):
     check(np.concatenate([xy for xy, _, _ in order]).astype(np.int32), rings)
 
 
-@pytest.mark.parametrize("name", FAMILIES)
-def test_large_inputs_are_planar(name):
-    for seed in range(2):
-        graph = graph_of(*draw(name, 300, [7, seed]))
-        assert fault(graph) is None
-
-
 @pytest.mark.parametrize("name", ["tiny", "collinear", "mosaic", "star", "spikes"])
 def test_the_eight_symmetries(name):
     """The cells are half-open, so that only what does not move is the same under reflection."""
@@ -110,20 +103,6 @@ def test_the_eight_symmetries(name):
             back = back * [sx, sy]
             assert {frozenset(map(tuple, pair)) for pair in back[other.segments].tolist()} == pairs
             assert other.repairs == graph.repairs
-
-
-@pytest.mark.parametrize("name", FAMILIES)
-def test_the_pieces_need_no_repair(name):
-    """The segments as lines give themselves."""
-    for seed in range(3):
-        graph = graph_of(*draw(name, 60, [11, seed]))
-        ends = graph.segments.ravel()
-        if not len(ends):
-            continue
-        again = graph_of(graph.points[ends], rings_of([2] * (len(ends) // 2), [LINE] * (len(ends) // 2)))
-        assert not any(again.repairs.values())
-        pairs = graph.points[graph.segments]
-        assert again.points[again.segments].tolist() == pairs.tolist()
 
 
 def chain_of_disturbances(length):

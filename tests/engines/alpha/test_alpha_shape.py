@@ -10,7 +10,7 @@ import pytest
 import shapely
 
 from support.families.alpha_cases import quietly
-from support.families.point_families import FAMILIES, draw
+from support.families.point_families import draw
 from support.few import few
 from vorotool import (
     InputError,
@@ -255,15 +255,6 @@ def test_the_checker_finds_faults():
     for words, wrong in faulty.items():
         with pytest.raises(VerificationError, match=words):
             verify_alpha_shape(wrong)
-
-
-@pytest.mark.parametrize("name", few(FAMILIES, 10))
-def test_every_family_passes_the_checker(name):
-    points = draw(name, 16 if name == "any_double" else 70, 9)
-    family = quietly(points)
-    for k in (0, len(family.spectrum) // 2, len(family.spectrum) - 1):
-        verify_alpha_shape(alpha_shape(family, r=family.radius_from(k)))
-    verify_alpha_shape(alpha_shape(family, r=np.inf))
 
 
 def test_too_few_objects_of_an_image():

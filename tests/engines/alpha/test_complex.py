@@ -6,18 +6,15 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import vorotool
 from support.families.alpha_cases import quietly
 from support.families.point_families import FAMILIES, draw
 from support.few import few
-from support.oracles.alpha_oracle import alpha_edges, rounded_root
+from support.oracles.alpha_oracle import rounded_root
 from support.processes.heard_signals import stop
 from support.readers.written import assert_same
 from vorotool import alpha_complex
-from vorotool.types.alpha.complex import CLASSES, classes_of
 
 families = pytest.mark.parametrize("name", FAMILIES)
 ARRAYS = ("edges", "sides", "r_min", "r_mid", "r_max", "rank_min", "rank_mid", "rank_max", "triangle_rank", "spectrum")
@@ -25,53 +22,6 @@ ARRAYS = ("edges", "sides", "r_min", "r_mid", "r_max", "rank_min", "rank_mid", "
 
 def distinct(points):
     return len({(x, y) for x, y in np.asarray(points, float).tolist()})
-
-
-def places(family, edge):
-    return frozenset((Fraction(x), Fraction(y)) for x, y in family.points[family.edges[edge]].tolist())
-
-
-def check_by_definition(points, most=20):
-    """Edges and classes at critical radii, between them, and below the first."""
-    family = quietly(points)
-    squares = [family.squared_radius(k) for k in range(len(family.spectrum))]
-    assert squares == sorted(set(squares))
-    steps = max(1, len(squares) // most)
-    for k in range(-1, len(squares), steps):
-        here = squares[k] if k >= 0 else squares[0] / 2
-        between = (squares[k] + squares[k + 1]) / 2 if 0 <= k < len(squares) - 1 else here * (1 if k < 0 else 2)
-        classes = classes_of(family, k + 1, k + 1)
-        ours = {places(family, e): CLASSES[classes[e]] for e in np.flatnonzero((classes == 1) | (classes == 2))}
-        for square in {here, between}:
-            assert ours == alpha_edges(points.tolist(), square), (k, square)
-
-
-@families
-def test_the_definition_in_rationals(name):
-    for seed in range(3):
-        points = draw(name, 4 + 2 * seed - (name == "any_double") * seed, seed)
-        if distinct(points) > 1:
-            check_by_definition(points)
-
-
-lattice = st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=2, max_size=11)
-floats = st.floats(allow_nan=False, allow_infinity=False)
-tiny_steps = st.integers(0, 3).map(lambda k: 0.5 + k * 2.0**-53)
-near = st.lists(st.tuples(tiny_steps | st.integers(0, 2).map(float), tiny_steps | floats), min_size=2, max_size=7)
-
-
-@settings(max_examples=30, deadline=None)
-@given(lattice)
-def test_any_lattice_points(points):
-    if distinct(points) > 1:
-        check_by_definition(np.array(points, float))
-
-
-@settings(max_examples=30, deadline=None)
-@given(near | st.lists(st.tuples(floats, floats), min_size=2, max_size=6))
-def test_any_doubles(points):
-    if distinct(points) > 1:
-        check_by_definition(np.array(points, float))
 
 
 def exact_radii(family):

@@ -8,18 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import vorotool
-from support.families.point_families import FAMILIES, QUICK, SLOW_LAST, draw
+from support.families.point_families import QUICK, SLOW_LAST, draw
 from support.few import few
-from support.oracles.cells_oracle import exact_cells, nearest_double
 from support.processes.heard_signals import stop
-from vorotool import Box, InputError, VerificationError, VorotoolWarning, _core, delaunay, verify_cells, voronoi_cells
+from vorotool import Box, InputError, VerificationError, VorotoolWarning, delaunay, verify_cells, voronoi_cells
 from vorotool.engines.delaunay.cells import cut_out
-
-families = pytest.mark.parametrize("name", FAMILIES)
 
 
 def quietly(points, **options):
@@ -29,77 +24,6 @@ def quietly(points, **options):
     if "clip" not in options:
         verify_cells(cells, threads=1)
     return cells
-
-
-def rings(cells):
-    return [[tuple(p) for p in part.tolist()] for part in np.split(cells.coordinates, cells.starts[1:-1])]
-
-
-def frames(points, seed):
-    """The default, one in the middle, one with a corner on a site, and one with sides through the outermost sites."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    reach = float(np.max(high / 2 - low / 2)) or 1.0
-    middle = low / 2 + high / 2
-    site = points[seed % len(points)]
-    boxes = [
-        (*(middle - reach / 2), *(middle + reach / 2)),
-        (*site, *(site + reach)),
-        (*low, *(low + np.where(high > low, high - low, reach))),
-    ]
-    ordered = [b for b in boxes if np.isfinite(b).all() and b[0] < b[2] and b[1] < b[3]]
-    return [None, *(Box(*box) for box in ordered)]
-
-
-def check_by_cutting(points, frame):
-    """Every corner of the exact cell, rounded, is there, in order; what lies between them is a vertex of neighbors."""
-    cells = quietly(points, frame=frame)
-    exact = exact_cells(cells.sites.tolist(), cells.frame.sides)
-    for ours, right in zip(rings(cells), exact, strict=True):
-        try:
-            rounded = [(nearest_double(x), nearest_double(y)) for x, y in right]
-        except OverflowError:
-            return
-        rounded = [p for k, p in enumerate(rounded) if p != rounded[k - 1]]
-        if not ours:  # a cell without area, as rounded if not before
-            assert all(_core.kernel.orient2d(np.array([[*rounded[0], *rounded[1], *p]]))[0] == 0 for p in rounded[2:])
-            continue
-        start = rounded.index(min(rounded))
-        assert [p for p in ours if p in rounded] == rounded[start:] + rounded[:start]
-
-
-@families
-def test_the_frame_cut_along_every_bisector_in_rationals(name):
-    for seed in range(5):
-        points = draw(name, 1 + seed, seed)
-        for frame in frames(points, seed):
-            check_by_cutting(points, frame)
-
-
-@families
-@pytest.mark.parametrize("n", few([4, 17, 1, 2, 3, 120], 2))
-def test_every_family_passes_the_checker(name, n):
-    for seed in range(2):
-        points = draw(name, min(n, 20) if name == "any_double" else n, seed)
-        for frame in frames(points, seed):
-            quietly(points, frame=frame)
-
-
-lattice = st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1, max_size=9)
-corner = st.tuples(st.integers(-4, 3), st.integers(-4, 3), st.integers(1, 6), st.integers(1, 6))
-floats = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e200, max_value=1e200)
-
-
-@settings(max_examples=25, deadline=None)
-@given(lattice, corner)
-def test_any_lattice_points(points, frame):
-    """Frames through sites, vertices and edges; exact halves and quarters."""
-    check_by_cutting(points, (frame[0] / 2, frame[1] / 2, frame[2] / 2, frame[3] / 2))
-
-
-@settings(max_examples=25, deadline=None)
-@given(st.lists(st.tuples(floats, floats), min_size=1, max_size=6))
-def test_any_doubles(points):
-    check_by_cutting(points, None)
 
 
 def test_against_shapely():

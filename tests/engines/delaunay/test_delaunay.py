@@ -5,20 +5,16 @@ import warnings
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 
 import vorotool
-from support.families.point_families import FAMILIES, QUICK, SLOW_LAST, draw
+from support.families.point_families import QUICK, SLOW_LAST, draw
 from support.few import few
-from support.oracles.delaunay_oracle import delaunay_triangles
 from support.processes.heard_signals import stop
 from support.readers.written import assert_same
 from vorotool import InputError, PointSet, VorotoolWarning, delaunay, verify_triangulation
 
 ARRAYS = ("triangles", "neighbors", "edges", "hull", "first")
-families = pytest.mark.parametrize("name", FAMILIES)
 quick_families = pytest.mark.parametrize("name", few(SLOW_LAST, QUICK))
 
 
@@ -32,27 +28,6 @@ def quietly(points, **options):
 
 def edge_set(edges):
     return {tuple(sorted(edge)) for edge in edges.tolist()}
-
-
-def check_by_definition(points):
-    mesh = quietly(points)
-    triangles = [frozenset(map(tuple, t)) for t in mesh.points[mesh.triangles].tolist()]
-    right = {frozenset((float(x), float(y)) for x, y in t) for t in delaunay_triangles(mesh.points.tolist())}
-    assert set(triangles) == right
-    assert len(triangles) == len(right)
-
-
-@families
-@pytest.mark.parametrize("n", few([5, 100, 0, 1, 2, 3, 4, 17, 1500], 2))
-def test_every_family_passes_the_checker(name, n):
-    for seed in range(3):
-        quietly(draw(name, min(n, 120) if name in ("any_double", "tiny_y") else n, seed), threads=2)
-
-
-@families
-def test_the_definition_in_rationals(name):
-    for seed in range(8):
-        check_by_definition(draw(name, 4 + seed, seed))
 
 
 def test_against_scipy():
@@ -70,24 +45,6 @@ def test_threads_change_nothing(name):
     one, *others = (quietly(points, threads=threads) for threads in (1, 2, 5))
     for other in others:
         assert_same(ARRAYS, one, other)
-
-
-lattice = st.lists(st.tuples(st.integers(-4, 4), st.integers(-4, 4)), max_size=12)
-floats = st.floats(allow_nan=False, allow_infinity=False)
-tiny_steps = st.integers(0, 3).map(lambda k: 0.5 + k * 2.0**-53)
-near = st.lists(st.tuples(tiny_steps | st.integers(0, 2).map(float), tiny_steps | floats), max_size=9)
-
-
-@settings(max_examples=40, deadline=None)
-@given(lattice)
-def test_any_lattice_points(points):
-    check_by_definition(points)
-
-
-@settings(max_examples=40, deadline=None)
-@given(near | st.lists(st.tuples(floats, floats), max_size=7))
-def test_any_doubles(points):
-    check_by_definition(points)
 
 
 @pytest.mark.parametrize(

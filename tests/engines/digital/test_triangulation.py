@@ -125,18 +125,6 @@ def far_label(found):
 # ---- the repair -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", few(range(25), 8))
-def test_the_repair_is_the_exact_triangulation(seed):
-    m = (64, 64, 64, 128, 256)[seed % 5]
-    rng = np.random.default_rng(seed)
-    seeds = distinct_pixels(seed, m, int(rng.integers(3, m * m // 20 + 1)))
-    mesh, repair = repair_digital(seeds, shape=(m, m), threads=1)
-    verify_triangulation(mesh)
-    assert_same(ARRAYS, mesh, delaunay(seeds))
-    assert repair.route == "repaired"
-    assert repair.fault is None
-
-
 @pytest.mark.parametrize("case", few(range(120), 12))
 def test_any_seeds_have_the_exact_triangulation(case):
     """Between pixels, outside the frame, duplicates, lines: the repair may have to insert them all, and says so."""

@@ -7,10 +7,8 @@ import pytest
 import shapely
 
 import vorotool
-from support.families.skeleton_shapes import crossing, holed, star, tiles, valid
 from support.few import few
 from support.oracles.clearance_profile import ratios_along
-from support.oracles.neck_oracle import disagreement
 from vorotool import UsageError, VerificationError, necks, skeleton_exact, verify_necks
 
 DUMBBELL = [[0, 0], [4, 0], [4, 1.5], [7, 1.5], [7, 0], [12, 0], [12, 6], [7, 6], [7, 2.5], [4, 2.5], [4, 4], [0, 4]]
@@ -44,18 +42,6 @@ def test_of_equally_narrow_necks_the_first_counts_as_narrower():
     found = necks(rooms((10, 10), (5, 2), (6, 6), (5, 2), (12, 12)))
     assert found.width.tolist() == [2, 2]
     assert found.beside.tolist() == [[5, 6], [3, 6]]
-
-
-@pytest.mark.parametrize("family", [star, crossing, holed, tiles, valid])
-@pytest.mark.parametrize("seed", few(range(5), 2))
-@pytest.mark.filterwarnings("ignore")
-def test_random_shapes_are_as_brute_force_has_them(family, seed):
-    random = np.random.default_rng([seed, 22])
-    skeleton = skeleton_exact(family(random), features=("separate", "together")[seed % 2])
-    found = necks(skeleton, neck=1)
-    verify_necks(found)
-    if len(skeleton.polygons.xy) <= 40:
-        assert disagreement(found) is None
 
 
 def test_a_skeleton_gives_the_same_and_others_are_refused():

@@ -9,8 +9,6 @@ import shapely
 
 import vorotool
 from engines.necks.test_necks import DUMBBELL
-from support.families.skeleton_shapes import crossing, holed, several, star, tiles, valid
-from support.few import few
 from vorotool import (
     UsageError,
     VerificationError,
@@ -54,21 +52,6 @@ def test_a_piece_whose_ring_would_touch_itself_has_a_hole():
     pieces = parts(shape, neck=1)
     verify_parts(pieces)
     assert shapely.is_valid(pieces.to_shapely()).all()
-
-
-@pytest.mark.parametrize("family", [star, crossing, holed, several, tiles, valid])
-@pytest.mark.parametrize("seed", few(range(4), 2))
-@pytest.mark.filterwarnings("ignore")
-def test_random_shapes(family, seed):
-    random = np.random.default_rng([seed, 23])
-    shape, features = family(random), ("separate", "together")[seed % 2]
-    for ratio in (0.5, 1.0):
-        pieces = parts(shape, neck=ratio, features=features)
-        verify_parts(pieces)
-        shapes = pieces.to_shapely()
-        full = (np.diff(pieces.polygons.ring_starts) > 2).all()
-        assert not full or shapely.is_valid(shapes).all()
-        assert shapely.area(shapes) == pytest.approx(pieces.area, rel=1e-9)
 
 
 def test_pieces_say_what_their_polygon_says():

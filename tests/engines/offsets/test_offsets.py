@@ -1,30 +1,14 @@
 """Offsets of shapes beside the buffers of shapely, and what their checker finds."""
 
-import warnings
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import vorotool
-from fuzz.offsets import SHAPES, failure
-from support.families.skeleton_shapes import small
-from support.few import few
 
 ROOMS = [[0, 0], [4, 0], [4, 1], [6, 1], [6, 0], [10, 0], [10, 4], [6, 4], [6, 2], [4, 2], [4, 4], [0, 4]]
 """Two rooms and a door of width 1."""
-
-
-HALVES = [(family, (k + turn) % 2) for turn in (0, 1) for k, family in enumerate(SHAPES)]
-"""Each family with every other distance, and with those left out."""
-
-
-@pytest.mark.parametrize(
-    ("family", "begin"), few(HALVES, len(SHAPES) // 2), ids=lambda each: getattr(each, "__name__", each)
-)
-def test_offsets_are_those_of_shapely(family, begin):
-    with warnings.catch_warnings(action="ignore"):
-        assert failure(small(family, 3, most=10), np.random.default_rng(3), slice(begin, None, 2)) is None
 
 
 def test_what_has_vanished_is_not_there():

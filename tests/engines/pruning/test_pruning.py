@@ -1,28 +1,16 @@
 """Pruned skeletons and centerlines: beside brute force, nested, connected."""
 
-import warnings
-
 import networkx
 import numpy as np
 import pytest
 
 import vorotool
-from fuzz.pruning import failure
-from support.families.skeleton_shapes import FAMILIES, small
-from support.few import few
 from support.readers.written import differing
 from vorotool.engines.pruning import pruning
 from vorotool.engines.pruning.pruning import independent_parts
 from vorotool.errors import UsageError
 
 COMB = [[0, 0], [30, 0], [30, 6], [26, 6], [26, 12], [24, 12], [24, 6], [6, 6], [6, 9], [4, 9], [4, 6], [0, 6]]
-
-
-@pytest.mark.parametrize("seed", few(range(2), 1))
-@pytest.mark.parametrize("family", few(FAMILIES, 5), ids=lambda family: family.__name__)
-def test_brute_force_agrees_and_results_are_nested(family, seed):
-    with warnings.catch_warnings(action="ignore"):
-        assert failure(small(family, seed, most=14), np.random.default_rng(seed)) is None
 
 
 @pytest.mark.parametrize("criterion", ["angle", "chord", "scale", "length", "ratio"])

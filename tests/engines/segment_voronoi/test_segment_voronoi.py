@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from support.families.segment_families import (
     BOOST_FAILURE,
@@ -13,7 +11,6 @@ from support.families.segment_families import (
     coarse,
     draw,
     polygon,
-    renumbered,
     symmetries,
 )
 from support.few import few
@@ -90,39 +87,6 @@ def test_graphs_that_were_wrong_once(points, segments):
         verify_segment_voronoi(diagram, threads=1)
         if k % 4 == 0 or len(points) < 6:
             assert not differences(diagram, voronoi_diagram(turned, segments))
-
-
-@given(
-    st.sampled_from(["two_boxes", "fan", "clusters", "crowded", "scattered", "star_small", "jittered_grid"]),
-    st.integers(0, 2**32),
-)
-@settings(max_examples=8)
-def test_brute_force_agrees_on_graphs_of_any_kind(name, seed):
-    points, segments = draw(name, 6, seed)
-    if len(points) + len(segments) <= SMALL:
-        assert_right(points, segments)
-
-
-@pytest.mark.parametrize("name", few(FAMILIES, 8))
-def test_the_checker_passes_under_the_symmetries_of_the_square(name):
-    points, segments = draw(name, 90, 1)
-    vertices = set()
-    for turned in symmetries(points):
-        diagram = segment_voronoi(turned, segments)
-        verify_segment_voronoi(diagram)
-        vertices.add((len(diagram), len(diagram.edges)))
-    assert len(vertices) == 1
-
-
-@pytest.mark.parametrize("name", few(FAMILIES, 8))
-def test_numbers_of_sites_change_nothing_else(name):
-    points, segments = draw(name, 80, 5)
-    diagram = segment_voronoi(points, segments)
-    other_points, other_segments, number = renumbered(points, segments, np.random.default_rng(5))
-    other = segment_voronoi(other_points, other_segments)
-    for array in ("vertices", "radius", "vertex_starts", "edges"):
-        assert np.array_equal(getattr(diagram, array), getattr(other, array))
-    assert np.array_equal(number[diagram.edge_sites], other.edge_sites)
 
 
 def test_a_closed_form_with_five_roundings_too_many_is_refined():

@@ -9,20 +9,16 @@ import numpy as np
 import pytest
 
 import vorotool
-from support.families.skeleton_shapes import FAMILIES, under_symmetries
+from fuzz.skeletons import failure
+from support.families.skeleton_shapes import under_symmetries
 from support.few import few
 from vorotool.engines.offsets.verify_offsets import verify_offsets
-from vorotool.engines.segment_voronoi.segment_voronoi import verify_segment_voronoi
-from vorotool.engines.skeleton.exact import shape_diagram
-from vorotool.engines.skeleton.exact import skeleton_of as skeleton_of_shapes
 from vorotool.engines.skeleton.shortened_edges import element_diagram, exact_for, gap_deviation
-from vorotool.engines.skeleton.verify_skeleton import verify_exterior
 from vorotool.errors import InputError, UsageError, VerificationError, VorotoolWarning
 from vorotool.types.box import default_frame
 from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR
 
 DATA = Path(__file__).parents[3] / "data"
-SIDES = ("interior", "exterior", "both")
 
 
 def skeleton_of(shape, **options):
@@ -83,32 +79,12 @@ def test_no_polygons_at_all():
 # ---- random shapes ----
 
 
-@pytest.mark.parametrize("seed", few(range(3), 1))
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
-def test_random_shapes(family, seed):
-    rng = np.random.default_rng([5, seed])
-    shape = family(rng)
-    for side in SIDES:
-        skeleton_of(shape, side=side)
-    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
-        verify_exterior(shape_diagram(shape))
-
-
 @pytest.mark.parametrize(
     "name", few(["shape.json", "two-shapes.json", "ne_110m_lakes.geojson", "great-lakes.geojson"], 2)
 )
 def test_shapes_of_data_under_the_symmetries_of_the_square(name):
-    counts = set()
-    for turned in under_symmetries(vorotool.read(DATA / name)):
-        with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
-            shapes = shape_diagram(turned)
-        verify_segment_voronoi(shapes.diagram)
-        verify_exterior(shapes)
-        skeletons = [skeleton_of_shapes(shapes, side=side) for side in SIDES]
-        for made in skeletons:
-            vorotool.verify_skeleton(made)
-        counts.add((len(shapes.diagram), len(shapes.diagram.edges), *map(len, skeletons)))
-    assert len(counts) == 1
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+        assert [failure(turned) for turned in under_symmetries(vorotool.read(DATA / name))] == [None] * 8
 
 
 # ---- relations ----

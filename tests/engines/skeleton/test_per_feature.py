@@ -10,7 +10,7 @@ from scipy.ndimage import gaussian_filter
 
 import vorotool
 from fuzz import features as fuzz
-from fuzz.features import FAMILIES, as_set, one_case
+from fuzz.features import FAMILIES, as_set
 from support.few import few
 from support.oracles.outline_oracle import random_labels
 from support.processes.heard_signals import stop
@@ -59,14 +59,6 @@ def test_objects_of_masks_that_do_not_touch_are_those_of_one_diagram(threads, mo
         polygons = vorotool.outlines(mask, connectivity=8)
         made = feature_skeleton(polygons, threads=threads).skeleton
         assert all_differing(made, skeleton_of(shape_diagram(polygons))) == []
-
-
-@pytest.mark.parametrize("case", few(range(90), len(FAMILIES)))
-def test_features_among_others_are_what_they_are_alone(case):
-    """A few cases of what `make fuzz` does with 20 000."""
-    with warnings.catch_warnings(action="ignore"):
-        family, wrong = one_case(case, np.random.default_rng([7, case]))
-    assert wrong is None, family
 
 
 def test_what_lies_inside_has_its_skeleton_and_takes_none():

@@ -61,7 +61,6 @@ END = int(RIGHT.branch[np.flatnonzero((RIGHT.radius[RIGHT.arcs[:, 0]] == 0) & (R
 RING = int(np.bincount(RIGHT.branch[RIGHT.polygon == 1]).argmax())
 JUNCTION = int(np.flatnonzero(RIGHT.degree == 3)[0])
 PARABOLA = int(np.flatnonzero(RIGHT.is_parabola)[0])
-CORNERS = np.flatnonzero(RIGHT.radius == 0)
 WRONG = {
     "a node is elsewhere": (changed("vertices", add((JUNCTION, 0), 1e-6)), "node"),
     "a radius is wrong": (changed("radius", add(JUNCTION, 1e-9)), "but its radius is"),

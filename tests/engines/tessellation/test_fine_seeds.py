@@ -6,31 +6,9 @@ import numpy as np
 import pytest
 
 import vorotool
-from support.families.families import fine_case
-from support.few import few
-from support.oracles.oracles import nearest_labels_of_fine_seeds
-from vorotool.engines.tessellation.tessellate import verify_labels
-from vorotool.engines.tessellation.tessellator import SeedBands, Tessellator
-from vorotool.types.pixels import Frame
-from vorotool.types.points.seed_set import SeedSet
+from vorotool.engines.tessellation.tessellator import Tessellator
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*seeds (moved|lie)")
-
-
-@pytest.mark.parametrize("seed", few(range(60), 20))
-def test_labels_of_fine_seeds_in_one_and_in_bands(seed):
-    rng = np.random.default_rng(seed)
-    _, x, y, labels, scale, where, sides = fine_case(rng)
-    seeds, frame = SeedSet(x, y, labels, scale=scale), Frame(*where)
-    right = nearest_labels_of_fine_seeds(x, y, labels, where, scale, sides.units)
-    sweep = Tessellator(seeds, frame, sides=sides, threads=int(rng.integers(1, 4)))
-    assert (sweep.labels() == right).all()
-    verify_labels(right, sweep.seeds, frame, sides=sides)
-    bands, height = SeedBands(seeds, frame), max(1, frame.height // 3)
-    for first in range(0, frame.height, height):
-        rows = min(height, frame.height - first)
-        apart = bands.band("labels", np.dtype(np.uint32), first, rows, sides=sides)
-        assert (apart.rows() == right[first : first + rows]).all()
 
 
 def test_seeds_get_the_lattice_of_the_frame_and_the_coarsest_that_holds_them():

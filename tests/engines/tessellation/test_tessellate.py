@@ -8,8 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vorotool
-from support.families.families import FAMILIES, random_case
-from support.few import few
+from support.families.families import FAMILIES
 from support.oracles.oracles import nearest_labels, nearest_squares
 from vorotool import _core
 from vorotool.engines.tessellation.frames import SIMD_LEVELS, as_seeds, default_frame
@@ -34,18 +33,6 @@ def sweep_of(x, y, labels, frame, scale=1, **options):
 
 
 # ---- against brute force ---------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("seed", few(range(12), 2))
-def test_labels_are_those_of_brute_force(simd, seed):
-    rng = np.random.default_rng(seed)
-    for case in range(40):
-        name, x, y, labels, scale, frame = random_case(rng)
-        right = nearest_labels(x, y, labels, frame, scale)
-        sweep = sweep_of(x, y, labels, frame, scale, threads=1 + case % 5)
-        for dtype in (np.uint32, np.uint16):
-            np.testing.assert_array_equal(sweep.labels(dtype=dtype), right, err_msg=f"{name} {frame} {scale}")
-        verify_rows(sweep)
 
 
 @pytest.mark.parametrize("name", FAMILIES)

@@ -15,7 +15,6 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.pixels import PixelSides
 
-LEVELS = ("portable", "avx2", "avx512")
 WAYS = ("rows", "bricks")
 KINDS = ("uniform", "lattice", "plane", "line", "sphere", "outside")
 
@@ -56,32 +55,6 @@ def seeds_of(random, kind, count, shape):
     elif kind == "outside":
         places = random.integers(-60, np.array(shape) + 60, (count, 3))
     return places, random.integers(1, count + 1, count).astype(np.uint32)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("level", LEVELS)
-@pytest.mark.parametrize("seed", few(range(8), 1))
-def test_every_voxel_has_the_smallest_label_of_its_nearest_seeds(kind, level, seed, monkeypatch):
-    random = np.random.default_rng([seed, KINDS.index(kind)])
-    shape = tuple(random.integers(1, (24, 40, 3)[seed % 3], 3).tolist())
-    places, labels = seeds_of(random, kind, int(random.choice([1, 2, 9, 60, 300])), shape)
-    units = tuple(random.integers(1, 10, 3).tolist()) if seed % 2 else (1, 1, 1)
-    sides = PixelSides(units)
-    monkeypatch.setenv("VOROTOOL_SIMD", level)
-    try:
-        sweeps = [swept(places, labels, shape, sides=sides, threads=1 + seed % 2, way=way) for way in WAYS]
-    except UsageError:
-        pytest.skip("this machine has it not")
-    nearest, least = brute(places, labels, shape, units)
-    limit = int(random.integers(0, 20))
-    for sweep, way in zip(sweeps, WAYS, strict=True):
-        assert np.array_equal(sweep.labels(), nearest)
-        assert np.array_equal(sweep.squared_distances(), least)
-        assert np.array_equal(sweep.distances(), np.sqrt(least.astype(float)).astype(np.float32))
-        slices = [sweep.labels(k, 1) for k in range(shape[0])]
-        assert np.array_equal(np.concatenate(slices), nearest)
-        limited = swept(places, labels, shape, sides=sides, max_distance=limit, way=way)
-        assert np.array_equal(limited.labels(), np.where(least <= limit * limit, nearest, 0))
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 import shapely
 from tests.support.families.cut_scenes import lattice_clip, lattice_sites
 from tests.support.families.site_families import mixed_sites, squares
-from tests.support.oracles.cut_oracle import assert_cut_coverage, assert_nearest_in_regions
+from tests.support.oracles.cut_oracle import assert_cut_coverage
 
 import vorotool
 from support.few import few
@@ -17,19 +17,6 @@ from vorotool.convert.polygons import as_polygons
 from vorotool.errors import InputError
 
 BOX = shapely.box(0, 0, 10, 10)
-
-
-@pytest.mark.parametrize("side", [4, 8, 1000])
-@pytest.mark.parametrize("seed", few(range(12), 2))
-def test_everything_on_a_lattice(side, seed):
-    random = np.random.default_rng(seed)
-    sites = lattice_sites(random, side)
-    clip = lattice_clip(random, side, sites)
-    covered = shapely.union_all(clip)
-    cells = quietly(sites, clip=clip)
-    assert_cut_coverage(cells, covered.area)
-    assert_nearest_in_regions(cells, sites, [(covered, [*range(len(sites))])], seed=seed)
-    verify_voronoi(cells, places=50)
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -2,32 +2,15 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 import shapely
-from tests.support.families.cut_scenes import lattice_lines, lattice_sites
 from tests.support.families.site_families import squares
-from tests.support.oracles.cut_oracle import assert_cut_coverage, assert_nearest_in_regions, regions_of_lines
+from tests.support.oracles.cut_oracle import assert_cut_coverage
 
-from support.few import few
-from support.oracles.voronoi_oracle import quietly
 from vorotool import verify_voronoi, voronoi
 from vorotool.errors import VerificationError
 
 FRAME = (-10.0, -10.0, 20.0, 20.0)
-
-
-@pytest.mark.parametrize("side", [4, 8, 1000])
-@pytest.mark.parametrize("seed", few(range(12), 2))
-def test_everything_on_a_lattice(side, seed):
-    random = np.random.default_rng(seed)
-    sites, lines = lattice_sites(random, side), lattice_lines(random, side)
-    box = shapely.box(-2, -2, side + 2, side + 2)
-    cells = quietly(sites, enclosures=lines, frame=(-2, -2, side + 4, side + 4))
-    regions = regions_of_lines(lines, box, sites)
-    assert_cut_coverage(cells, sum(face.area for face, own in regions if own))
-    assert_nearest_in_regions(cells, sites, regions, seed=seed)
-    verify_voronoi(cells, places=50)
 
 
 def test_faces_that_no_site_meets():

@@ -109,35 +109,6 @@ def test_a_ring_around_what_is_cut():
 
 
 # ---- invariance --------------------------------------------------------------------------------------
-def _spread(random, count):
-    """Sites without a tie that has area, on whole numbers."""
-    xy = random.permutation(400)[:count]
-    made = []
-    for k, place in enumerate(xy.tolist()):
-        x, y = place % 20 * 64, place // 20 * 64
-        dx, dy = random.integers(5, 25, 2).tolist()
-        made.append(
-            [shapely.Point(x, y), shapely.LineString([(x, y), (x + dx, y + dy)]), shapely.box(x, y, x + dx, y + dy)][
-                k % 3
-            ]
-        )
-    return made
-
-
-@pytest.mark.parametrize("seed", few(range(5), 2))
-def test_the_order_of_sites_changes_no_bit(seed):
-    random = np.random.default_rng(seed)
-    sites = _spread(random, 40)
-    cells = voronoi(sites)
-    order = random.permutation(len(sites))
-    again = voronoi([sites[k] for k in order])
-    assert [each.wkb for each in again.to_shapely()] == [cells.to_shapely()[k].wkb for k in order]
-    assert again.areas.tolist() == cells.areas[order].tolist()
-
-
-def test_threads_change_nothing():
-    sites = _spread(np.random.default_rng(9), 60)
-    assert voronoi(sites, threads=1) == voronoi(sites, threads=4)
 
 
 # ---- input -------------------------------------------------------------------------------------------

@@ -60,7 +60,7 @@ def mask_of(shape):
 
 def lost(pruned, extended):
     """Find the nodes of a skeleton that are farther from what it was led on to than their branch is wide."""
-    line = shapely.MultiLineString(list(extended.to_shapely(flatten=0.01)))
+    line = shapely.union_all(extended.to_shapely(flatten=0.01))
     _, most, _ = pruned.arc_radii
     width = np.zeros(int(pruned.branch.max(initial=-1)) + 1)
     np.maximum.at(width, pruned.branch, 2 * most)
