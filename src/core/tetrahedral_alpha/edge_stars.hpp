@@ -3,14 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <mutex>
-#include <numeric>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/base/indices.hpp"
@@ -23,165 +19,150 @@ namespace vorotool::core::tetrahedral_alpha {
 using base::at;
 using base::LargeArray;
 
-// Cells of `width` corners. Vertices get new numbers, in the order in which they first appear in the cells, so that those
-// near each other come together. An edge belongs to the first of its ends.
-template <std::size_t width>
-class EdgeStars {
+struct Edge {
+  std::array<std::int32_t, 2> ends;  // the smaller one first
+  std::uint32_t star;                // where its cells begin
+  std::uint32_t is_cut = 0;
+};
+
+// Puts edges, found in pieces, in the order of their ends and then their stars.
+LargeArray<Edge> sort_edges(std::vector<std::vector<Edge>>&& found, std::size_t vertices, unsigned threads,
+                            const base::Monitor& monitor);
+
+// Of tetrahedra (width 4), which follow each other around an edge through the facets at it.
+class TetrahedronStars {
  public:
-  using Cell = std::array<std::int32_t, width>;
-  using Ends = std::array<std::int32_t, 2>;
+  using Row = std::array<std::int32_t, 4>;
 
-  // An edge seen from a cell: which corners of the cell are its ends.
-  struct Visit {
-    std::size_t cell, first, second;
-  };
+  // With the neighbors opposite to the corners, -1 outside.
+  TetrahedronStars(std::span<const Row> tetrahedra, std::span<const Row> neighbors)
+      : tetrahedra_(tetrahedra), neighbors_(neighbors) {}
 
-  EdgeStars(std::span<const Cell> cells, std::size_t points, unsigned threads, const base::Monitor& monitor)
-      : cells_(cells.size()), threads_(threads), monitor_(monitor), next_(width * cells.size()) {
-    number_vertices(cells, points);
-    list_cells();
+  // Calls visit(t, out, apex) for all facets at an edge, each once: that opposite to corner `out` of a tetrahedron t
+  // around it, whose corner off the edge is `apex`. So it is called for all tetrahedra around it. Gives false as soon as
+  // a visit does.
+  template <class Visit>
+  bool visit(const Edge& edge, const Visit& visit) const {
+    const auto [k, l] = corners[5 - edge.star % 8];
+    const End end = turn(edge.star / 8, k, l, visit);
+    return end == End::outside ? turn(edge.star / 8, l, k, visit) != End::stopped : end == End::closed;
   }
 
-  // [cells] with the new numbers, and the old ones of those.
-  const Cell& cell(std::size_t t) const { return cells_[t]; }
-  std::span<const std::int32_t> order() const { return order_; }
-
-  // Finds the edges; a mark of each tells whether holds(Visit) for a cell around it. It is not asked again once it did.
-  template <class Holds>
-  LargeArray<std::uint8_t> find_edges(const Holds& holds) {
-    std::vector<std::vector<Found>> found(base::piece_count(order_.size(), vertices_a_piece));
-    start_.assign(order_.size() + 1, 0);
-    for_vertices(
-        [&](std::size_t piece, std::size_t begin, std::size_t end, std::vector<std::int32_t>& slots) {
-          std::vector<Found>& list = found[piece];
-          for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t before = list.size();
-            visit_later(i, [&](std::int32_t b, const Visit& visit) {
-              std::size_t slot = before + at(slots[at(b)]);
-              if (slot >= list.size() || list[slot].other != b) {
-                slot = list.size();
-                slots[at(b)] = static_cast<std::int32_t>(slot - before);
-                list.push_back({b, 0});
-              }
-              if (list[slot].mark == 0 && holds(visit)) list[slot].mark = 1;
-            });
-            std::sort(list.begin() + static_cast<std::ptrdiff_t>(before), list.end(),
-                      [](const Found& p, const Found& q) { return p.other < q.other; });
-            start_[i + 1] = list.size() - before;
-          }
-        });
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    ends_ = LargeArray<Ends>(start_.back());
-    LargeArray<std::uint8_t> marks(start_.back());
-    base::for_pieces(order_.size(), vertices_a_piece, threads_, monitor_,
+  // The edges, cut where is_cut(edge, t, out, apex) holds for a facet. An edge belongs to the piece of its first
+  // tetrahedron.
+  template <class IsCut>
+  LargeArray<Edge> find(std::size_t vertices, const IsCut& is_cut, unsigned threads,
+                        const base::Monitor& monitor) const {
+    std::vector<std::vector<Edge>> found(base::piece_count(tetrahedra_.size(), tetrahedra_a_piece));
+    base::for_pieces(tetrahedra_.size(), tetrahedra_a_piece, threads, monitor,
                      [&](std::size_t piece, std::size_t begin, std::size_t end) {
-                       const Found* next = found[piece].data();
-                       for (std::size_t i = begin; i < end; ++i) {
-                         for (std::size_t e = start_[i]; e < start_[i + 1]; ++e, ++next) {
-                           ends_[e] = {static_cast<std::int32_t>(i), next->other};
-                           marks[e] = next->mark;
+                       std::vector<std::uint8_t> seen(end - begin);  // sides of each tetrahedron
+                       for (std::size_t t = begin; t < end; ++t) {
+                         for (unsigned left = ~unsigned{seen[t - begin]} & 63; left != 0; left &= left - 1) {
+                           Edge edge = edge_of(t, static_cast<std::size_t>(std::countr_zero(left)));
+                           if (is_first(edge, begin, seen, is_cut)) found[piece].push_back(edge);
                          }
                        }
-                       found[piece] = {};
                      });
-    return marks;
-  }
-
-  std::size_t size() const { return ends_.size(); }
-  const Ends& ends(std::size_t edge) const { return ends_[edge]; }
-
-  // Calls visit(edge, Visit) for all edges and cells around them; those of one edge on one thread.
-  template <class Function>
-  void for_visits(const Function& function) {
-    for_vertices([&](std::size_t, std::size_t begin, std::size_t end, std::vector<std::int32_t>& slots) {
-      for (std::size_t i = begin; i < end; ++i) {
-        for (std::size_t e = start_[i]; e < start_[i + 1]; ++e)
-          slots[at(ends_[e][1])] = static_cast<std::int32_t>(e - start_[i]);
-        visit_later(
-            i, [&](std::int32_t b, const Visit& visit) { function(start_[i] + at(slots[at(b)]), visit); });
-      }
-    });
+    return sort_edges(std::move(found), vertices, threads, monitor);
   }
 
  private:
-  static constexpr std::size_t cells_a_piece = std::size_t{1} << 13, vertices_a_piece = std::size_t{1} << 11;
+  enum class End { closed, outside, stopped };
 
-  struct Found {
-    std::int32_t other;
-    std::uint8_t mark;
-  };
+  static constexpr std::size_t tetrahedra_a_piece = std::size_t{1} << 17;  // some 50 ms
 
-  void number_vertices(std::span<const Cell> cells, std::size_t points) {
-    std::vector<std::int32_t> place(points, base::no_index);
-    for (const Cell& cell : cells) {
-      for (const std::int32_t v : cell) {
-        if (place[at(v)] != base::no_index) continue;
-        place[at(v)] = static_cast<std::int32_t>(order_.size());
-        order_.push_back(v);
-      }
-    }
-    base::for_items(cells.size(), cells_a_piece, threads_, monitor_, [&](std::size_t t) {
-      for (std::size_t k = 0; k < width; ++k) cells_[t][k] = place[at(cells[t][k])];
+  // The sides of a tetrahedron; that opposite to each has 5 less its number.
+  static constexpr std::array<std::array<std::uint8_t, 2>, 6> corners{
+      {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+  static constexpr std::array<std::array<std::uint8_t, 4>, 4> opposite_side{
+      {{6, 5, 4, 3}, {5, 6, 2, 1}, {4, 2, 6, 0}, {3, 1, 0, 6}}};
+
+  Edge edge_of(std::size_t t, std::size_t side) const {
+    const std::int32_t a = tetrahedra_[t][corners[side][0]], b = tetrahedra_[t][corners[side][1]];
+    return {{std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(8 * t + side)};
+  }
+
+  // Whether no tetrahedron around an edge comes before a piece; then it is known whether it is cut.
+  template <class IsCut>
+  bool is_first(Edge& edge, std::size_t begin, std::vector<std::uint8_t>& seen, const IsCut& is_cut) const {
+    return visit(edge, [&](std::size_t t, std::size_t out, std::size_t apex) {
+      if (t < begin) return false;
+      if (t - begin < seen.size())
+        seen[t - begin] |= static_cast<std::uint8_t>(1U << opposite_side[out][apex]);
+      edge.is_cut |= std::uint32_t{is_cut(edge, t, out, apex)};
+      return true;
     });
   }
 
-  void list_cells() {
-    std::vector<std::atomic<std::int32_t>> head(order_.size());
-    for (auto& corner : head) corner.store(base::no_index, std::memory_order_relaxed);
-    base::for_items(cells_.size(), cells_a_piece, threads_, monitor_, [&](std::size_t t) {
-      for (std::size_t k = 0; k < width; ++k) {
-        const std::size_t corner = width * t + k;
-        next_[corner] =
-            head[at(cells_[t][k])].exchange(static_cast<std::int32_t>(corner), std::memory_order_relaxed);
-      }
-    });
-    head_.resize(head.size());
-    for (std::size_t i = 0; i < head.size(); ++i) head_[i] = head[i].load(std::memory_order_relaxed);
+  static std::size_t position(const Row& row, std::int32_t value) {
+    return static_cast<std::size_t>((row[1] == value) + 2 * (row[2] == value) + 3 * (row[3] == value)) & 3;
   }
 
-  // Calls work(piece, begin, end, slots) for pieces of the vertices, with a number for each vertex that no other thread
-  // changes.
-  template <class Work>
-  void for_vertices(const Work& work) {
-    std::mutex mutex;
-    std::vector<std::unique_ptr<std::vector<std::int32_t>>> unused;
-    base::for_pieces(order_.size(), vertices_a_piece, threads_, monitor_,
-                     [&](std::size_t piece, std::size_t begin, std::size_t end) {
-                       std::unique_ptr<std::vector<std::int32_t>> slots;
-                       {
-                         const std::lock_guard lock(mutex);
-                         if (!unused.empty()) {
-                           slots = std::move(unused.back());
-                           unused.pop_back();
-                         }
-                       }
-                       if (!slots) slots = std::make_unique<std::vector<std::int32_t>>(order_.size());
-                       work(piece, begin, end, *slots);
-                       const std::lock_guard lock(mutex);
-                       unused.push_back(std::move(slots));
-                     });
-  }
-
-  // Calls visit(other end, Visit) for the cells around edges of a vertex that come after it.
-  template <class Function>
-  void visit_later(std::size_t i, const Function& function) const {
-    for (std::int32_t corner = head_[i]; corner >= 0; corner = next_[at(corner)]) {
-      const std::size_t t = at(corner) / width, first = at(corner) % width;
-      for (std::size_t second = 0; second < width; ++second) {
-        const std::int32_t b = cells_[t][second];
-        if (b > static_cast<std::int32_t>(i)) function(b, Visit{t, first, second});
-      }
+  template <class Visit>
+  End turn(std::size_t first, std::size_t out, std::size_t apex, const Visit& visit) const {
+    std::size_t t = first;
+    for (std::size_t steps = 0;; ++steps) {
+      if (!visit(t, out, apex)) return End::stopped;
+      const std::int32_t next = neighbors_[t][out];
+      if (next < 0) return End::outside;
+      if (at(next) == first) return End::closed;
+      const std::int32_t shared = tetrahedra_[t][apex];
+      apex = position(neighbors_[at(next)], static_cast<std::int32_t>(t));
+      t = at(next);
+      out = position(tetrahedra_[t], shared);
+      if (tetrahedra_[t][out] != shared || out == apex || steps > tetrahedra_.size()) refuse();
     }
   }
 
-  LargeArray<Cell> cells_;
-  unsigned threads_;
-  const base::Monitor& monitor_;
-  std::vector<std::int32_t> order_;  // the old numbers of vertices
-  std::vector<std::int32_t> head_;   // [vertices] width t + k of a cell around each one
-  LargeArray<std::int32_t> next_;    // [width t] and the next one, or -1
-  std::vector<std::size_t> start_;   // [vertices + 1] edges of each one with later ones
-  LargeArray<Ends> ends_;            // of new numbers, the smaller one first
+  [[noreturn]] static void refuse();
+
+  std::span<const Row> tetrahedra_, neighbors_;
+};
+
+// Of triangles (width 3), or edges that are the cells themselves (2).
+template <std::size_t width>
+class PlanarStars {
+ public:
+  using Cell = std::array<std::int32_t, width>;
+
+  explicit PlanarStars(std::span<const Cell> cells) : cells_(cells) {}
+
+  // Calls visit(t) for the cells around an edge.
+  template <class Visit>
+  void visit(const Edge& edge, const Visit& visit) const {
+    for (std::size_t i = edge.star; i < sides_.size() && sides_[i].ends == edge.ends; ++i)
+      visit(std::size_t{sides_[i].star});
+  }
+
+  // The edges, cut where is_cut(edge, corner) holds for an opposite corner.
+  template <class IsCut>
+  LargeArray<Edge> find(std::size_t vertices, const IsCut& is_cut, unsigned threads,
+                        const base::Monitor& monitor) {
+    std::vector<std::vector<Edge>> found(1);
+    for (std::size_t t = 0; t < cells_.size(); ++t) {
+      for (std::size_t k = 0; k < (width == 2 ? 1 : width); ++k) {
+        const std::int32_t a = cells_[t][(k + 1) % width], b = cells_[t][(k + 2) % width];
+        Edge side{{std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(t)};
+        side.is_cut = std::uint32_t{width == 3 && is_cut(side, cells_[t][k])};
+        found[0].push_back(side);
+      }
+    }
+    sides_ = sort_edges(std::move(found), vertices, threads, monitor);
+    std::vector<Edge> edges;
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      if (i == 0 || sides_[i].ends != sides_[i - 1].ends)
+        edges.push_back({sides_[i].ends, static_cast<std::uint32_t>(i)});
+      edges.back().is_cut |= sides_[i].is_cut;
+    }
+    LargeArray<Edge> result(edges.size());
+    std::copy(edges.begin(), edges.end(), result.data());
+    return result;
+  }
+
+ private:
+  std::span<const Cell> cells_;
+  LargeArray<Edge> sides_;  // of cells: each edge once for each one around it
 };
 
 }  // namespace vorotool::core::tetrahedral_alpha

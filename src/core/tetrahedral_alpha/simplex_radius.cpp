@@ -359,6 +359,38 @@ double settled_radius(const Estimate& found, const Simplex& s) {
   return alpha::rounded_root(wide_square(s));
 }
 
+double squared_distance(const Point3& a, const Point3& b) {
+  const Vector<double> way = from_to(a, b);
+  return dot(way, way);
+}
+
+// Three squares, of a triangle's sides, have errors of 5 u each, their sum has two roundings more, and the difference of
+// it and twice one of them, which is nearly half of it where the sign is not clear, one more: 13 u of the sum.
+std::uint8_t obtuse_corners(const Simplex& simplex, bool are_integers) {
+  const auto& corner = simplex.corner;
+  std::array<std::array<double, 4>, 4> square;
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t l = 0; l < k; ++l)
+      square[k][l] = square[l][k] = squared_distance(*corner[k], *corner[l]);
+  }
+  unsigned result = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t a = (k + 1) % 4, b = (k + 2) % 4, c = (k + 3) % 4;
+    const double sum = square[a][b] + square[b][c] + square[c][a];
+    const double error = are_integers && sum < exact_limit ? 0 : 20 * u * sum + 0x1p-1000;
+    std::size_t found = k;
+    for (const auto& [v, p, q] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
+      const double excess = 2 * square[p][q] - sum;
+      const bool is_clear = std::abs(excess) >= error && sum < infinity;
+      if (is_clear ? excess > 0
+                   : is_inside_diametral_sphere(*corner[p], *corner[q], *corner[v], are_integers))
+        found = v;
+    }
+    result |= static_cast<unsigned>(found << 2 * k);
+  }
+  return static_cast<std::uint8_t>(result);
+}
+
 }  // namespace
 
 ScaledPoints::ScaledPoints(std::span<const Point3> given, std::span<const std::int32_t> chosen) {
@@ -375,7 +407,7 @@ double ranked_radius(const Simplex& simplex, bool are_integers) {
 
 TetrahedronMeasure measure_tetrahedron(const Simplex& simplex, bool are_integers) {
   const TetrahedronEstimate found = estimate_tetrahedron(simplex, are_integers);
-  TetrahedronMeasure result{settled_radius(found.radius, simplex), 0};
+  TetrahedronMeasure result{settled_radius(found.radius, simplex), 0, obtuse_corners(simplex, are_integers)};
   const std::array<double, 4> heights = found.sphere.heights();
   std::array<int, 4> signs;
   for (std::size_t k = 0; k < 4; ++k) {

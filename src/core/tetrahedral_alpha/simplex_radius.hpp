@@ -42,11 +42,12 @@ double ranked_radius(const Simplex& simplex, bool are_integers);
 // Sign of the difference of the exact radii.
 int compare_radii(const Simplex& p, const Simplex& q, bool are_integers);
 
-// The radius of a tetrahedron, and the facets whose smallest spheres hold the opposite corner inside: those that
-// divide it from the center of its sphere. Bit k is the facet opposite to corner k.
+// The radius of a tetrahedron, the facets whose smallest spheres hold the opposite corner inside: those that divide it
+// from the center of its sphere, and the corners at which facets are obtuse. Bit k is the facet opposite to corner k, and
+// so are bits 2 k and 2 k + 1, which have k where it is not obtuse.
 struct TetrahedronMeasure {
   double radius;
-  std::uint8_t cut;
+  std::uint8_t cut, obtuse;
 };
 TetrahedronMeasure measure_tetrahedron(const Simplex& simplex, bool are_integers);
 

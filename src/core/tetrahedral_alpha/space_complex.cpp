@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -27,14 +28,6 @@ constexpr double left_out = -1;
 // The corners of the facet opposite to each corner of a tetrahedron.
 constexpr std::array<std::array<std::size_t, 3>, 4> facets{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-// Of the two corners beside an edge (first, second) the one from which the tetrahedron leads to the other, turning
-// around the edge.
-constexpr std::size_t begins_at(std::size_t first, std::size_t second) {
-  constexpr std::array<std::array<std::size_t, 4>, 4> corner{
-      {{4, 2, 3, 1}, {3, 4, 0, 2}, {1, 3, 4, 0}, {2, 0, 1, 4}}};
-  return corner[first][second];
-}
-
 // Cells are tetrahedra (width 4), or triangles of points in a plane (3), or edges of points on a line (2), which are not
 // ranked as cells, but as edges alone.
 template <std::size_t width>
@@ -48,18 +41,23 @@ class Builder {
         neighbors_(neighbors),
         threads_(threads),
         monitor_(monitor),
-        stars_(cells, points.size(), threads, monitor),
-        scaled_(points, stars_.order()),
-        cut_(width == 4 ? count_ : 0) {}
+        cells_(cells.size()),
+        stars_(stars_of(cells_, neighbors)),
+        order_(number_vertices(cells, points.size())),
+        scaled_(points, order_),
+        cut_(width == 4 ? count_ : 0),
+        obtuse_(cut_.size()) {}
 
   SpaceArrays run() {
+    LargeArray<double> radius = measure_cells();
     if constexpr (width == 4) find_facets();
-    const LargeArray<std::uint8_t> edge_is_cut =
-        stars_.find_edges([&](const Visit& visit) { return is_edge_cut(visit); });
-    value_ = LargeArray<double>(count_ + facet_.size() + stars_.size());
-    measure_cells();
+    edges_ =
+        stars_.find(order_.size(), [this](auto... facet) { return is_cut_by(facet...); }, threads_, monitor_);
+    value_ = LargeArray<double>(count_ + facet_.size() + edges_.size());
+    std::copy(radius.data(), radius.data() + count_, value_.data());
+    radius = {};
     measure_facets();
-    measure_edges(edge_is_cut);
+    measure_edges();
     const auto compare = [&](std::uint32_t p, std::uint32_t q) {
       return compare_radii(simplex_of(p), simplex_of(q), scaled_.are_integers);
     };
@@ -68,20 +66,48 @@ class Builder {
   }
 
  private:
+  using Stars = std::conditional_t<width == 4, TetrahedronStars, PlanarStars<width>>;
+
+  static Stars stars_of(const LargeArray<Cell>& cells, std::span<const Row> neighbors) {
+    const std::span<const Cell> all(cells.data(), cells.size());
+    if constexpr (width == 4) {
+      return {all, neighbors};
+    } else {
+      return Stars(all);
+    }
+  }
+
+  // Vertices get new numbers, in the order in which they first appear in the cells, so that those near each other come
+  // together. Gives the old ones.
+  std::vector<std::int32_t> number_vertices(std::span<const Cell> cells, std::size_t points) {
+    std::vector<std::int32_t> place(points, base::no_index), order;
+    for (std::size_t t = 0; t < cells.size(); ++t) {
+      for (std::size_t k = 0; k < width; ++k) {
+        std::int32_t& number = place[at(cells[t][k])];
+        if (number == base::no_index) {
+          number = static_cast<std::int32_t>(order.size());
+          order.push_back(cells[t][k]);
+        }
+        cells_[t][k] = number;
+      }
+    }
+    return order;
+  }
+
   const Point3& point(std::int32_t v) const { return scaled_.points[at(v)]; }
 
   Simplex simplex_of(std::size_t item) const {
     Simplex s;
     const auto put = [&](std::int32_t v) { s.corner[s.size++] = &point(v); };
     if (item < count_) {
-      for (const std::int32_t v : stars_.cell(item)) put(v);
+      for (const std::int32_t v : cells_[item]) put(v);
     } else if (item < count_ + facet_.size()) {
       const std::size_t facet = at(facet_[item - count_]);
       if constexpr (width == 4) {
-        for (const std::size_t k : facets[facet % 4]) put(stars_.cell(facet / 4)[k]);
+        for (const std::size_t k : facets[facet % 4]) put(cells_[facet / 4][k]);
       }
     } else {
-      for (const std::int32_t v : stars_.ends(item - count_ - facet_.size())) put(v);
+      for (const std::int32_t v : edges_[item - count_ - facet_.size()].ends) put(v);
     }
     return s;
   }
@@ -121,16 +147,19 @@ class Builder {
     return 4 * u + static_cast<std::int32_t>(k & 3);
   }
 
-  void measure_cells() {
+  LargeArray<double> measure_cells() {
+    LargeArray<double> radius(count_);
     for_items(count_, simplices_a_piece, threads_, monitor_, [&](std::size_t t) {
       if constexpr (width == 4) {
         const TetrahedronMeasure found = measure_tetrahedron(simplex_of(t), scaled_.are_integers);
-        value_[t] = found.radius;
+        radius[t] = found.radius;
         cut_[t] = found.cut;
+        obtuse_[t] = found.obtuse;
       } else {
-        value_[t] = ranked_radius(simplex_of(t), scaled_.are_integers);
+        radius[t] = ranked_radius(simplex_of(t), scaled_.are_integers);
       }
     });
+    return radius;
   }
 
   bool is_cut(std::int32_t facet) const {
@@ -145,31 +174,19 @@ class Builder {
     });
   }
 
-  using Visit = typename EdgeStars<width>::Visit;
-
-  // Each corner opposite to an edge is that of one or two cells around it: of tetrahedra it is looked at where it is the
-  // first of two around the edge, or where no other follows.
-  bool is_edge_cut(const Visit& visit) const {
-    const Cell& cell = stars_.cell(visit.cell);
-    const auto holds = [&](std::size_t corner) {
-      return is_inside_diametral_sphere(point(cell[visit.first]), point(cell[visit.second]),
-                                        point(cell[corner]), scaled_.are_integers);
-    };
-    if constexpr (width == 2) {
-      return false;
-    } else if constexpr (width == 3) {
-      return holds(3 - visit.first - visit.second);
-    } else {
-      const std::size_t begin = begins_at(visit.first, visit.second);
-      if (holds(begin)) return true;
-      return neighbors_[visit.cell][begin] < 0 && holds(6 - visit.first - visit.second - begin);
-    }
+  // Whether the corner of a triangle opposite to an edge is strictly inside the sphere on it as diameter.
+  bool is_cut_by(const Edge&, std::size_t t, std::size_t out, std::size_t apex) const {
+    return (obtuse_[t] >> 2 * out & 3U) == apex;
+  }
+  bool is_cut_by(const Edge& edge, std::int32_t apex) const {
+    const auto [a, b] = edge.ends;
+    return is_inside_diametral_sphere(point(a), point(b), point(apex), scaled_.are_integers);
   }
 
-  void measure_edges(const LargeArray<std::uint8_t>& is_cut) {
-    for_items(stars_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
+  void measure_edges() {
+    for_items(edges_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
       const std::size_t item = count_ + facet_.size() + e;
-      value_[item] = is_cut[e] != 0 ? left_out : ranked_radius(simplex_of(item), scaled_.are_integers);
+      value_[item] = edges_[e].is_cut != 0 ? left_out : ranked_radius(simplex_of(item), scaled_.are_integers);
     });
   }
 
@@ -186,40 +203,11 @@ class Builder {
       out.triangle_min[m] = facet_min[at(facet)] = least;
       if (other >= 0) facet_min[at(other)] = least;
     });
-    out.edge_min = LargeArray<std::int32_t>(stars_.size());
-    out.edge_mid = LargeArray<std::int32_t>(stars_.size());
-    out.edge_max = LargeArray<std::int32_t>(stars_.size());
-    for_items(stars_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
-      out.edge_min[e] = ranks.rank[count_ + facet_.size() + e];
-      out.edge_mid[e] = last;
-      out.edge_max[e] = width == 4 ? 0 : last;
-    });
-    stars_.for_visits([&](std::size_t e, const Visit& visit) {
-      if constexpr (width == 2) return;
-      const std::int32_t rank = ranks.rank[visit.cell];
-      const auto lower = [](std::int32_t& value, std::int32_t by) { value = std::min(value, by); };
-      if constexpr (width == 4) {
-        lower(out.edge_mid[e], rank);
-        out.edge_max[e] = std::max(out.edge_max[e], rank);
-        const std::size_t k = begins_at(visit.first, visit.second), l = 6 - visit.first - visit.second - k;
-        for (const std::size_t opposite : {k, l}) {
-          lower(out.edge_min[e], facet_min[4 * visit.cell + opposite]);
-          if (neighbors_[visit.cell][opposite] < 0) out.edge_max[e] = last;
-        }
-      } else {
-        lower(out.edge_min[e], rank);
-      }
-    });
+    write_edges(out, ranks.rank, facet_min, last);
     (width == 4 ? out.tetrahedron_rank : out.triangle_min) = LargeArray<std::int32_t>(count_);
     std::copy(ranks.rank.data(), ranks.rank.data() + count_,
               (width == 4 ? out.tetrahedron_rank : out.triangle_min).data());
     out.facet = std::move(facet_);
-    out.edges = LargeArray<Ends>(stars_.size());
-    for_items(stars_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
-      const auto [a, b] = stars_.ends(e);
-      const std::int32_t p = stars_.order()[at(a)], q = stars_.order()[at(b)];
-      out.edges[e] = {std::min(p, q), std::max(p, q)};
-    });
     const double scale = std::ldexp(1.0, scaled_.exponent);
     double so_far = 0;
     for (std::size_t i = 0; i < ranks.value.size(); ++i) {
@@ -231,14 +219,43 @@ class Builder {
     return out;
   }
 
+  void write_edges(SpaceArrays& out, const LargeArray<std::int32_t>& rank,
+                   const LargeArray<std::int32_t>& facet_min, std::int32_t last) const {
+    const std::size_t count = edges_.size(), first = count_ + facet_.size();
+    out.edges = LargeArray<Ends>(count);
+    out.edge_min = LargeArray<std::int32_t>(count);
+    out.edge_mid = LargeArray<std::int32_t>(count);
+    out.edge_max = LargeArray<std::int32_t>(count);
+    for_items(count, simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
+      std::int32_t min = rank[first + e], mid = last, max = width == 4 ? 0 : last;
+      if constexpr (width == 4) {
+        stars_.visit(edges_[e], [&](std::size_t t, std::size_t opposite, std::size_t) {
+          min = std::min(min, facet_min[4 * t + opposite]);
+          mid = std::min(mid, rank[t]);
+          max = std::max(max, neighbors_[t][opposite] < 0 ? last : rank[t]);
+          return true;
+        });
+      } else if constexpr (width == 3) {
+        stars_.visit(edges_[e], [&](std::size_t t) { min = std::min(min, rank[t]); });
+      }
+      out.edge_min[e] = min, out.edge_mid[e] = mid, out.edge_max[e] = max;
+      const auto [a, b] = edges_[e].ends;
+      const std::int32_t p = order_[at(a)], q = order_[at(b)];
+      out.edges[e] = {std::min(p, q), std::max(p, q)};
+    });
+  }
+
   std::size_t count_;  // of cells that are ranked
   std::span<const Row> neighbors_;
   unsigned threads_;
   const Monitor& monitor_;
-  EdgeStars<width> stars_;
-  ScaledPoints scaled_;           // by the new numbers
-  LargeArray<std::uint8_t> cut_;  // [tetrahedra] TetrahedronMeasure::cut
+  LargeArray<Cell> cells_;  // by the new numbers
+  Stars stars_;
+  std::vector<std::int32_t> order_;  // the old numbers
+  ScaledPoints scaled_;
+  LargeArray<std::uint8_t> cut_, obtuse_;  // [tetrahedra] TetrahedronMeasure
   LargeArray<std::int32_t> facet_;
+  LargeArray<Edge> edges_;
   LargeArray<double> value_;  // [cells + facets + edges] radii at which shapes change, or left out
 };
 
