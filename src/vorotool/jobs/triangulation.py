@@ -335,6 +335,14 @@ class TetrahedraProducts(Results):
         tell_empty_cells(self.run, made.label_array, made.is_empty)
         return made
 
+    def check_page(self) -> None:
+        """Refuse a page of too many edges."""
+        resolved("render.pages.html:check_space_size")(self.mesh)
+
+    def write_page(self, out: BinaryIO) -> None:
+        """Write a page that shows the hull and the edges."""
+        resolved("render.pages.html:write_space_html")(out, self.mesh)
+
     def emptiness(self, what: str) -> str:
         """Say why there are no parts of a kind."""
         return "" if what in ("table", "cells") or len(getattr(self.mesh, what)) else _SHAPES[self.mesh.dimension]

@@ -147,13 +147,14 @@ _SOLIDS = Writer("formats.results.meshes:write_solid", ("fmt", "what", "threads"
 _SOLID = dict.fromkeys(("obj", "ply", "stl", "vtu"), _SOLIDS)
 _SPACE_LAYERS = _pictures("hull edges points labels", "render.layers.space:space")
 _TETRAHEDRA = _product("tetrahedra", "Tetrahedralization", f"{_TABLES} npy vtu", _SPACE_LAYERS, "hull edges points",
-    own=_SOLID, usual_for=("vtu",))
+    own=_SOLID, has_page=True, usual_for=("vtu",))
 _HULL = _product("hull", "Tetrahedralization", f"{_TABLES} npy obj ply stl vtu", _SPACE_LAYERS, "hull", own=_SOLID,
-    usual_for=("ply", "stl"))
+    has_page=True, usual_for=("ply", "stl"))
 _SPACE = (
-    _product("edges", "Tetrahedralization", f"{_TABLES} npy obj vtu", _SPACE_LAYERS, "edges points", own=_SOLID),
+    _product("edges", "Tetrahedralization", f"{_TABLES} npy obj vtu", _SPACE_LAYERS, "edges points", own=_SOLID,
+        has_page=True),
     _product("triangles", "Tetrahedralization", f"{_TABLES} npy obj ply stl vtu", _SPACE_LAYERS, "hull edges points",
-        own=_SOLID),
+        own=_SOLID, has_page=True),
     _TETRAHEDRA,
     _HULL._replace(usual_for=("obj", "ply", "stl")),
     _product("cells", "SpaceCellSet", f"{_TABLES} obj ply vtu",

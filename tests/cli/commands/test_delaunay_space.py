@@ -55,6 +55,17 @@ def test_formats_choose_their_result(run, cloud):
         assert (cloud / name).read_bytes() == (cloud / f"own-{name}").read_bytes()
 
 
+def test_a_page_shows_the_hull_whatever_is_asked_for(run, cloud, monkeypatch):
+    pages = set()
+    for options in ("", "--what hull", "--what tetrahedra"):
+        done = run(f"delaunay cloud.csv --space {options} -o page.html")
+        assert (done.code, done.err) == (0, ""), options
+        pages.add((cloud / "page.html").read_bytes())
+    assert len(pages) == 1
+    monkeypatch.setattr("vorotool.render.pages.html.MOST_SIMPLICES", 10)
+    assert "edges and triangles are too many" in run("delaunay cloud.csv --space -o page.html", code=5).err
+
+
 def test_lengths_are_in_the_unit_of_a_pixel(run, cloud):
     plain, scaled = (rows_of(run("delaunay cloud.csv --space", *more).out) for more in ([], ["--pixel-size", "2um"]))
     assert [float(row["length"]) for row in scaled] == [2 * float(row["length"]) for row in plain]

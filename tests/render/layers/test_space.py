@@ -1,5 +1,6 @@
 """Pictures of triangulations in space: what is seen, and where."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -47,6 +48,18 @@ def test_pictures_show_the_highest_point_on_top(tmp_path):
     for name in ("a.svg", "a.png"):
         vorotool.write(corner, tmp_path / name, what="hull")
         assert (tmp_path / name).stat().st_size > 100
+
+
+def test_no_seams_between_faces_of_a_surface(tmp_path):
+    shape = vorotool.alpha_shape(BALL, r=50)
+    svg = tmp_path / "a.svg"
+    for options, is_sealed in (({}, True), ({"layers": ["surface", "edges"]}, False)):
+        vorotool.write(shape, svg, what="surface", **options)
+        faces = re.search('<g id="surface"(.*?)</g>', svg.read_text(), re.DOTALL)[1]
+        fills, strokes = (re.findall(f'<path[^>]* {name}="(#[0-9a-f]+)"', faces) for name in ("fill", "stroke"))
+        assert len(fills) > 20
+        assert strokes == (fills if is_sealed else [])
+        assert ("stroke-width" in faces) == is_sealed
 
 
 def test_the_knot_of_the_gallery_is_a_closed_tube():

@@ -11,7 +11,7 @@ from PIL import Image
 
 from support.few import few
 from support.processes.browser import browse, needs_browser
-from vorotool import LimitError, alpha_complex, alpha_curves, alpha_shape
+from vorotool import LimitError, alpha_complex, alpha_curves, alpha_shape, delaunay
 from vorotool.render.canvas.styles import CELLS, SEED, SINGULAR
 from vorotool.render.pages import html
 from vorotool.types.alpha.radii import checked_radius
@@ -50,6 +50,33 @@ def data_of(page):
         arrays[f"{name}s"] = decoded(f"{name}s", "<u4", size)
         arrays |= {f"{name}_{rank}": decoded(f"{name}_{rank}", "<i4") for rank in ("min", "mid", "max")}
     return found | arrays | {"point_min": decoded("point_min", "<i4")}
+
+
+def test_a_triangulation_has_a_page_without_a_radius():
+    mesh = delaunay(CLOUD)
+    out = io.BytesIO()
+    html.write_space_html(out, mesh)
+    data = data_of(out.getvalue().decode())
+    assert (data["title"], data["curves"], len(data["spectrum"])) == ("Delaunay triangulation", {}, 0)
+    assert corners(between(("mid", "max"), data, "triangle", 0)) == corners(mesh.hull)
+    outer = corners(between(("mid", "max"), data, "edge", 0))
+    assert outer == sorted(set(corners(mesh.hull[:, [0, 1, 0, 2, 1, 2]].reshape(-1, 2))))
+    assert sorted(outer + corners(between(("min", "mid"), data, "edge", 0))) == corners(mesh.edges)
+
+
+@needs_browser
+@pytest.mark.parametrize("name", few([*FEW, "cloud"], 1))
+def test_a_triangulation_is_shown(name, tmp_path):
+    mesh = delaunay(CLOUD if name == "cloud" else FEW[name])
+    path = tmp_path / "page.html"
+    with path.open("wb") as out:
+        html.write_space_html(out, mesh)
+    document = browse("--dump-dom", path.as_uri())
+    counts = [int(shown(document, layer)) for layer in ("surface", "edges", "interior", "dots", "points")]
+    faces = mesh.hull if len(mesh) else mesh.planar
+    assert (counts[0], counts[1] + counts[2]) == (len(faces), len(mesh.edges))
+    assert counts[3:] == [len(mesh.points)] * 2
+    assert 'id="radius" hidden' in document
 
 
 def shown(document, name):

@@ -98,6 +98,8 @@ class Polygons:
     # (p,) bool array: polygons that are paths of their own in SVG in any case, since others lie over them
     is_alone: NDArray[np.bool_] | None = None
     is_sheer: bool = False  # half of what lies beneath is seen through the fills, as it is over an image in any case
+    # each has a hair of its own color around it, so that nothing shines through between neighbors
+    is_sealed: bool = False
 
     @property
     def ring_limits(self) -> NDArray[np.int64]:

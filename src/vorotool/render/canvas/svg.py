@@ -199,7 +199,7 @@ def _filled(
     layer: Polygons, page: Page, rows: int, columns: Callable[[slice], list[Any]], threads: int
 ) -> Iterator[bytes]:
     """One row a place: what stands before it, x and y; the end of the last path is missing."""
-    edge = "" if layer.edge is None else f" {_outline(layer.edge, layer.width)}"
+    edge = _SEAL if layer.is_sealed else "" if layer.edge is None else f" {_outline(layer.edge, layer.width)}"
     parts = (part for chunk in _chunks(rows, SLICE_ROWS) for part in _rows(columns(chunk), ("", "", " ", ""), threads))
     style = f'fill-rule="evenodd"{fill_style(page.backdrop, is_sheer=layer.is_sheer)}{edge}'
     return _group(layer.name, style, chain(parts, [b'Z"/>\n'] * bool(rows)))
@@ -266,8 +266,9 @@ def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
     for number, of in enumerate(polygon[opens].tolist()):
         name = "" if ids is None else f' id="{_escaped(ids[of])}"'
         fill = layer.colors[int(color[of])]
+        seal = f' stroke="{fill}"' if layer.is_sealed else ""
         end = 'Z"/>\n' if number else ""
-        texts.append(f'{end}<path{name} {_UNSCALED} fill="{fill}" d="M')
+        texts.append(f'{end}<path{name} {_UNSCALED} fill="{fill}"{seal} d="M')
     before[rings[:-1][drawn]] = np.where(opens, np.cumsum(opens) + 1, 1)
     return texts, before
 
@@ -357,6 +358,7 @@ def _short(number: float, decimals: int) -> str:
 
 
 _UNSCALED = 'vector-effect="non-scaling-stroke"'
+_SEAL = ' stroke-width="0.8" stroke-linejoin="round"'
 
 
 _CIRCLE: tuple[str, ...] = ('<circle cx="', '" cy="', '" r="', f'" {_UNSCALED}/>\n')

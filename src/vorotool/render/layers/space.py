@@ -91,6 +91,7 @@ def _shaded(name: str, points: Floats, triangles: NDArray[np.int32], *, is_sheer
         width=0.3,
         is_alone=np.ones(len(order), dtype=bool),
         is_sheer=is_sheer,
+        is_sealed=name != "hull" and not is_sheer,
     )
 
 

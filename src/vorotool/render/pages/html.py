@@ -26,6 +26,7 @@ from vorotool.types.box import bounds
 from vorotool.types.fields import is_up
 from vorotool.types.images import LabelImage
 from vorotool.types.mesh.cells import CellSet
+from vorotool.types.mesh.tetrahedralization import Tetrahedralization
 from vorotool.types.pixels import SQUARE, PixelSides
 from vorotool.types.skeleton.critical_values import ArcProfiles, CriticalValues
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -91,10 +92,13 @@ ALPHA_PAGE = "alpha_page.html"
 def check_family_size(family: AlphaComplex | SpaceAlphaComplex) -> None:
     """Refuse a page that no browser would draw."""
     if isinstance(family, SpaceAlphaComplex):
-        count = len(family.edges) + len(family.triangle_min)
-        _check_count(count, MOST_SIMPLICES, "edges and triangles", f"use {AS_MESH}, or {AS_PICTURE}")
+        _check_simplices(len(family.edges) + len(family.triangle_min))
     else:
         _check_count(len(family.points), MOST_POINTS, "points", f"use {AS_PICTURE}")
+
+
+def _check_simplices(count: int) -> None:
+    _check_count(count, MOST_SIMPLICES, "edges and triangles", f"use {AS_MESH}, or {AS_PICTURE}")
 
 
 def _check_count(count: int, most: int, what: str, instead: str) -> None:
@@ -114,6 +118,7 @@ def write_alpha_html(
     check_family_size(family)
     names = [name for name in curves if name != "r"]
     data = {
+        "title": "Alpha shape",
         "r": _first_radius(family, r),
         "unit": unit or "",
         "spectrum": packed(family.spectrum, "<f8"),
@@ -149,13 +154,39 @@ def _in_space(family: SpaceAlphaComplex) -> dict[str, Any]:
     edges[:, 1] = np.minimum(edges[:, 1], _on_triangles(family))
     points = np.where(mesh.is_duplicate, -1, len(family.spectrum)).astype(np.int32)
     np.minimum.at(points, family.edges, edges[:, :1])
+    return _of_mesh(mesh, (family.triangles, triangles), (family.edges, edges), points)
+
+
+_Ranked = tuple[NDArray[np.int32], NDArray[np.int32]]
+"""Corners of simplices, and their three ranks."""
+
+
+def _of_mesh(mesh: Tetrahedralization, triangles: _Ranked, edges: _Ranked, points: NDArray[np.int32]) -> dict[str, Any]:
     return {
         "distinct": len(points) - mesh.duplicates,
-        "places": packed(_around_middle(family.points), "<f4"),
-        **_ranked("triangle", family.triangles, triangles),
-        **_ranked("edge", family.edges, edges),
+        "places": packed(_around_middle(mesh.points), "<f4"),
+        **_ranked("triangle", *triangles),
+        **_ranked("edge", *edges),
         "point_min": packed(points, "<i4"),
     }
+
+
+def write_space_html(out: BinaryIO, mesh: Tetrahedralization) -> None:
+    """Write a page with a triangulation in space: the viewer of alpha shapes without a radius."""
+    check_space_size(mesh)
+    faces, edges = mesh.hull if len(mesh) else mesh.planar, mesh.edges
+    sides = _keys(faces[:, [0, 1, 0, 2, 1, 2]].reshape(-1, 2))
+    seen, inner = np.array([[-1, -1, 0], [-1, 0, 0]], dtype=np.int32)  # as surfaces are, and as what is singular
+    of_edges = np.where(np.isin(_keys(edges), sides)[:, None], seen, inner)
+    nowhere = np.full(len(mesh.points), -1, dtype=np.int32)
+    shown = _of_mesh(mesh, (faces, np.tile(seen, (len(faces), 1))), (edges, of_edges), nowhere)
+    data = {"title": "Delaunay triangulation", "r": 1, "unit": "", "spectrum": "", "curves": {}}
+    write_page(out, ALPHA_PAGE, data | shown, "space_view.js")
+
+
+def check_space_size(mesh: Tetrahedralization) -> None:
+    """Refuse a page that no browser would draw."""
+    _check_simplices(len(mesh.edges) + len(mesh.hull))
 
 
 def _on_triangles(family: SpaceAlphaComplex) -> NDArray[np.int32]:

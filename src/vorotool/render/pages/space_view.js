@@ -1,17 +1,20 @@
 // points in space, as seen from far away; z goes upwards
-const MEASURES = ["volume", "area", "regions", "parts", "cavities", "tunnels"], EMPTY = { parts: data.distinct };
+const MEASURES = Object.keys(data.curves), EMPTY = { parts: data.distinct };
 const places = decode(data.places, Float32Array), POINTS = places.length / 3;
-const LAYERS = [
-  ["surface", "surface", true], ["faces", "singular triangles", true], ["singular", "singular edges", true],
-  ["isolated", "isolated points", true], ["edges", "edges of triangles", false], ["dots", "all points", POINTS <= 1000],
-];
 const triangles = decode(data.triangles, Uint32Array), edges = decode(data.edges, Uint32Array);
 const faceMin = decode(data.triangle_min, Int32Array), faceMid = decode(data.triangle_mid, Int32Array);
 const faceMax = decode(data.triangle_max, Int32Array), edgeMin = decode(data.edge_min, Int32Array);
 const edgeMid = decode(data.edge_mid, Int32Array), edgeMax = decode(data.edge_max, Int32Array);
 const pointMin = decode(data.point_min, Int32Array), always = new Int32Array(POINTS).fill(-1);
 const indices = Uint32Array.from(pointMin, (_, k) => k);
-const SIZES = { surface: 3, faces: 3, singular: 2, edges: 2, isolated: 1, dots: 1 };
+const LAYERS = MEASURES.length ? [
+  ["surface", "surface", true], ["faces", "singular triangles", true], ["singular", "singular edges", true],
+  ["isolated", "isolated points", true], ["edges", "edges of triangles", false], ["dots", "all points", POINTS <= 1000],
+] : [
+  ["surface", "hull", true], ["edges", "edges of the hull", true], ["interior", "edges inside", !triangles.length],
+  ["dots", "points", POINTS <= 1000],
+];
+const SIZES = { surface: 3, faces: 3, singular: 2, edges: 2, interior: 2, isolated: 1, dots: 1 };
 const canvas = element("picture"), gl = canvas.getContext("webgl2", { alpha: false, antialias: true });
 const HOME = { around: Math.atan2(-3, 2), above: Math.asin(2 / Math.sqrt(17)), zoom: 1, x: 0, y: 0 };
 let eye = { ...HOME }, isWaiting = false;
@@ -74,6 +77,7 @@ if (gl) {
   gl.bindBuffer(gl.ARRAY_BUFFER, buffers.places);
   gl.bufferData(gl.ARRAY_BUFFER, places, gl.STATIC_DRAW);
   gl.enable(gl.DEPTH_TEST);
+  gl.enable(gl.POLYGON_OFFSET_FILL);
 } else {
   element("missing").textContent = "The picture needs WebGL 2, which this browser lacks or has switched off. All numbers are right without it.";
   element("missing").hidden = false;
@@ -92,14 +96,19 @@ function chosen(corners, size, from, until, count) {
 
 function drawPicture(count) {
   const rows = {
-    surface: chosen(triangles, 3, faceMid, faceMax, count), faces: chosen(triangles, 3, faceMin, faceMid, count),
-    singular: chosen(edges, 2, edgeMin, edgeMid, count), edges: chosen(edges, 2, edgeMid, edgeMax, count),
-    isolated: chosen(indices, 1, always, pointMin, count), dots: indices,
+    surface: () => chosen(triangles, 3, faceMid, faceMax, count),
+    faces: () => chosen(triangles, 3, faceMin, faceMid, count),
+    singular: () => chosen(edges, 2, edgeMin, edgeMid, count),
+    interior: () => chosen(edges, 2, edgeMin, edgeMid, count),
+    edges: () => chosen(edges, 2, edgeMid, edgeMax, count),
+    isolated: () => chosen(indices, 1, always, pointMin, count),
+    dots: () => indices,
   };
   const counts = {};
   for (const [name] of LAYERS) {
-    counts[name] = rows[name].length / SIZES[name];
-    if (gl) fill(name, rows[name]);
+    const own = rows[name]();
+    counts[name] = own.length / SIZES[name];
+    if (gl) fill(name, own);
   }
   redraw();
   return counts;
@@ -136,7 +145,7 @@ const half = (width, height) => Math.max(1, Math.min(width, height) / 2 - 20);
 function paint() {
   const [ratio, width, height] = sized(canvas), across = half(width, height) * eye.zoom, turn = axes(eye);
   const spacing = Math.sqrt(width * height / Math.max(1, POINTS)) * eye.zoom;
-  const wide = { edges: Math.min(1, Math.max(0.3, spacing / 24)), singular: 1.5, isolated: 5, dots: Math.min(6, Math.max(1, spacing / 8)) };
+  const wide = { edges: Math.min(1, Math.max(0.3, spacing / 24)), interior: 0.7, singular: 1.5, isolated: 5, dots: Math.min(6, Math.max(1, spacing / 8)) };
   gl.viewport(0, 0, canvas.width, canvas.height);
   gl.clearColor(...tone("ground"), 1);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -145,11 +154,12 @@ function paint() {
     const kind = ["dots", "lines", "faces"][SIZES[name] - 1], { program, of } = programs[kind];
     const size = kind === "dots" ? wide[name] * ratio : wide[name];
     gl.useProgram(program);
+    gl.polygonOffset(...(kind === "faces" ? [1.5, 2] : [0, 0]));  // lines are before the faces that they bound
     gl.uniformMatrix3fv(of.turn, false, [0, 1, 2].flatMap(k => turn.map(axis => axis[k])));
     gl.uniform2f(of.scale, 2 * across / width, 2 * across / height);
     gl.uniform2f(of.shift, 2 * eye.x / width, -2 * eye.y / height);
     gl.uniform2f(of.pixel, 2 / width, 2 / height);
-    gl.uniform1f(of.nearer, kind === "faces" ? 0 : (0.5 + wide[name]) / across);
+    gl.uniform1f(of.nearer, kind === "dots" ? 0.5 * wide[name] / across : 0);
     gl.uniform1f(of.width, size);
     gl.uniform3fv(of.tint, tone(name));
     gl.uniform3fv(of.light, light);
