@@ -68,7 +68,7 @@ def test_many_inputs_give_many_stores(run, tmp_path, seeds):
 def test_limits_are_known_before(run, tmp_path, seeds, monkeypatch):
     run("tessellate seeds.csv --size 80x60 -o a.zarr --max-pixels 1000", code=5, says="--max-pixels 1000")
     make(run, "a.zarr", "--chunk", "50x2", "--max-pixels", "1000")
-    monkeypatch.setattr("vorotool.formats.io.descriptors._free", lambda path: 1000)
+    monkeypatch.setattr("vorotool.formats.io.descriptors._free_on_disk", lambda folder: 1000)
     for name in ("b.zarr", "b.npy", "b.tif", "b.txt"):
         run(f"tessellate seeds.csv --size 400x300 -o {name}", code=4, says=f"{name} takes about")
         assert not (tmp_path / name).exists()

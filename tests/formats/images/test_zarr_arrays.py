@@ -64,7 +64,7 @@ def test_zarr_is_named_where_it_is_missing(monkeypatch):
 
 
 def test_room_is_asked_for_only_where_it_may_lack(tmp_path, monkeypatch):
-    monkeypatch.setattr("vorotool.formats.io.descriptors._free", lambda path: 1000)
+    monkeypatch.setattr("vorotool.formats.io.descriptors._free_on_disk", lambda folder: 1000)
 
     def never():
         raise AssertionError("there is room for all")

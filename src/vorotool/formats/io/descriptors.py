@@ -217,9 +217,14 @@ def _free(path: str | os.PathLike[str]) -> int | None:
     folder = os.path.dirname(os.path.realpath(path))
     while not os.path.exists(folder):
         folder = os.path.dirname(folder)
+    return _free_on_disk(folder)
+
+
+def _free_on_disk(folder: str) -> int:
+    """Bytes that are free: by shutil, which loads bz2 and lzma, only on Windows."""
     if sys.platform == "win32":
         from shutil import disk_usage
 
         return disk_usage(folder).free
-    disk = os.statvfs(folder)  # shutil loads bz2 and lzma, and small jobs do without
+    disk = os.statvfs(folder)
     return disk.f_bavail * disk.f_frsize
