@@ -36,7 +36,7 @@ def parts(shape, threads):
     placed_at = time.perf_counter()
     diagram = segment_voronoi(graph.points, graph.segments, threads=threads)
     made_at = time.perf_counter()
-    skeleton = skeleton_of(ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads)), threads=threads)
+    skeleton = skeleton_of(ShapeDiagram(graph, diagram, placed_shapes(graph)), threads=threads)
     end = time.perf_counter()
     return len(graph), len(skeleton), (placed_at - begin, made_at - placed_at, end - made_at)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, Wanted
@@ -15,7 +15,7 @@ from vorotool.engines.skeleton.diagrams import (
 )
 from vorotool.engines.skeleton.exact import check_border, check_features, check_skeleton_options
 from vorotool.numeric.checks import checked_flag, checked_threads
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, running
 from vorotool.types.box import Box, Extent, as_extent, check_lengths
 from vorotool.types.skeleton.skeleton import Skeleton
 
@@ -112,11 +112,11 @@ def skeleton_exact(
     check_lengths(frame or (), "frame's coordinate")
     given = as_polygons(polygons)
     check_border(given, border, side=side, features=features, gap=gap)
-    common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
+    run = running(threads, progress)
     if is_of_single_features(side, features):
-        return skeleton_inside(given, gap, complete=complete, border=border, strict=strict, **common).skeleton
-    diagram = diagram_of_all(given, gap, features=features, interior_only=side == "interior", strict=strict, **common)
-    return skeleton_in(diagram, side=side, features=features, complete=complete, frame=frame, **common)
+        return skeleton_inside(given, gap, complete=complete, border=border, strict=strict, **run).skeleton
+    diagram = diagram_of_all(given, gap, features=features, interior_only=side == "interior", strict=strict, **run)
+    return skeleton_in(diagram, side=side, features=features, complete=complete, frame=frame, **run)
 
 
 def skeleton_approx(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypedDict, TypeVar
 
 from vorotool.numeric.checks import available_threads, checked_threads
 
@@ -68,20 +68,18 @@ def in_threads(tasks: Sequence[Callable[[Progress], Result]], threads: int, prog
 
         return poll
 
-    def report() -> None:
-        if progress is not None:
-            progress(
-                sum(1 if future.done() else share for future, share in zip(futures, done, strict=True)) / len(tasks)
-            )
+    def look() -> None:
+        shares = (1 if future.done() else share for future, share in zip(futures, done, strict=True))
+        report(progress, sum(shares) / len(tasks))
 
     with ThreadPoolExecutor(threads) as pool:
         futures = [pool.submit(task, progress_of(k)) for k, task in enumerate(tasks)]
         try:
             for future in futures:
                 while wait([future], POLL_INTERVAL).not_done:
-                    report()
+                    look()
                 future.result()
-                report()
+                look()
         except BaseException:
             stop.set()
             pool.shutdown(cancel_futures=True)
@@ -111,3 +109,21 @@ class Report(Protocol):
 
 Progress = Report | None
 """None where nobody asks."""
+
+
+class Run(TypedDict, total=False):
+    """How work is done, for functions that only hand it on."""
+
+    threads: int  # 0 for all
+    progress: Progress
+
+
+def running(threads: int, progress: Progress) -> Run:
+    """Return what is handed on, after a check."""
+    return {"threads": checked_threads(threads), "progress": progress}
+
+
+def report(progress: Progress, fraction: float) -> None:
+    """Tell who asks how much is done."""
+    if progress is not None:
+        progress(fraction)

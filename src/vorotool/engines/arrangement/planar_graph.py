@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, Verif
 from vorotool.numeric.arrays import divides, owners, ranges, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.box import check_magnitude
@@ -95,13 +95,11 @@ def planar_graph(
     return graph_of_placement(given, placement, strict=strict, progress=progress)
 
 
-def graph_for_skeletons(
-    polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None
-) -> PlanarGraph:
+def graph_for_skeletons(polygons: Any, *, strict: bool = False, **run: Unpack[Run]) -> PlanarGraph:
     """Make the planar graph that a skeleton is computed of; arguments, errors and warnings as of `planar_graph`."""
     given = with_flat_shells_as_lines(as_polygons(polygons))
     check_magnitude(given.xy)
-    return planar_graph(given, strict=strict, threads=threads, progress=progress)
+    return planar_graph(given, strict=strict, **run)
 
 
 @plain(eq=False)

@@ -30,9 +30,7 @@ class PlacedShapes:
     source: NDArray[np.int64]
 
 
-def placed_shapes(
-    graph: PlanarGraph, *, is_repaired: NDArray[np.bool_] | None = None, threads: int = 0
-) -> PlacedShapes:
+def placed_shapes(graph: PlanarGraph, *, is_repaired: NDArray[np.bool_] | None = None) -> PlacedShapes:
     """Give the rings as they were used."""
     given = graph.polygons
     assert given is not None

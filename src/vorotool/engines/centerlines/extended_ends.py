@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import sqrt
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from vorotool.engines.from_skeleton.points_along import first_crossings, first_h
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.numeric.arrays import Booleans, Floats, Numbers, mask_of, owners, starts_of, within
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.lines import ExtendedSkeleton, LedOn
@@ -26,7 +27,7 @@ HAIR = 2.0**-6
 """In radii of the disc that a piece hangs on: branches that are shorter cannot be seen."""
 
 
-def without_end_pieces(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> Skeleton:
+def without_end_pieces(skeleton: Skeleton, **run: Unpack[Run]) -> Skeleton:
     """Leave out the pieces at the ends of branches."""
     pieces = end_pieces(skeleton, keeps_sides=True)
     lone, roots = pieces.lone_arcs, pieces.lone_roots
@@ -38,7 +39,7 @@ def without_end_pieces(skeleton: Skeleton, *, threads: int = 0, progress: Progre
     radius = np.concatenate([skeleton.radius, skeleton.radius[roots]])
     made = replace(skeleton, vertices=vertices, radius=radius, arcs=arcs, length=length, control=control)
     # removes nothing, but makes one branch of two that meet
-    return prune(with_arcs(made, kept), length=0, threads=threads, progress=progress)
+    return prune(with_arcs(made, kept), length=0, **run)
 
 
 @plain(eq=False)

@@ -11,7 +11,7 @@ from vorotool import _core
 from vorotool.convert.points import as_points
 from vorotool.errors import STRICT, InputError, LimitError, VerificationError, warn
 from vorotool.numeric.checks import as_array, checked_flag, checked_threads, joined_index, whole_numbers
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.products.formats import resolved
 from vorotool.products.registry import is_of
 from vorotool.types.arguments import check_value
@@ -187,14 +187,14 @@ def verify_triangulation(
     if not np.isfinite(mesh.points).all():
         raise VerificationError("a coordinate is not finite")
     find: Any = triangulation_fault if isinstance(mesh, Triangulation) else resolved(f"{_IN_SPACE}:fault")
-    fault = find(mesh, checked_threads(threads), progress)
+    fault = find(mesh, running(threads, progress))
     if fault is not None:
         raise VerificationError(fault)
 
 
-def triangulation_fault(mesh: Triangulation, threads: int, progress: Progress) -> str | None:
+def triangulation_fault(mesh: Triangulation, run: Run) -> str | None:
     """The first fault of a triangulation of finite points, if it has any."""
-    return _core.delaunay.find_fault(core_mesh(mesh), threads, progress)
+    return _core.delaunay.find_fault(core_mesh(mesh), **run)
 
 
 def core_mesh(mesh: Triangulation) -> _core.delaunay.Triangulation:
@@ -281,7 +281,7 @@ def insert_points(
     together = _joined(mesh, given)
     made = None
     if len(given) <= MANY * len(mesh.points):
-        made = _inserted(mesh, together.xy, hints, checked_threads(threads), progress)
+        made = _inserted(mesh, together.xy, hints, running(threads, progress))
     if made is None:
         return delaunay(together, strict=strict, threads=threads, progress=progress)
     known = known_of_points(together)
@@ -291,10 +291,10 @@ def insert_points(
 
 
 def _inserted(
-    mesh: Triangulation, xy: NDArray[np.float64], hints: NDArray[np.int32], threads: int, progress: Progress
+    mesh: Triangulation, xy: NDArray[np.float64], hints: NDArray[np.int32], run: Run
 ) -> dict[str, Any] | None:
     try:
-        return _core.delaunay.insert_points(core_mesh(mesh), xy, hints, threads, progress)
+        return _core.delaunay.insert_points(core_mesh(mesh), xy, hints, **run)
     except ValueError as error:
         raise InputError(f"{error}: give a triangulation that delaunay() or insert_points() returned") from None
 

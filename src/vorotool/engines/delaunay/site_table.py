@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import pi
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from vorotool.errors import InputError, UsageError
 from vorotool.numeric.arrays import mask_of
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.products.formats import resolved
 from vorotool.types.arguments import check_value
 from vorotool.types.images import LabelImage
@@ -83,41 +83,39 @@ def cell_statistics(
     >>> summary["measure"][3], summary["count"][3], round(summary["mean"][3], 2)
     ('neighbors', np.int64(32), np.float64(5.75))
     """
-    threads = checked_threads(threads)
+    run = running(threads, progress)
     if isinstance(points, LabelImage):
         if frame is not None or clip is not None:
             raise UsageError("frame and clip are for points: leave them out with a label image")
-        return _of_image(points, threads, progress)
-    mesh = points if isinstance(points, Triangulation) else triangulated(points, threads=threads, progress=progress)
-    cells = voronoi_cells(mesh, frame=frame, clip=clip, threads=threads, progress=progress)
+        return _of_image(points, run)
+    mesh = points if isinstance(points, Triangulation) else triangulated(points, **run)
+    cells = voronoi_cells(mesh, frame=frame, clip=clip, **run)
     has_region = frame is not None or clip is not None
-    return statistics_of(mesh, cells, has_region=has_region, threads=threads, progress=progress)
+    return statistics_of(mesh, cells, has_region=has_region, **run)
 
 
-def statistics_of(
-    mesh: Triangulation, cells: CellSet, *, has_region: bool, threads: int = 0, progress: Progress = None
-) -> CellStatistics:
+def statistics_of(mesh: Triangulation, cells: CellSet, *, has_region: bool, **run: Unpack[Run]) -> CellStatistics:
     """Measure cells that are there already."""
-    table = site_table(mesh, cells, properties=False, threads=threads, progress=progress)
+    table = site_table(mesh, cells, properties=False, **run)
     area = np.ma.filled(table["area"], 0.0)
     touches, on_hull = (np.ma.filled(table[name], True).astype(bool) for name in ("touches_frame", "on_hull"))
     whole = (area > 0) & ~touches & ~on_hull
     if cells.polygon_starts is not None:
-        uncut = voronoi_cells(mesh, frame=cells.frame, threads=threads, progress=progress)
+        uncut = voronoi_cells(mesh, frame=cells.frame, **run)
         whole &= area >= uncut.areas
-    tree = proximity_graph(mesh, "mst", threads=threads, progress=progress)
+    tree = proximity_graph(mesh, "mst", **run)
     region = float(area.sum()) if has_region or mesh.frame is not None else float(mesh.areas.sum())
     return CellStatistics(_measured(table, whole), tree.edge_lengths(), region, mesh.properties)
 
 
-def _of_image(image: LabelImage, threads: int, progress: Progress) -> CellStatistics:
+def _of_image(image: LabelImage, run: Run) -> CellStatistics:
     measure = resolved("engines.label_images.regions:region_table")
-    table: Table = measure(image, properties=False, threads=threads, progress=progress)
+    table: Table = measure(image, properties=False, **run)
     area = np.ma.filled(table["area"], 0)
     whole = (area > 0) & ~np.ma.filled(table["touches_frame"], True).astype(bool)
     sites = np.stack([table["x"], table["y"]], axis=1)
     sites = np.unique(sites, axis=0)  # objects may have one centroid
-    tree = proximity_graph(sites, "mst", threads=threads, progress=progress)
+    tree = proximity_graph(sites, "mst", **run)
     properties = {} if image.seeds is None else image.seeds.properties
     return CellStatistics(_measured(table, whole), tree.edge_lengths(), float(area.sum()), properties)
 

@@ -14,8 +14,7 @@ from vorotool.convert.volumes import as_volume_points
 from vorotool.engines.delaunay.delaunay import report_duplicates
 from vorotool.errors import LimitError
 from vorotool.numeric.arrays import Floats
-from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.types.mesh.tetrahedralization import FACES, Tetrahedralization
 from vorotool.types.points.point_set import known_of_points
 
@@ -28,19 +27,19 @@ def tetrahedralization(
     points: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None
 ) -> Tetrahedralization:
     """Triangulate points in space, as `vorotool.delaunay` does."""
-    given, threads = as_volume_points(points), checked_threads(threads)
+    given, run = as_volume_points(points), running(threads, progress)
     known = {name: value for name, value in known_of_points(given).items() if name in ("labels", "properties", "index")}
-    found = _triangulated(given.xyz, threads, progress)
+    found = _triangulated(given.xyz, run)
     is_planar = found["dimension"] == PLANE
-    planar = _planar_triangles(given.xyz, threads, progress) if is_planar else np.zeros((0, 3), dtype=np.int32)
+    planar = _planar_triangles(given.xyz, run) if is_planar else np.zeros((0, 3), dtype=np.int32)
     mesh = Tetrahedralization(given.xyz, found["tetrahedra"], found["neighbors"], planar, found["first"], **known)
     report_duplicates(mesh, strict=strict)
     return mesh
 
 
-def _triangulated(xyz: Floats, threads: int, progress: Progress) -> dict[str, Any]:
+def _triangulated(xyz: Floats, run: Run) -> dict[str, Any]:
     try:
-        return _core.tetrahedra.triangulate(xyz, threads, progress)
+        return _core.tetrahedra.triangulate(xyz, **run)
     except _core.tetrahedra.TooManyTetrahedraError as error:
         raise LimitError(
             f"{len(xyz)} points have more than {error} tetrahedra, and there is no memory for more: points along a few "
@@ -49,14 +48,14 @@ def _triangulated(xyz: Floats, threads: int, progress: Progress) -> dict[str, An
 
 
 # ---- points in one plane -------------------------------------------------------------------------
-def _planar_triangles(xyz: Floats, threads: int, progress: Progress) -> NDArray[np.int32]:
+def _planar_triangles(xyz: Floats, run: Run) -> NDArray[np.int32]:
     """Triangles of points in one plane, counter-clockwise as seen from where z, or else x or y, is greater.
 
     Together with any place off the plane the points are divided into tetrahedra that all have it for a corner. A
     sphere through it and three points meets the plane in their circle, so that the faces opposite to it are the
     Delaunay triangles of the plane; since it is lexicographically greater than all points, ties are broken by these.
     """
-    meshes = (_triangulated(places, threads, progress) for places in _with_places_beyond(xyz))
+    meshes = (_triangulated(places, run) for places in _with_places_beyond(xyz))
     cone = next(each["tetrahedra"] for each in meshes if len(each["tetrahedra"]))
     row, corner = np.nonzero(cone == len(xyz))
     triangles: NDArray[np.int32] = cone[row[:, None], FACES[corner]]
@@ -82,20 +81,20 @@ def _faces_up(triangle: Floats) -> bool:
 
 
 # ---- the checker ---------------------------------------------------------------------------------
-def fault(mesh: Tetrahedralization, threads: int, progress: Progress) -> str | None:
+def fault(mesh: Tetrahedralization, run: Run) -> str | None:
     """The first fault of a triangulation of finite points, if it has any."""
     arrays = mesh.points, mesh.tetrahedra, mesh.neighbors, mesh.first
-    found = _core.tetrahedra.find_fault(*arrays, threads, progress)
+    found = _core.tetrahedra.find_fault(*arrays, **run)
     if found is None and not len(mesh):
-        return _planar_fault(mesh, threads, progress)
+        return _planar_fault(mesh, run)
     return "there are tetrahedra and planar triangles" if found is None and len(mesh.planar) else found
 
 
-def _planar_fault(mesh: Tetrahedralization, threads: int, progress: Progress) -> str | None:
+def _planar_fault(mesh: Tetrahedralization, run: Run) -> str | None:
     """The first fault of triangles in a plane: with a place off the plane they are tetrahedra, which are checked."""
     places = mesh.points
     if not len(mesh.planar):
-        is_on_line = _triangulated(places, threads, progress)["dimension"] < PLANE
+        is_on_line = _triangulated(places, run)["dimension"] < PLANE
         return None if is_on_line else "there is no triangle, but the points are not collinear"
     if mesh.planar.min() < 0 or mesh.planar.max() >= len(places):
         return "a planar triangle names a point that does not exist"
@@ -110,7 +109,7 @@ def _planar_fault(mesh: Tetrahedralization, threads: int, progress: Progress) ->
         neighbors = _neighbors_of_cone(cone)
         if neighbors is None:
             return "two planar triangles lie on one side of an edge"
-        found = _core.tetrahedra.find_fault(beyond, np.ascontiguousarray(cone), neighbors, first, threads, progress)
+        found = _core.tetrahedra.find_fault(beyond, np.ascontiguousarray(cone), neighbors, first, **run)
         return found and f"together with a point {len(places)} off the plane: {found}"
     return "planar triangle 0 has no area"
 

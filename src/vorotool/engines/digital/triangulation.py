@@ -25,7 +25,7 @@ from vorotool.engines.tessellation.tessellate import verify_labels
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, VerificationError, option, warn
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, running
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.images import LabelImage
@@ -315,26 +315,26 @@ def repair_digital(
         return delaunay(seeds), DigitalRepair("chain")
     frame = frame or default_frame(seeds)
     require_memory(frame, max_pixels)
-    threads = checked_threads(threads)
+    run = running(threads, progress)
     ranked = SeedSet(seeds.x[order], seeds.y[order], np.arange(1, len(order) + 1, dtype=np.uint32), scale=seeds.scale)
     points, labels = _sites_of_seeds(seeds, sides)
     points = np.ascontiguousarray(points)
-    sweep = Tessellator(ranked, frame, sides=sides, threads=threads, strict=strict, progress=progress)
+    sweep = Tessellator(ranked, frame, sides=sides, strict=strict, **run)
     core, counts = _core.digital.digital_mesh(
-        points, ranked.x, ranked.y, seeds.scale, sweep.labels(dtype=np.uint32), frame.x, frame.y, threads, progress
+        points, ranked.x, ranked.y, seeds.scale, sweep.labels(dtype=np.uint32), frame.x, frame.y, **run
     )
 
     def mesh_of(core: _core.delaunay.DelaunayTriangulation) -> Triangulation:
-        arrays = core.arrays(threads, progress)
+        arrays = core.arrays(**run)
         known: Any = {"labels": labels.astype(np.int64), "properties": seeds.properties, "index": seeds.index}
         box = None if seeds.frame is None else seeds.frame.box.stretched(sides.x, sides.y)
         return Triangulation(points, **arrays, **known, y_axis=seeds.y_axis, frame=box)
 
     mesh = mesh_of(core)
-    fault = triangulation_fault(mesh, threads, progress)
+    fault = triangulation_fault(mesh, run)
     if fault is not None:
         counts |= {"route": "rebuilt", "inserted": len(points)}
-        mesh = mesh_of(_core.digital.inserted_mesh(points, threads, progress))
+        mesh = mesh_of(_core.digital.inserted_mesh(points, **run))
     repair = DigitalRepair(**counts, fault=fault)
     _report_rebuilt(repair)
     return _in_unit(mesh, sides), repair

@@ -27,7 +27,7 @@ from vorotool.errors import LimitError, warn
 from vorotool.numeric.arrays import Indices, mask_of, owners, ranges, starts_of
 from vorotool.numeric.checks import available_threads
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.parallel import Progress, in_threads
+from vorotool.numeric.parallel import Progress, Run, in_threads
 from vorotool.plain import plain
 from vorotool.types.box import bounds, check_magnitude
 from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
@@ -114,7 +114,7 @@ class _DependentError(Exception):
 
 def in_batches(
     polygons: PolygonSet,
-    work: Callable[[BatchShapes, int, Progress], Result],
+    work: Callable[[BatchShapes, Run], Result],
     *,
     reach: Callable[[PolygonSet, float], NDArray[np.int64]] | None = None,
     alone: bool = False,
@@ -129,22 +129,22 @@ def in_batches(
     given, polygons = polygons, with_flat_shells_as_lines(polygons)
     if polygons is not given:
         _report_flat(int(np.count_nonzero(polygons.is_line != given.is_line)))
-    threads = threads or available_threads()
+    run: Run = {"threads": threads or available_threads(), "progress": progress}
     is_cracks = polygons.connectivity is not None and reach is None and not polygons.is_line.any()
     corners = own_corners(polygons) if is_cracks and drops else None
     used = polygons if corners is None else corners.polygons
-    placement = placed_vertices(used, around=around, threads=threads, progress=progress)
+    placement = placed_vertices(used, around=around, **run)
     features = Features.of(used)
     made: list[tuple[BatchShapes, Result]] | None = None
     if alone:
-        made = _done(used, placement, features, np.arange(len(features), dtype=np.int32), work, threads, progress)
+        made = _done(used, placement, features, np.arange(len(features), dtype=np.int32), work, run)
     elif is_cracks:
         sheets = sheets_of_cracks(features, placement.vertices, progress=progress)
-        made = _done(used, placement, features, sheets, work, threads, progress, checks=True)
+        made = _done(used, placement, features, sheets, work, run, checks=True)
     if made is None:
         steps = None if reach is None else reach(used, ldexp(1.0, placement.exponent))
         sheets = sheets_of_boxes(features, placement.vertices, reach=steps, progress=progress)
-        made = _done(used, placement, features, sheets, work, threads, progress)
+        made = _done(used, placement, features, sheets, work, run)
     assert made is not None  # what is apart by its bounds is independent
     found = _all_repairs([shapes for shapes, _ in made], corners)
     repaired = _repaired(len(polygons), [shapes for shapes, _ in made])
@@ -238,9 +238,8 @@ def _done(
     placement: Placement,
     features: Features,
     sheets: NDArray[np.int32],
-    work: Callable[[BatchShapes, int, Progress], Result],
-    threads: int,
-    progress: Progress,
+    work: Callable[[BatchShapes, Run], Result],
+    run: Run,
     *,
     checks: bool = False,
 ) -> list[tuple[BatchShapes, Result]] | None:
@@ -248,12 +247,12 @@ def _done(
     batches = _batches(used, placement, features, sheets)
 
     def task(batch: FeatureBatch, poll: Progress) -> tuple[BatchShapes, Result]:
-        shapes = _shapes_of(batch, features, checks, poll)
-        return shapes, work(shapes, max(1, ceil(batch.share * threads)), poll)
+        shapes = _shapes_of(batch, checks, poll)
+        return shapes, work(shapes, {"threads": max(1, ceil(batch.share * run["threads"])), "progress": poll})
 
     order = sorted(range(len(batches)), key=lambda k: -batches[k].share)  # a large one that is late is waited for
     try:
-        results = in_threads([partial(task, batches[k]) for k in order], threads, progress) if batches else []
+        results = in_threads([partial(task, batches[k]) for k in order], **run) if batches else []
     except _DependentError:
         return None
     by_batch = dict(zip(order, results, strict=True))
@@ -292,7 +291,7 @@ def _batch(
     return FeatureBatch(polygons, rings, vertices, part, own, beyond, len(vertices) / len(used.xy))
 
 
-def _shapes_of(batch: FeatureBatch, features: Features, checks: bool, progress: Progress) -> BatchShapes:
+def _shapes_of(batch: FeatureBatch, checks: bool, progress: Progress) -> BatchShapes:
     made = arranged(batch.part, batch.placement, progress=progress)
     if checks and not _are_apart(made):
         raise _DependentError

@@ -15,7 +15,7 @@ from vorotool.errors import InputError, UsageError
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import as_array, checked_threads, described
 from vorotool.numeric.numbers import pair_of_doubles, shown_number, whole_number
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, report
 from vorotool.types.arguments import check_value
 from vorotool.types.fields import is_up
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
@@ -130,8 +130,7 @@ def verify_thickness(
         distance = discs.distance(place)
         if distance > BESIDE * min(sides):
             _check_pixel(discs, place, found, distance, extent, named)
-        if progress is not None:
-            progress((done + 1) / len(chosen))
+        report(progress, (done + 1) / len(chosen))
 
 
 def _values(thickness: Any) -> Floats:

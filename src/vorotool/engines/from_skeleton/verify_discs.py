@@ -11,7 +11,7 @@ from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
 from vorotool.numeric.arrays import Floats, mask_of
 from vorotool.numeric.lazy import shapely
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, report
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import used_shapes
@@ -71,8 +71,7 @@ def verify_discs(discs: Discs, *, progress: Progress = None) -> None:
         _check_order(discs, chosen, tolerance)
         if discs.features == "separate":
             _check_feature(discs, chosen, np.flatnonzero(feature == own), tolerance)
-        if progress is not None:
-            progress((number + 1) / len(owners))
+        report(progress, (number + 1) / len(owners))
     if discs.features == "together" and len(discs):
         _check_clear(discs, np.arange(len(discs)), _edges(discs, np.arange(len(feature))), tolerance)
 

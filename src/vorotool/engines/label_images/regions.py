@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.errors import InputError, LimitError
 from vorotool.numeric.checks import as_array, checked_flag, checked_threads, naming
 from vorotool.numeric.numbers import finite_double
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.types.pixels import CELL
 from vorotool.types.table import Table
 from vorotool.types.volumes.volume import LabelVolume
@@ -34,9 +34,9 @@ LARGEST_COLOR_TABLE = 1 << 28
 """Entries that an array indexed by label may have."""
 
 
-def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
+def measure_regions(image: Any, **run: Unpack[Run]) -> RegionMeasures:
     """Measure all regions of a label image or volume in one pass."""
-    return measure_parts([_labeled(image).labels], threads=threads, progress=progress)
+    return measure_parts([_labeled(image).labels], **run)
 
 
 def region_table(
@@ -97,16 +97,16 @@ def region_table(
     ([8, 8], [2, 1])
     """
     image = _labeled(image)
-    threads, properties = checked_threads(threads), checked_flag(properties, "properties")
-    regions = _regions(image, measures, threads, progress)
+    run, properties = running(threads, progress), checked_flag(properties, "properties")
+    regions = _regions(image, measures, run)
     if distance_scale is not None:
         finite_double(distance_scale, "distance_scale")
     if distance2 is not None:
-        squares = _largest_squares(image, distance2, regions.labels, threads, progress)
+        squares = _largest_squares(image, distance2, regions.labels, run)
         scale = 1 if regions.seeds is None else regions.seeds.scale
         scale = scale if distance_scale is None else distance_scale
         regions = replace(regions, largest_squares=squares, scale=scale)
-    return regions.table(properties=properties, threads=threads, progress=progress)
+    return regions.table(properties=properties, **run)
 
 
 def neighbor_table(
@@ -150,7 +150,7 @@ def neighbor_table(
     >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_length"))))
     [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
     """
-    return _regions(_labeled(image), measures, threads, progress).neighbors()
+    return _regions(_labeled(image), measures, running(threads, progress)).neighbors()
 
 
 def voronoi_diagram(
@@ -303,9 +303,9 @@ def _checked_measures(measures: Any) -> Any:
     return measures
 
 
-def _regions(image: Any, measures: Any, threads: int, progress: Progress) -> Regions:
+def _regions(image: Any, measures: Any, run: Run) -> Regions:
     """Measure an image or a volume, of whose labels each is that of a site."""
-    measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
+    measures = _checked_measures(measures) or measure_regions(image, **run)
     regions = Regions(measures, image.frame, image.sides, image.seeds)
     if (label := regions.stranger) is not None:
         place = np.unravel_index(int(np.argmax(image.labels == label)), image.shape)
@@ -318,9 +318,7 @@ def _regions(image: Any, measures: Any, threads: int, progress: Progress) -> Reg
     return regions
 
 
-def _largest_squares(
-    image: Any, distance2: Any, labels: NDArray[np.uint32], threads: int, progress: Progress
-) -> NDArray[Any]:
+def _largest_squares(image: Any, distance2: Any, labels: NDArray[np.uint32], run: Run) -> NDArray[Any]:
     """The largest squared distance in each region."""
     values = np.ascontiguousarray(as_array(distance2, "distance2"))
     if values.shape != image.shape or (values.dtype.kind not in "ui" and values.dtype != np.float64):
@@ -328,4 +326,4 @@ def _largest_squares(
             f"distance2 must be an array of integers or float64 of shape {image.shape}, but is {values.dtype} of shape "
             f"{values.shape}"
         )
-    return largest_by_label(label_array(image.labels), values, labels, threads, progress)
+    return largest_by_label(label_array(image.labels), values, labels, **run)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError, option
 from vorotool.numeric.arrays import Columns, Floats, Indices, mask_of
 from vorotool.numeric.numbers import finite_double, shown_number
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run
 from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import moved_feet, projected
 from vorotool.types.skeleton.arc_measures import ClearanceCourse
@@ -94,16 +94,11 @@ def check_neck(neck: float) -> None:
 
 
 def whole_skeleton(
-    polygons: PolygonsLike | Skeleton,
-    *,
-    features: FeaturesChoice,
-    strict: bool,
-    threads: int,
-    progress: Progress,
+    polygons: PolygonsLike | Skeleton, *, features: FeaturesChoice, strict: bool, **run: Unpack[Run]
 ) -> Skeleton:
     """Give the skeleton inside polygons, which may be given themselves."""
     if not isinstance(polygons, Skeleton):
-        return skeleton_exact(polygons, features=features, strict=strict, threads=threads, progress=progress)
+        return skeleton_exact(polygons, features=features, strict=strict, **run)
     is_inside = polygons.side == INTERIOR
     ends = polygons.arcs[is_inside]
     is_cut = (polygons.radius[ends] > 0) & (polygons.degree[ends] == 1)
@@ -124,9 +119,9 @@ class FoundNecks:
     feet: Feet  # of each, left and right of its ways
 
 
-def found_necks(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> FoundNecks:
+def found_necks(skeleton: Skeleton, **run: Unpack[Run]) -> FoundNecks:
     """Find the necks on a whole skeleton inside polygons."""
-    flow = clearance_flow(skeleton, threads=threads, progress=progress)
+    flow = clearance_flow(skeleton, **run)
     ways = ways_from_necks(skeleton, flow)
     feet = feet_of(skeleton, ways)
     x, y = feet.xy.mean(axis=1).T
@@ -204,9 +199,9 @@ class Flow:
     top: Indices  # (p,) int64 array: the local maximum that the clearance grows to from each plateau
 
 
-def clearance_flow(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> Flow:
+def clearance_flow(skeleton: Skeleton, **run: Unpack[Run]) -> Flow:
     """Follow the clearance upwards from everywhere."""
-    course = clearance_course(skeleton, threads=threads, progress=progress)
+    course = clearance_course(skeleton, **run)
     plateau = plateaus(skeleton, course)
     top = np.arange(int(plateau.max(initial=-1)) + 1)
     source, target = plateau[skeleton.arcs].T.astype(np.int64)

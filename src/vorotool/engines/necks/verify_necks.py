@@ -14,8 +14,7 @@ from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.errors import silent
 from vorotool.numeric.arrays import Floats, owners, ranks_of
-from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run, report, running
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.planar_graph import PlanarGraph, moved_feet, places_as_given
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -57,7 +56,7 @@ def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -
     vorotool.errors.VerificationError: neck 0: its feet are 2.0 from each other, but its width is 3.0
     """
     check_value(necks, "necks", "Necks")
-    threads, necks = checked_threads(threads), _placed(necks)
+    run, necks = running(threads, progress), _placed(necks)
     places = SitePlaces(necks.skeleton)
     for foot in (0, 1):
         off = places.distances(necks.sites[:, foot], necks.feet[:, foot])
@@ -72,7 +71,7 @@ def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -
     least, most = necks.beside.T
     if (at := first_wrong(~(necks.width / 2 <= least + places.tolerance) | ~(least <= most))) is not None:
         fail(f"neck {at}: beside its width of {necks.width[at]} the clearances are {necks.beside[at].tolist()}")
-    _check_clearances(necks.skeleton, necks.polygon, necks.xy, necks.width / 2, "neck", threads, progress)
+    _check_clearances(necks.skeleton, necks.polygon, necks.xy, necks.width / 2, "neck", run)
 
 
 def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -> None:
@@ -106,16 +105,16 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
     vorotool.errors.VerificationError: piece 0: nothing touches its largest disc, of radius 0.8377223398316207
     """
     check_value(parts, "parts", "Parts")
-    threads = checked_threads(threads)
-    verify_necks(parts.necks, threads=threads, progress=progress)
+    run = running(threads, progress)
+    verify_necks(parts.necks, **run)
     parts = _placed_parts(parts)
     if (at := first_wrong(~(parts.area > 0))) is not None:
         fail(f"piece {at} has an area of {parts.area[at]}")
-    _check_discs(parts, threads, progress)
+    _check_discs(parts, run)
     _check_cuts(parts)
-    _check_borders(parts, threads, progress)
+    _check_borders(parts, run)
     with silent():
-        _check_areas(parts, threads, progress)
+        _check_areas(parts, run)
 
 
 # ---- where they were computed --------------------------------------------------------------------
@@ -152,7 +151,7 @@ def _clearances(skeleton: Skeleton, polygon: NDArray[np.int32], places: Floats, 
         chosen = np.flatnonzero(own == each)
         lattice = np.ascontiguousarray((places[chosen] - skeleton.origin) / step)
         far = np.ascontiguousarray(reach[chosen] / step)
-        found[chosen] = step * _core.spatial.clearances(points, segments, lattice, far, checked_threads(threads), None)
+        found[chosen] = step * _core.spatial.clearances(points, segments, lattice, far, threads, None)
     return found
 
 
@@ -177,24 +176,22 @@ def _check_clearances(
     places: Floats,
     radius: Floats,
     what: str,
-    threads: int,
-    progress: Progress,
+    run: Run,
 ) -> None:
     """Raise if the boundary is nearer to a place than it is said."""
     tolerance = SitePlaces(skeleton).tolerance
-    nearest = _clearances(skeleton, polygon, places, radius + 2 * tolerance, threads)
+    nearest = _clearances(skeleton, polygon, places, radius + 2 * tolerance, run["threads"])
     if (at := first_wrong(nearest < radius - tolerance)) is not None:
         fail(f"{what} {at}: the boundary is {nearest[at]} from {places[at].tolist()}, nearer than {radius[at]}")
     if (at := first_wrong(~(nearest <= radius + tolerance))) is not None:
         fail(f"{what} {at}: nothing touches its largest disc, of radius {radius[at]}")
-    if progress is not None:
-        progress(1.0)
+    report(run["progress"], 1.0)
 
 
 # ---- pieces --------------------------------------------------------------------------------------
-def _check_discs(parts: Parts, threads: int, progress: Progress) -> None:
+def _check_discs(parts: Parts, run: Run) -> None:
     skeleton = parts.necks.skeleton
-    _check_clearances(skeleton, parts.source, parts.center, parts.radius, "piece", threads, progress)
+    _check_clearances(skeleton, parts.source, parts.center, parts.radius, "piece", run)
     polygons, after = parts.polygons, parts.polygons.following
     corner = owners(np.diff(polygons.ring_starts[polygons.polygon_starts]))
     (x, y), (u, v) = polygons.xy.T, polygons.xy[after].T
@@ -228,7 +225,7 @@ def _check_cuts(parts: Parts) -> None:
             fail(f"cut {neck} is listed between the pieces {between}, but is an edge of {sides[0]} and {sides[1]}")
 
 
-def _check_borders(parts: Parts, threads: int, progress: Progress) -> None:
+def _check_borders(parts: Parts, run: Run) -> None:
     """Raise unless edges that are no cuts lie on the boundary."""
     edges, piece = _directed(parts)
     cuts = {tuple(cut) for cut in parts.necks.feet.reshape(-1, 4).tolist()}
@@ -238,27 +235,26 @@ def _check_borders(parts: Parts, threads: int, progress: Progress) -> None:
     tolerance = SitePlaces(skeleton).tolerance
     a, b = edges[rest, :2], edges[rest, 2:]
     for place in (a, (a + b) / 2):
-        off = _clearances(skeleton, source, place, np.full(len(rest), 2 * tolerance), threads)
+        off = _clearances(skeleton, source, place, np.full(len(rest), 2 * tolerance), run["threads"])
         if (at := first_wrong(~(off <= tolerance))) is not None:
             fail(
                 f"piece {piece[rest[at]]}: {place[at].tolist()} is on its border, but neither on a cut nor on the "
                 "boundary"
             )
-    if progress is not None:
-        progress(1.0)
+    report(run["progress"], 1.0)
 
 
-def _check_areas(parts: Parts, threads: int, progress: Progress) -> None:
+def _check_areas(parts: Parts, run: Run) -> None:
     skeleton = parts.necks.skeleton
     if skeleton.features == "together" or not len(skeleton.polygons):
-        graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
+        graph = planar_graph(skeleton.polygons, **run)
         _check_area(parts, np.arange(len(skeleton.polygons)), graph)
         return
 
-    def check(shapes: BatchShapes, _threads: int, _poll: Progress) -> None:
+    def check(shapes: BatchShapes, _: Run) -> None:
         _check_area(parts, np.asarray(shapes.batch.polygons), shapes.graph)
 
-    in_batches(skeleton.polygons, check, drops=False, threads=threads, progress=progress)
+    in_batches(skeleton.polygons, check, drops=False, **run)
 
 
 def _check_area(parts: Parts, polygons: NDArray[np.integer], graph: PlanarGraph) -> None:

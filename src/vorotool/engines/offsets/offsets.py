@@ -26,9 +26,8 @@ from vorotool.engines.skeleton.exact import (
 )
 from vorotool.errors import UsageError, VorotoolWarning
 from vorotool.numeric.arrays import ranges, starts_of
-from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import finite_double
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.types.box import check_lengths
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.offsets import Offsets
@@ -101,15 +100,15 @@ def offset(
     >>> made.distance.tolist(), made.polygon.tolist()
     ([-1.0, -1.0, -0.25], [0, 0, 0])
     """
-    wanted = checked_distances(distances)
+    wanted, run = checked_distances(distances), running(threads, progress)
     check_features(features)
     are_separate = (shapes.features if isinstance(shapes, Skeleton) else features) == "separate"
     if not isinstance(shapes, ShapeDiagram):
         polygons = shapes.polygons if isinstance(shapes, Skeleton) else as_polygons(shapes, "shapes")
         if are_separate:
-            return _offsets_of_features(polygons, wanted, strict, checked_threads(threads), progress)
-        shapes = shape_diagram(polygons, strict=strict, threads=threads, progress=progress)
-    made = _offsets_of(shapes, wanted, threads, progress)
+            return _offsets_of_features(polygons, wanted, strict, run)
+        shapes = shape_diagram(polygons, strict=strict, **run)
+    made = _offsets_of(shapes, wanted, run)
     feature = made.polygons.feature
     has_several = len(feature) > 0 and feature[0] != feature[-1]
     return replace(made, features="together") if has_several else made
@@ -140,36 +139,32 @@ def listed_distances(distances: Any) -> list[Any]:
         return [distances]
 
 
-def _offsets_of_features(
-    polygons: PolygonSet, distances: list[float], strict: bool, threads: int, progress: Progress
-) -> Offsets:
+def _offsets_of_features(polygons: PolygonSet, distances: list[float], strict: bool, run: Run) -> Offsets:
     """Outwards of all features, inwards of each by itself."""
-    common: dict[str, Any] = {"threads": threads, "progress": progress}
     if max(distances) > 0:
-        graph = together(polygons, strict=strict, **common)
+        graph = together(polygons, strict=strict, **run)
         if min(distances) > 0 or are_apart(graph):
-            return _offsets_of(diagram_of_graph(graph, **common), distances, threads, progress)
+            return _offsets_of(diagram_of_graph(graph, **run), distances, run)
     inwards = [distance for distance in distances if distance < 0]
 
-    def work(shapes: BatchShapes, threads: int, poll: Progress) -> list[Curves]:
-        diagram = batch_diagram(shapes, is_whole=True, threads=threads, progress=poll)
-        return curves_of(diagram, inwards, threads, poll)
+    def work(shapes: BatchShapes, run: Run) -> list[Curves]:
+        return curves_of(batch_diagram(shapes, is_whole=True, **run), inwards, run)
 
     with warnings.catch_warnings():
         if max(distances) > 0:
             warnings.simplefilter("ignore", VorotoolWarning)  # repairs were told where all were put together
-        whole, made = in_batches(polygons, work, strict=strict, **common)
+        whole, made = in_batches(polygons, work, strict=strict, **run)
     order = InputOrder.of(whole, [shapes for shapes, _ in made])
     curves: dict[float, Curves] = {
         distance: _joined_curves(order, made, number) for number, distance in enumerate(inwards)
     }
     sites = order.site_table
     if max(distances) > 0:
-        placement = placed_vertices(order.polygons, **common)
-        shapes = diagram_of_graph(arranged(order.polygons, placement, progress=progress).graph, **common)
+        placement = placed_vertices(order.polygons, **run)
+        shapes = diagram_of_graph(arranged(order.polygons, placement, progress=run["progress"]).graph, **run)
         sites, shift = joined_sites(order.polygons, sites, shapes.placed, shapes.graph)
         outwards = [distance for distance in distances if distance > 0]
-        for distance, found in zip(outwards, curves_of(shapes, outwards, threads, progress), strict=True):
+        for distance, found in zip(outwards, curves_of(shapes, outwards, run), strict=True):
             source = np.append(shapes.placed.source, -1)
             curves[distance] = found | {
                 "site": found["site"] + np.int32(shift),
@@ -218,19 +213,19 @@ def _no_curves() -> Curves:
     }
 
 
-def _offsets_of(shapes: ShapeDiagram, distances: list[float], threads: int, progress: Progress) -> Offsets:
-    made = curves_of(shapes, distances, threads, progress)
+def _offsets_of(shapes: ShapeDiagram, distances: list[float], run: Run) -> Offsets:
+    made = curves_of(shapes, distances, run)
     return _as_offsets(made, distances, shapes.placed.sites, shapes.placed.polygons, shapes.graph.origin)
 
 
-def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progress: Progress) -> list[Curves]:
+def curves_of(shapes: ShapeDiagram, distances: list[float], run: Run) -> list[Curves]:
     """The curves at each distance, as arrays; sites are those of the diagram."""
     graph, diagram, placed = shapes.graph, shapes.diagram, shapes.placed
     for distance in distances:
         if len(diagram.edges) and not np.isfinite(distance / graph.scale):
             raise UsageError(f"the distance {distance:g} is too large for shapes of this size: use a smaller one")
     face = np.full(len(diagram.edges), -1, dtype=np.int32)
-    edges, faces = kept_edges(shapes, threads=threads, progress=progress)
+    edges, faces = kept_edges(shapes, **run)
     face[edges] = faces
     count = len(graph.points)
     more = np.full(len(diagram.points) - count, -1, dtype=np.int32)  # points that are of no polygon
@@ -245,7 +240,7 @@ def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progre
         distances,
         *graph.origin,
         graph.scale,
-        progress,
+        run["progress"],
     )
 
 

@@ -19,11 +19,10 @@ from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, ve
 from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.arrays import Floats, following, ranges, ranks_of, starts_of
-from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.flatten import middles_of
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, finite_double
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import SHELL
@@ -68,7 +67,7 @@ def verify_offsets(
     >>> verify_offsets(offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5, 1]))
     """
     check_value(offsets, "offsets", "Offsets")
-    threads, more = checked_threads(threads), listed_distances(distances)
+    run, more = running(threads, progress), listed_distances(distances)
     tolerance = _tolerance(offsets)
     _check_chains(offsets)
     _check_sites(offsets, tolerance)
@@ -76,21 +75,21 @@ def verify_offsets(
     wanted = {*(finite_double(one, "a distance") for one in more), *offsets.distance.tolist()}
     with warnings.catch_warnings(action="ignore", category=VorotoolWarning):  # features may lie over each other
         if offsets.features == "together":
-            graph = planar_graph(offsets.polygons, threads=threads, progress=progress)
-            _check_in_graph(offsets, wanted, tolerance, graph, threads, progress)
+            graph = planar_graph(offsets.polygons, **run)
+            _check_in_graph(offsets, wanted, tolerance, graph, run)
         else:
-            _check_features(offsets, wanted, tolerance, threads, progress)
+            _check_features(offsets, wanted, tolerance, run)
 
 
-def _check_features(offsets: Offsets, wanted: set[float], tolerance: float, threads: int, progress: Progress) -> None:
+def _check_features(offsets: Offsets, wanted: set[float], tolerance: float, run: Run) -> None:
     """Check what is outside of all features, and what is inside of each by itself."""
     outwards, inwards = {d for d in wanted if d > 0}, {d for d in wanted if d < 0}
     if outwards:
-        graph = planar_graph(offsets.polygons, threads=threads, progress=progress)
+        graph = planar_graph(offsets.polygons, **run)
         outside = with_shapes(offsets, np.flatnonzero(offsets.distance > 0))
-        _check_in_graph(outside, outwards, tolerance, graph, threads, progress)
+        _check_in_graph(outside, outwards, tolerance, graph, run)
 
-    def check(shapes: BatchShapes, threads: int, poll: Progress) -> None:
+    def check(shapes: BatchShapes, run: Run) -> None:
         number = ranks_of(shapes.batch.polygons, len(offsets.polygons), np.int32)
         is_own = (offsets.distance < 0) & (offsets.polygon >= 0) & (number[offsets.polygon] >= 0)
         own = with_shapes(offsets, np.flatnonzero(is_own))
@@ -105,17 +104,15 @@ def _check_features(offsets: Offsets, wanted: set[float], tolerance: float, thre
         )
         if (own.site_table.polygon < 0).any():
             fail("a piece inside a feature is about a site of another one")
-        _check_in_graph(own, inwards, tolerance, shapes.graph, threads, poll)
+        _check_in_graph(own, inwards, tolerance, shapes.graph, run)
 
     if inwards:
-        in_batches(offsets.polygons, check, threads=threads, progress=progress)
+        in_batches(offsets.polygons, check, **run)
 
 
-def _check_in_graph(
-    offsets: Offsets, distances: set[float], tolerance: float, graph: PlanarGraph, threads: int, progress: Progress
-) -> None:
-    _check_nothing_nearer(offsets, tolerance, graph, threads, progress)
-    _check_regions(offsets, distances, tolerance, graph, threads, progress)
+def _check_in_graph(offsets: Offsets, distances: set[float], tolerance: float, graph: PlanarGraph, run: Run) -> None:
+    _check_nothing_nearer(offsets, tolerance, graph, run)
+    _check_regions(offsets, distances, tolerance, graph, run)
 
 
 def with_shapes(offsets: Offsets, chosen: NDArray[np.intp]) -> Offsets:
@@ -179,24 +176,22 @@ def _middles(offsets: Offsets, start: Floats, end: Floats) -> Floats:
     return middles
 
 
-def _check_nothing_nearer(
-    offsets: Offsets, tolerance: float, graph: PlanarGraph, threads: int, progress: Progress
-) -> None:
+def _check_nothing_nearer(offsets: Offsets, tolerance: float, graph: PlanarGraph, run: Run) -> None:
     places = np.concatenate([offsets.start, *_inner_places(offsets)])
     distance = np.tile(np.abs(offsets.piece_distance), 4)
-    nearest = _clearances(places, distance, graph, threads, progress)
+    nearest = _clearances(places, distance, graph, run)
     if (at := first_wrong(nearest < distance - tolerance)) is not None:
         piece = at % len(offsets.site)
         fail(f"piece {piece} at distance {distance[at]}: a site is {nearest[at]} from {_place(places[at])}")
 
 
-def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, threads: int, progress: Progress) -> Floats:
+def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, run: Run) -> Floats:
     """Distances from the nearest site where it is not beyond the reach, else infinity."""
     if not len(graph):  # a lattice of single points may have no step
         apart = np.sqrt(np.square(places[:, None] - graph.coordinates()[None]).sum(axis=2))
         return np.asarray(apart.min(axis=1, initial=np.inf))
     lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
-    found = _core.spatial.clearances(graph.points, graph.segments, lattice, reach / graph.scale, threads, progress)
+    found = _core.spatial.clearances(graph.points, graph.segments, lattice, reach / graph.scale, **run)
     return np.asarray(graph.scale * found)
 
 
@@ -214,16 +209,9 @@ def _check_orientation(offsets: Offsets, tolerance: float) -> None:
         fail(f"ring {at} has the wrong orientation: it has the area {single.area[at]}")
 
 
-def _check_regions(
-    offsets: Offsets,
-    distances: set[float],
-    tolerance: float,
-    graph: PlanarGraph,
-    threads: int,
-    progress: Progress,
-) -> None:
-    diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
-    verify_segment_voronoi(diagram, threads=threads, progress=progress)
+def _check_regions(offsets: Offsets, distances: set[float], tolerance: float, graph: PlanarGraph, run: Run) -> None:
+    diagram = segment_voronoi(graph.points, graph.segments, **run)
+    verify_segment_voronoi(diagram, **run)
     sites = graph.coordinates()
     witnesses = np.concatenate([sites, sites[graph.segments].mean(axis=1), graph.coordinates(diagram.vertices)])
     points = shapely.points(witnesses)
@@ -233,7 +221,7 @@ def _check_regions(
         tested = abs(distance) * FLATTEN + tolerance
         shapes = to_shapely(offsets.flattened(abs(distance) * FLATTEN))[offsets.distance == distance]
         reach = np.full(len(witnesses), abs(distance) + 2 * tested)
-        clearance = _clearances(witnesses, reach, graph, threads, progress)
+        clearance = _clearances(witnesses, reach, graph, run)
         is_near = clearance <= abs(distance)
         wanted = is_inside | is_near if distance > 0 else is_inside & ~is_near
         clear = np.abs(clearance - abs(distance)) > 2 * tested

@@ -34,7 +34,7 @@ from vorotool.engines.skeleton.diagrams import joined_sides, joined_with_places
 from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.engines.skeleton.parts import contraction
 from vorotool.errors import LimitError, silent
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Run
 from vorotool.plain import plain
 from vorotool.types.box import bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -136,10 +136,9 @@ def feature_approximation(
     """Approximate the skeleton inside polygons, each feature as it would be alone on the lattice of all."""
     budget = _SeedBudget(wanted.most, options)
 
-    def work(shapes: BatchShapes, threads: int, poll: Progress) -> ApproximateSkeleton:
-        own = replace(wanted, side="interior", frame=None, threads=threads, progress=poll)
+    def work(shapes: BatchShapes, run: Run) -> ApproximateSkeleton:
         try:
-            found = _inside(shapes, options, own)
+            found = _inside(shapes, options, replace(wanted, side="interior", frame=None, **run))
         except _core.sampled_skeleton.TooManySeedsError:
             raise budget.error() from None
         budget.take(len(found.shapes.samples))
@@ -185,7 +184,7 @@ def _inside(shapes: BatchShapes, options: SamplingOptions, wanted: Wanted) -> Ap
 
 
 def _of_graph(graph: PlanarGraph, options: SamplingOptions, wanted: Wanted) -> ApproximateSkeleton:
-    placed = placed_shapes(graph, threads=wanted.threads)
+    placed = placed_shapes(graph)
     if options.tolerance is not None:
         return skeleton_within(graph, placed, options.tolerance, wanted)
     return approximate_skeleton(sampled_graph(graph, placed, options, wanted), wanted)
@@ -193,7 +192,7 @@ def _of_graph(graph: PlanarGraph, options: SamplingOptions, wanted: Wanted) -> A
 
 def samples_of_graph(graph: PlanarGraph, options: SamplingOptions, wanted: Wanted) -> SampledShapes:
     """Sample a graph as its skeleton needs it, and compute the Voronoi diagram of the seeds."""
-    placed = placed_shapes(graph, threads=wanted.threads)
+    placed = placed_shapes(graph)
     if options.tolerance is None:
         return sampled_graph(graph, placed, options, wanted)
     return skeleton_within(graph, placed, options.tolerance, wanted).shapes

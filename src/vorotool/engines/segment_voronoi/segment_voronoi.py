@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from vorotool import _core
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.lazy import shapely
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.segment_voronoi import LATTICE_LIMIT, SegmentVoronoiDiagram
 
@@ -52,8 +52,7 @@ def segment_voronoi_of_groups(
     group: NDArray[np.int64],
     *,
     within: tuple[int, int, int, int] | None = None,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> SegmentVoronoiDiagram:
     """Compute the diagrams of groups of points and segments, each as if there were no others, one after the other."""
     count = len(points)
@@ -65,7 +64,7 @@ def segment_voronoi_of_groups(
     for own in np.split(order, starts[1:]):
         inner = int(np.searchsorted(own, count))
         ends = number[segments[own[inner:] - count]]
-        parts.append(segment_voronoi(points[own[:inner]], ends, within=within, threads=threads, progress=progress))
+        parts.append(segment_voronoi(points[own[:inner]], ends, within=within, **run))
     return _joined(points, segments, parts, order.astype(np.int32))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +39,7 @@ from vorotool.engines.skeleton.shortened_edges import (
 from vorotool.errors import silent
 from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Run
 from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -64,19 +64,18 @@ def feature_skeleton(
     look: Callable[[ShapeDiagram, Skeleton], Seen] | None = None,
     border: Extent | None = None,
     strict: bool = False,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> FeatureSkeleton[Seen]:
     """Compute the skeleton inside polygons, in which each feature is what it would be alone on the lattice of all."""
 
-    def work(shapes: BatchShapes, threads: int, poll: Progress) -> tuple[Skeleton, list[Seen]]:
-        diagram = batch_diagram(shapes, border=border, is_whole=look is not None, threads=threads, progress=poll)
-        made = interior_skeleton(diagram, threads=threads, progress=poll)
+    def work(shapes: BatchShapes, run: Run) -> tuple[Skeleton, list[Seen]]:
+        diagram = batch_diagram(shapes, border=border, is_whole=look is not None, **run)
+        made = interior_skeleton(diagram, **run)
         own = made if border is not None else _without_beyond(made, shapes)
         return own, [] if look is None else [look(diagram, made)]
 
     room = None if border is None else around(border)
-    whole, made = in_batches(polygons, work, around=room, strict=strict, threads=threads, progress=progress)
+    whole, made = in_batches(polygons, work, around=room, strict=strict, **run)
     if not whole.polygon_count:
         warn_empty(polygons, "interior")
     skeleton = joined_skeletons(whole, [(shapes, skeleton) for shapes, (skeleton, _) in made])
@@ -92,25 +91,22 @@ def batch_diagram(
     *,
     border: Extent | None = None,
     is_whole: bool = False,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> ShapeDiagram:
     """Compute the diagram of a batch; the corners of the bounds of all are sites of it, after its other points."""
     if border is not None:
-        return _opened_diagram(shapes, border, is_whole, threads, progress)
+        return _opened_diagram(shapes, border, is_whole, **run)
     graph, beyond = shapes.graph, shapes.batch.beyond
     count = len(graph.points)
     points = np.concatenate([graph.points, beyond])
     unwanted = None if is_whole else sides_not_interior(graph)
     if unwanted is not None:
         unwanted = np.insert(unwanted, count, np.full(len(beyond), NEITHER, dtype=np.uint8))
-    diagram = segment_voronoi(points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
+    diagram = segment_voronoi(points, graph.segments, unwanted=unwanted, **run)
     return ShapeDiagram(graph, diagram, shapes.placed)
 
 
-def _opened_diagram(
-    shapes: BatchShapes, border: Extent, is_whole: bool, threads: int, progress: Progress
-) -> ShapeDiagram:
+def _opened_diagram(shapes: BatchShapes, border: Extent, is_whole: bool, **run: Unpack[Run]) -> ShapeDiagram:
     opening = opened(shapes.graph, border)
     graph = opening.graph
     diagram = segment_voronoi(
@@ -118,8 +114,7 @@ def _opened_diagram(
         graph.segments,
         unwanted=None if is_whole else sides_not_interior(graph),
         within=opening.within,
-        threads=threads,
-        progress=progress,
+        **run,
     )
     return ShapeDiagram(graph, opening.snapped(diagram), shapes.placed, opening)
 
@@ -204,12 +199,10 @@ def skeleton_inside(
     look: Callable[[AnyDiagram, Skeleton], Seen] | None = None,
     border: Extent | None = None,
     strict: bool = False,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> FeatureSkeleton[Seen]:
     """Compute the skeleton inside each feature by itself."""
-    common: dict[str, Any] = {"look": look, "strict": strict, "threads": threads, "progress": progress}
-    found = skeleton_of_features(polygons, gap, complete=complete, border=border, **common)
+    found = skeleton_of_features(polygons, gap, complete=complete, border=border, look=look, strict=strict, **run)
     return replace(found, skeleton=without_equal_nodes(found.skeleton))
 
 
@@ -229,15 +222,14 @@ def diagram_of_all(
     features: str,
     interior_only: bool = False,
     strict: bool = False,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> AnyDiagram:
     """Compute the diagram of all features; arguments, errors and warnings as of `vorotool.skeleton_exact`."""
     graph_of = graph_for_skeletons if features == "together" else together
-    graph = graph_of(polygons, strict=strict, threads=threads, progress=progress)
+    graph = graph_of(polygons, strict=strict, **run)
     if gap:
-        return elements_of_graph(graph, gap, threads=threads, progress=progress)
-    return diagram_of_graph(graph, interior_only=interior_only, threads=threads, progress=progress)
+        return elements_of_graph(graph, gap, **run)
+    return diagram_of_graph(graph, interior_only=interior_only, **run)
 
 
 def skeleton_in(
@@ -247,13 +239,12 @@ def skeleton_in(
     features: str,
     complete: bool = True,
     frame: Extent | None = None,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> Skeleton:
     """Take the skeleton out of the diagram of all features; arguments as of `vorotool.skeleton_exact`."""
     wanted: dict[str, Any] = {"side": side, "complete": complete, "frame": frame}
     of_diagram = _skeleton_of if features == "together" else sides_of
-    return without_equal_nodes(of_diagram(diagram, **wanted, threads=threads, progress=progress))
+    return without_equal_nodes(of_diagram(diagram, **wanted, **run))
 
 
 def _skeleton_of(diagram: AnyDiagram, *, complete: bool, **wanted: Any) -> Skeleton:
@@ -276,25 +267,23 @@ def feature_elements(
     complete: bool = True,
     look: Callable[[ElementDiagram, Skeleton], Seen] | None = None,
     strict: bool = False,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> FeatureSkeleton[Seen]:
     """Compute the skeleton inside polygons by the paper's decomposition of each feature alone."""
 
-    def work(shapes: BatchShapes, threads: int, poll: Progress) -> tuple[ShortEdges, list[tuple[Skeleton, list[Seen]]]]:
+    def work(shapes: BatchShapes, run: Run) -> tuple[ShortEdges, list[tuple[Skeleton, list[Seen]]]]:
         short = ShortEdges.of(shapes.graph, gap)
         if len(short):  # which of all is the first is known when all are there
             return short, []
         batch = shapes.batch
         within = np.stack(bounds(np.concatenate([batch.placement.vertices, batch.beyond])))
-        common: dict[str, Any] = {"threads": threads, "progress": poll}
         feature = None if look is not None else shapes.feature_of_point
-        elements = elements_of_shapes(shapes.graph, shapes.placed, gap, within=within, feature=feature, **common)
-        made = skeleton_of_elements(elements, complete=complete, **common)
+        elements = elements_of_shapes(shapes.graph, shapes.placed, gap, within=within, feature=feature, **run)
+        made = skeleton_of_elements(elements, complete=complete, **run)
         return short, [(made, [] if look is None else [look(elements, made)])]
 
     alone = look is not None
-    whole, made = in_batches(polygons, work, alone=alone, strict=strict, threads=threads, progress=progress)
+    whole, made = in_batches(polygons, work, alone=alone, strict=strict, **run)
     _refuse(whole, [(shapes, short) for shapes, (short, _) in made], gap)
     if not whole.polygon_count:
         warn_empty(polygons, "interior")
@@ -325,30 +314,28 @@ def sides_of(
     side: str,
     complete: bool = True,
     frame: Extent | None = None,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> Skeleton:
     """Give what is outside of the features of one arrangement, and what is inside each of them by itself."""
-    common: dict[str, Any] = {"threads": threads, "progress": progress}
-    wanted: dict[str, Any] = {"complete": complete, "frame": frame, **common}
+    wanted: dict[str, Any] = {"complete": complete, "frame": frame, **run}
     if side == "exterior" or _are_alone(diagram):
         return replace(_skeleton_of(diagram, side=side, **wanted), features="separate")
     gap, of_shapes = (0.0, diagram.graph) if isinstance(diagram, ShapeDiagram) else (diagram.gap, diagram.shapes)
     assert of_shapes.polygons is not None
     with silent():  # repairs were told where all were put together
-        inside = skeleton_of_features(of_shapes.polygons, gap, complete=complete, **common).skeleton
+        inside = skeleton_of_features(of_shapes.polygons, gap, complete=complete, **run).skeleton
     if not len(inside):
         warn_empty(of_shapes.polygons, side)
-    graph = arranged(inside.polygons, placed_vertices(inside.polygons, **common), progress=progress).graph
-    placed = placed_shapes(graph, threads=threads)
+    graph = arranged(inside.polygons, placed_vertices(inside.polygons, **run), progress=run.get("progress")).graph
+    placed = placed_shapes(graph)
     # outlines of pixels are cut where only neighbors meet, and stay outlines of pixels
     placed = replace(placed, polygons=replace(placed.polygons, connectivity=inside.polygons.connectivity))
     again: AnyDiagram
     if gap:
         ShortEdges.of(graph, gap).refuse(placed.polygons, placed.sites, gap)
-        again = elements_of_shapes(graph, placed, gap, **common)
+        again = elements_of_shapes(graph, placed, gap, **run)
     else:
-        again = diagram_of_placed(graph, placed, **common)
+        again = diagram_of_placed(graph, placed, **run)
     return joined_sides(inside, _skeleton_of(again, side="exterior", **wanted), placed, graph)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from vorotool.errors import InputError, Kind, Message, UsageError, VorotoolWarni
 from vorotool.numeric.arrays import Indices, ranks_of
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run
 from vorotool.plain import plain
 from vorotool.types.box import Extent, check_lengths, default_frame, is_extent
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -56,21 +56,15 @@ class ShapeDiagram:
     opening: Opening | None = None  # with an open border: the graph is this one's, and what its sites are there
 
 
-def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> ShapeDiagram:
+def shape_diagram(polygons: Any, *, strict: bool = False, **run: Unpack[Run]) -> ShapeDiagram:
     """Place polygons and compute their segment Voronoi diagram; arguments and errors as of `skeleton_exact`."""
-    threads = checked_threads(threads)
-    graph = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
-    return diagram_of_graph(graph, threads=threads, progress=progress)
+    return diagram_of_graph(graph_for_skeletons(polygons, strict=strict, **run), **run)
 
 
-def diagram_of_graph(
-    graph: PlanarGraph, *, interior_only: bool = False, threads: int = 0, progress: Progress = None
-) -> ShapeDiagram:
+def diagram_of_graph(graph: PlanarGraph, *, interior_only: bool = False, **run: Unpack[Run]) -> ShapeDiagram:
     """Compute the segment Voronoi diagram of polygons that are placed."""
-    threads = checked_threads(threads)
     unwanted = sides_not_interior(graph) if interior_only else None
-    placed = placed_shapes(graph, threads=threads)
-    return diagram_of_placed(graph, placed, unwanted=unwanted, threads=threads, progress=progress)
+    return diagram_of_placed(graph, placed_shapes(graph), unwanted=unwanted, **run)
 
 
 def diagram_of_placed(graph: PlanarGraph, placed: PlacedShapes, **options: Any) -> ShapeDiagram:
@@ -94,15 +88,13 @@ def skeleton_of(
     *,
     side: str = "interior",
     frame: Extent | None = None,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> Skeleton:
     """Delete what is not the skeleton's from the diagram of shapes; arguments as of `skeleton_exact`."""
     check_skeleton_options(side, 0, frame)
-    threads = checked_threads(threads)
     if side != "exterior" and not shapes.graph.is_inside.any():
         warn_empty(shapes.placed.polygons, side)
-    made = _on_side(shapes, side, frame, threads, progress)
+    made = _on_side(shapes, side, frame, **run)
     return made if side == "exterior" else of_one_arrangement(made)
 
 
@@ -113,18 +105,18 @@ def of_one_arrangement(skeleton: Skeleton) -> Skeleton:
     return replace(skeleton, features="together") if has_several else skeleton
 
 
-def interior_skeleton(shapes: ShapeDiagram, *, threads: int = 1, progress: Progress = None) -> Skeleton:
+def interior_skeleton(shapes: ShapeDiagram, **run: Unpack[Run]) -> Skeleton:
     """Give the skeleton inside shapes, and no word about it if there is none."""
-    return _on_side(shapes, "interior", None, threads, progress)
+    return _on_side(shapes, "interior", None, **run)
 
 
-def _on_side(shapes: ShapeDiagram, side: str, frame: Extent | None, threads: int, progress: Progress) -> Skeleton:
-    edges, faces = kept_edges(shapes, threads=threads, progress=progress)
+def _on_side(shapes: ShapeDiagram, side: str, frame: Extent | None, **run: Unpack[Run]) -> Skeleton:
+    edges, faces = kept_edges(shapes, **run)
     group = face_groups(shapes.placed, side)[faces]
     kept, clips = group >= 0, side != "interior"
     if shapes.opening is not None:
         kept &= (shapes.opening.site[shapes.diagram.edge_sites[edges]] >= 0).all(axis=1)
-    return assembled(shapes, edges[kept], group[kept], frame=frame, clips=clips, threads=threads, progress=progress)
+    return assembled(shapes, edges[kept], group[kept], frame=frame, clips=clips, **run)
 
 
 def kept_edges(
@@ -147,7 +139,7 @@ def whole_diagram(shapes: ShapeDiagram, *, frame: Extent | None = None, threads:
         frame=frame,
         clips=True,
         joins=False,
-        threads=checked_threads(threads),
+        threads=threads,
     )
     return replace(everything, side=np.full(len(everything), -1))
 
@@ -177,7 +169,7 @@ def assembled(
     frame: Extent | None,
     clips: bool,
     joins: bool = True,
-    threads: int,
+    threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:
     """Make a skeleton of edges of a diagram, each in the group of its polygon; those outside are the last group."""
@@ -195,7 +187,7 @@ def assembled(
         joined_groups(placed) if joins else (0, 0),
         *graph.origin,
         graph.scale,
-        threads,
+        checked_threads(threads),
         progress,
     )
     if opening is not None:

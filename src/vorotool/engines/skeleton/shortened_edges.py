@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,11 +24,10 @@ from vorotool.engines.skeleton.exact import (
 )
 from vorotool.errors import InputError
 from vorotool.numeric.arrays import Indices, following, owners
-from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import angle_of, hypotenuse
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import is_among
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Run
 from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -60,13 +59,11 @@ def element_diagram(polygons: Any, gap: float, *, threads: int = 0) -> ElementDi
     return elements_of_graph(graph_for_skeletons(polygons, threads=threads), gap, threads=threads)
 
 
-def elements_of_graph(
-    shapes: PlanarGraph, gap: float, *, threads: int = 0, progress: Progress = None
-) -> ElementDiagram:
+def elements_of_graph(shapes: PlanarGraph, gap: float, **run: Unpack[Run]) -> ElementDiagram:
     """Decompose polygons that are placed; errors as of `element_diagram`."""
-    placed = placed_shapes(shapes, threads=checked_threads(threads))
+    placed = placed_shapes(shapes)
     ShortEdges.of(shapes, gap).refuse(placed.polygons, placed.sites, gap)
-    return elements_of_shapes(shapes, placed, gap, threads=threads, progress=progress)
+    return elements_of_shapes(shapes, placed, gap, **run)
 
 
 def elements_of_shapes(
@@ -76,11 +73,9 @@ def elements_of_shapes(
     *,
     within: NDArray[np.int32] | None = None,
     feature: NDArray[np.int64] | None = None,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> ElementDiagram:
     """Decompose polygons whose edges are all longer than twice the gap."""
-    threads = checked_threads(threads)
     points = shapes.coordinates()
     a, b = points[shapes.segments].swapaxes(0, 1)
     way = (b - a) * (gap / np.sqrt(np.square(b - a).sum(axis=1, keepdims=True)))
@@ -90,29 +85,29 @@ def elements_of_shapes(
     elements = PolygonSet(
         np.concatenate([points, ends]), starts, np.full(count, LINE, np.int8), np.arange(count, dtype=np.int32)
     )
-    placement, box = _placed_within(elements, shapes, within, threads=threads, progress=progress)
-    graph = arranged(elements, placement, progress=progress).graph  # rounded ends may touch: nobody asked about these
+    placement, box = _placed_within(elements, shapes, within, **run)
+    # rounded ends may touch: nobody asked about these
+    graph = arranged(elements, placement, progress=run.get("progress")).graph
     owner = owners(np.diff(starts))
     vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_starts[:-1]]])
-    common: dict[str, Any] = {"within": box, "threads": threads, "progress": progress}
     if feature is None:
-        diagram = segment_voronoi(graph.points, graph.segments, **common)
+        diagram = segment_voronoi(graph.points, graph.segments, within=box, **run)
     else:
         group = np.concatenate([feature, feature[shapes.segments[:, 0]]])[owner[vertex]]
-        diagram = segment_voronoi_of_groups(graph.points, graph.segments, group, **common)
+        diagram = segment_voronoi_of_groups(graph.points, graph.segments, group, within=box, **run)
     return ElementDiagram(shapes, graph, diagram, owner[vertex], placed, gap)
 
 
 def _placed_within(
-    elements: PolygonSet, shapes: PlanarGraph, within: NDArray[np.int32] | None, **common: Any
+    elements: PolygonSet, shapes: PlanarGraph, within: NDArray[np.int32] | None, **run: Unpack[Run]
 ) -> tuple[Placement, tuple[int, int, int, int] | None]:
     """Elements on a lattice over further places too, and the bounds of all there."""
     if within is None:
-        return placed_vertices(elements, **common), None
+        return placed_vertices(elements, **run), None
     places = np.concatenate([elements.xy, shapes.coordinates(within)])
     count = len(places)
     alone = PolygonSet(places, np.arange(count + 1), np.full(count, LINE, np.int8), np.arange(count, dtype=np.int32))
-    placement = placed_vertices(alone, **common)
+    placement = placed_vertices(alone, **run)
     (least_x, least_y), (most_x, most_y) = (bound.tolist() for bound in bounds(placement.vertices))
     own = replace(placement, vertices=placement.vertices[: len(elements.xy)])
     return own, (least_x, most_x, least_y, most_y)
@@ -124,8 +119,7 @@ def skeleton_of_elements(
     side: str = "interior",
     complete: bool = True,
     frame: Extent | None = None,
-    threads: int = 0,
-    progress: Progress = None,
+    **run: Unpack[Run],
 ) -> Skeleton:
     """Delete the bisectors of elements with a label in common, and add the missing portions if wanted."""
     kept = np.flatnonzero(~_share_label(elements)).astype(np.int32)
@@ -143,8 +137,7 @@ def skeleton_of_elements(
         group[on_side].astype(np.int32),
         frame=frame,
         clips=side != "interior",
-        threads=threads,
-        progress=progress,
+        **run,
     )
     return _of_elements(made, elements)
 
@@ -332,7 +325,7 @@ def exact_for(elements: ElementDiagram, side: str, *, frame: Extent | None = Non
 
 def exact_inside(elements: ElementDiagram) -> Skeleton:
     """Compute what is inside the shapes that were decomposed exactly, and say no word if there is nothing."""
-    return interior_skeleton(diagram_of_placed(elements.shapes, elements.placed, threads=1))
+    return interior_skeleton(diagram_of_placed(elements.shapes, elements.placed, threads=1), threads=1)
 
 
 @plain(eq=False)

@@ -15,7 +15,7 @@ from vorotool.engines.skeleton.parts import outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.verify_regions import border_components, with_corners_apart
 from vorotool.numeric.arrays import mask_of, owners
 from vorotool.numeric.lazy import shapely
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Run
 from vorotool.types.box import widened
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.shapely_geometry import to_shapely
@@ -28,27 +28,27 @@ PER_ARC = 5
 """Places on each arc whose distances from the exact skeleton are measured."""
 
 
-def check_approximation(skeleton: Skeleton, threads: int, progress: Progress) -> None:
+def check_approximation(skeleton: Skeleton, run: Run) -> None:
     """Raise unless an approximate skeleton is where its bounds, radii and sides tell, feature by feature."""
     if (at := first_wrong(skeleton.is_parabola)) is not None:
         fail(f"arc {at} is a parabola, but arcs of approximate skeletons are straight")
     _check_sides(skeleton)
     error, is_inside = place_error(skeleton), skeleton.side == INTERIOR
     if skeleton.features == "together" or not len(skeleton.polygons):
-        _check_in_all(skeleton, error, threads, progress)
+        _check_in_all(skeleton, error, run)
         return
     if not is_inside.all():
-        _check_in_all(outside_of(skeleton), error, threads, progress)
+        _check_in_all(outside_of(skeleton), error, run)
     own = with_arcs(skeleton, is_inside)
 
-    def check(shapes: BatchShapes, threads: int, poll: Progress) -> None:
+    def check(shapes: BatchShapes, run: Run) -> None:
         of_batch = with_polygons(own, shapes.batch.polygons)
         if len(of_batch):
-            exact = interior_skeleton(batch_diagram(shapes, threads=threads, progress=poll), threads=threads)
-            _check_in_graph(of_batch, shapes.graph, exact, error, threads, poll)
+            exact = interior_skeleton(batch_diagram(shapes, **run), threads=run["threads"])
+            _check_in_graph(of_batch, shapes.graph, exact, error, run)
 
     if is_inside.any():
-        in_batches(skeleton.polygons, check, drops=False, threads=threads, progress=progress)
+        in_batches(skeleton.polygons, check, drops=False, **run)
 
 
 def place_error(skeleton: Skeleton) -> float:
@@ -57,21 +57,20 @@ def place_error(skeleton: Skeleton) -> float:
     return PLACE_ERROR * skeleton.scale + 4 * float(np.spacing(largest))
 
 
-def _check_in_all(skeleton: Skeleton, error: float, threads: int, progress: Progress) -> None:
+def _check_in_all(skeleton: Skeleton, error: float, run: Run) -> None:
     """Check what is in one arrangement of all polygons."""
-    graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
+    graph = planar_graph(skeleton.polygons, **run)
     sides = np.unique(skeleton.side).tolist()
     side = "both" if len(sides) > 1 else ("interior" if sides == [INTERIOR] else "exterior")
     frame = None if skeleton.frame is None else widened(skeleton.frame)
+    threads = run["threads"]
     exact = skeleton_of(diagram_of_graph(graph, threads=threads), side=side, frame=frame, threads=threads)
-    _check_in_graph(skeleton, graph, exact, error, threads, progress)
+    _check_in_graph(skeleton, graph, exact, error, run)
 
 
-def _check_in_graph(
-    skeleton: Skeleton, graph: PlanarGraph, exact: Skeleton, error: float, threads: int, progress: Progress
-) -> None:
+def _check_in_graph(skeleton: Skeleton, graph: PlanarGraph, exact: Skeleton, error: float, run: Run) -> None:
     _check_crossings(skeleton, graph, error)
-    _check_clearances(skeleton, graph, error, threads, progress)
+    _check_clearances(skeleton, graph, error, run)
     _check_bounds(skeleton, exact)
     _check_cycles(skeleton, graph)
 
@@ -104,11 +103,11 @@ def _check_sides(skeleton: Skeleton) -> None:
         fail(f"arc {at} is not in polygon {skeleton.polygon[at]}")
 
 
-def _check_clearances(skeleton: Skeleton, graph: PlanarGraph, error: float, threads: int, progress: Progress) -> None:
+def _check_clearances(skeleton: Skeleton, graph: PlanarGraph, error: float, run: Run) -> None:
     """Raise unless the radius of each node is its distance from the shapes."""
     lattice = np.ascontiguousarray((skeleton.vertices - graph.origin) / graph.scale)
     reach = np.ascontiguousarray((skeleton.radius + 2 * error) / graph.scale)
-    least = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
+    least = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, **run)
     if (at := first_wrong(~(np.abs(skeleton.radius - least) <= error))) is not None:
         place = tuple(skeleton.vertices[at].tolist())
         fail(f"node {at} at {place} is {least[at]} from the shapes, but its radius is {skeleton.radius[at]}")

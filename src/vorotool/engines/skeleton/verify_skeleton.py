@@ -27,10 +27,9 @@ from vorotool.engines.skeleton.verify_regions import (
 )
 from vorotool.errors import silent
 from vorotool.numeric.arrays import Floats, Indices
-from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
@@ -182,9 +181,7 @@ def _looseness(skeleton: Skeleton, sites: SitePlaces) -> Floats:
     return 1 + np.sqrt((way * way).sum(axis=1)) / sites.largest
 
 
-def check_nothing_nearer(
-    skeleton: Skeleton, sites: SitePlaces, graph: PlanarGraph, threads: int, progress: Progress
-) -> None:
+def check_nothing_nearer(skeleton: Skeleton, sites: SitePlaces, graph: PlanarGraph, run: Run) -> None:
     """Nodes and places inside arcs: no site within their distance from their own."""
     inner = [places_on_arcs(skeleton, np.array([t]))[:, 0] for t in _INSIDE]
     nodes = distinct(skeleton.arcs)
@@ -194,7 +191,7 @@ def check_nothing_nearer(
     )
     lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
     reach = np.ascontiguousarray(distance / graph.scale)
-    nearest = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
+    nearest = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, **run)
     if (at := first_wrong(nearest < distance - sites.tolerance)) is not None:
         what = f"node {nodes[at]}" if at < len(nodes) else f"arc {(at - len(nodes)) % len(skeleton)}"
         fail(f"{what}: a site is {nearest[at]} from {tuple(places[at].tolist())}, nearer than {distance[at]}")
@@ -251,7 +248,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     >>> verify_skeleton(skeleton_approx([[0, 0], [4, 0], [4, 2], [0, 2]], tolerance=0.1))
     """
     check_value(skeleton, "skeleton", "Skeleton")
-    threads = checked_threads(threads)
+    run = running(threads, progress)
     if not len(skeleton):
         return
     check_arrays(skeleton)
@@ -260,34 +257,33 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
         skeleton = _without_portions(skeleton)
     elif skeleton.error_bound.any():
         with silent():
-            check_approximation(skeleton, threads, progress)
+            check_approximation(skeleton, run)
         return
     check_equal_distances(skeleton, SitePlaces(skeleton))
     with silent():  # what bounds nothing is still in the rings
         if skeleton.features == "together" or not len(skeleton.polygons):
-            graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
-            _check_in_graph(skeleton, graph, threads, progress)
+            graph = planar_graph(skeleton.polygons, **run)
+            _check_in_graph(skeleton, graph, run)
         else:
-            _check_sides(skeleton, threads, progress)
+            _check_sides(skeleton, run)
 
 
-def _check_sides(skeleton: Skeleton, threads: int, progress: Progress) -> None:
+def _check_sides(skeleton: Skeleton, run: Run) -> None:
     """Check what is inside each feature by itself, and what is outside in the arrangement of all."""
     inside = skeleton.side == INTERIOR
     if not inside.all():
-        graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
-        _check_in_graph(outside_of(skeleton), graph, threads, progress)
+        graph = planar_graph(skeleton.polygons, **run)
+        _check_in_graph(outside_of(skeleton), graph, run)
     if inside.any():
         _check_own(skeleton)
         own, whole = with_arcs(skeleton, inside), SitePlaces(skeleton)
 
-        def check(shapes: BatchShapes, threads: int, poll: Progress) -> None:
+        def check(shapes: BatchShapes, run: Run) -> None:
             of_batch = with_polygons(own, shapes.batch.polygons)
             if len(of_batch):
-                _check_in_graph(of_batch, shapes.graph, threads, poll, whole=whole)
+                _check_in_graph(of_batch, shapes.graph, run, whole=whole)
 
-        alone = bool(skeleton.gap)
-        in_batches(skeleton.polygons, check, alone=alone, drops=False, threads=threads, progress=progress)
+        in_batches(skeleton.polygons, check, alone=bool(skeleton.gap), drops=False, **run)
 
 
 def _check_own(skeleton: Skeleton) -> None:
@@ -307,16 +303,14 @@ def _check_own(skeleton: Skeleton) -> None:
             fail(f"node {node[at]} is a corner that arcs in different polygons share")
 
 
-def _check_in_graph(
-    skeleton: Skeleton, graph: PlanarGraph, threads: int, progress: Progress, *, whole: SitePlaces | None = None
-) -> None:
+def _check_in_graph(skeleton: Skeleton, graph: PlanarGraph, run: Run, *, whole: SitePlaces | None = None) -> None:
     sites = SitePlaces(skeleton, whole)
     if skeleton.border == "open":
         graph_left = without_border(skeleton, graph)
-        check_nothing_nearer(skeleton, sites, graph_left, threads, progress)
+        check_nothing_nearer(skeleton, sites, graph_left, run)
         check_cut_regions(skeleton, graph, graph_left, sites)
         return
-    check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, threads), threads, progress)
+    check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, run), run)
     if not skeleton.gap:
         check_regions(SkeletonRegions(with_corners_apart(skeleton), graph, sites))
 
@@ -351,13 +345,13 @@ def _without_portions(skeleton: Skeleton) -> Skeleton:
     return replace(skeleton, **{name: getattr(skeleton, name)[kept] for name in PER_ARC})
 
 
-def _elements(skeleton: Skeleton, graph: PlanarGraph, threads: int) -> PlanarGraph:
+def _elements(skeleton: Skeleton, graph: PlanarGraph, run: Run) -> PlanarGraph:
     """The points and segments that nothing may be nearer than."""
     if not skeleton.gap:
         return graph
     from vorotool.engines.skeleton.shortened_edges import element_diagram
 
-    return element_diagram(skeleton.polygons, skeleton.gap, threads=threads).graph
+    return element_diagram(skeleton.polygons, skeleton.gap, threads=run["threads"]).graph
 
 
 def check_arrays(skeleton: Skeleton) -> None:

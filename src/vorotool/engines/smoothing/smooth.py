@@ -9,7 +9,7 @@ from vorotool.errors import InputError
 from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of, within
 from vorotool.numeric.curves.flatten import chained, polylines
 from vorotool.numeric.numbers import checked_tolerance
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, report
 from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.lines import LedOn, SmoothLines
@@ -389,8 +389,7 @@ def _fitted_lines(samples: LineSamples, tolerance: float, progress: Progress) ->
         is_near = fits.error <= tolerance
         found.append((stretches.first[is_near], fits.control[:, :, is_near].transpose(2, 0, 1), fits.error[is_near]))
         done += int((stretches.last - stretches.first)[is_near].sum())
-        if progress is not None:
-            progress(done / total)
+        report(progress, done / total)
         stretches = _divided(samples, stretches[~is_near], fits.farthest[~is_near], tolerance)
     first, control, error = (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.argsort(first, kind="stable")

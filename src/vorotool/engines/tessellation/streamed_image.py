@@ -22,7 +22,7 @@ from vorotool.engines.tessellation.raster_objects import (
 )
 from vorotool.engines.tessellation.tessellator import Quantity, Tessellator, surrounded
 from vorotool.errors import LimitError, option
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, report
 from vorotool.plain import plain
 from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
@@ -146,8 +146,7 @@ class ImageBand:
         outs = {what: np.empty(shape, dtype) for what, dtype in dtypes.items()}
         for part in self.parts:
             for first, pixels in self._pieces(part, outs, threads):
-                if progress is not None:
-                    progress((first + pixels - self.first) / self.count)
+                report(progress, (first + pixels - self.first) / self.count)
         return list(outs.values())
 
     def _pieces(
@@ -271,7 +270,7 @@ class StreamedImage(Tessellator):
         """Labels and squared distances of some rows."""
         band = self.band("labels", dtype, first, count, self._max_distance)
         labels, squares = band.quantities({"labels": dtype, "distance2": self.measured_dtype}, self._threads)
-        self._tell(first + count)
+        report(self._progress, (first + count) / self.frame.height)
         return labels, squares
 
     def _rows(
@@ -279,12 +278,8 @@ class StreamedImage(Tessellator):
     ) -> NDArray[Any]:
         count = self.frame.height - first if count is None else count
         made = self.band(what, dtype, first, count, limit).rows(threads=self._threads)
-        self._tell(first + count)
+        report(self._progress, (first + count) / self.frame.height)
         return made
-
-    def _tell(self, rows: int) -> None:
-        if self._progress is not None:
-            self._progress(rows / self.frame.height)
 
     def _scan(self, progress: Progress) -> None:
         """Read the image from top to bottom; labels are provisional yet, and the list below is that of the band."""
@@ -303,8 +298,7 @@ class StreamedImage(Tessellator):
             self._bands.append(ObjectBand(self.source, first, count, above.packed(), below, row, start, end, none))
             above = last_seeds(objects, first).or_else(above)
             row_above = objects[-1].copy()
-            if progress is not None:
-                progress((first + count) / self.frame.height)
+            report(progress, (first + count) / self.frame.height)
 
     def _provisional(self, first: int, count: int, start: int) -> tuple[NDArray[np.uint32], int]:
         """Label some rows, as far as the rows above them tell; gives how many labels need numbers so far, too."""

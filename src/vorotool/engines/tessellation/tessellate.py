@@ -30,7 +30,7 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, UsageError, VerificationError, option
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import shown_number, whole_number
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, report
 from vorotool.types.arguments import check_value
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import MAX_PIXELS, SQUARE, Frame, PixelSides, distance_as_written
@@ -255,8 +255,7 @@ def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0, progres
     for first, count in band_limits(rows.frame, len(rows.seeds)):
         place = rows.frame.part(first, count)
         verify_labels(rows.labels(first, count), rows.seeds, place, max_distance2=limit, sides=sides, threads=threads)
-        if progress is not None:
-            progress((first + count) / rows.frame.shape[0])
+        report(progress, (first + count) / rows.frame.shape[0])
 
 
 def verify_tessellation(

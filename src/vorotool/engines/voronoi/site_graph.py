@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, un
 from vorotool.errors import InputError, LimitError
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
 from vorotool.numeric.crs import crs_name, same_crs
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run
 from vorotool.plain import plain
 from vorotool.types.box import Extent, Sides, bounds, check_magnitude, default_frame, extent_sides
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -51,7 +51,12 @@ class OwnedGraph:
 
 def owned_graph(polygons: PolygonSet, site: Sites, *, threads: int = 0, progress: Progress = None) -> OwnedGraph:
     """Put polygons and lines into one planar graph, and tell whose its elements are."""
-    return owners_of(_graph(polygons, threads, progress), site)
+    given = with_flat_shells_as_lines(polygons)
+    check_magnitude(given.xy)
+    if len(given.xy) > MOST_VERTICES:
+        raise LimitError(f"the input has {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
+    placement = placed_vertices(given, threads=threads, progress=progress)
+    return owners_of(graph_of_sites(given, placement, progress=progress), site)
 
 
 def owners_of(graph: PlanarGraph, site: Sites) -> OwnedGraph:
@@ -84,14 +89,6 @@ def _with_several(element: NDArray[np.integer], site: Sites, count: int) -> int:
     np.minimum.at(least, element, site)
     np.maximum.at(most, element, site)
     return int((least < most).sum())
-
-
-def _graph(polygons: PolygonSet, threads: int, progress: Progress) -> PlanarGraph:
-    given = with_flat_shells_as_lines(polygons)
-    check_magnitude(given.xy)
-    if len(given.xy) > MOST_VERTICES:
-        raise LimitError(f"the input has {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
-    return graph_of_sites(given, placed_vertices(given, threads=threads, progress=progress), progress=progress)
 
 
 def graph_of_sites(given: PolygonSet, placement: Placement, *, progress: Progress = None) -> PlanarGraph:
@@ -214,12 +211,10 @@ def rings_at_one_place(graph: PlanarGraph, given: PolygonSet) -> Indices:
     return np.flatnonzero(np.bincount(owners(sizes)[is_other], minlength=len(sizes)) == 0)
 
 
-def diagram_of(
-    owned: OwnedGraph, *, is_whole: bool = False, threads: int = 0, progress: Progress = None
-) -> SegmentVoronoiDiagram:
+def diagram_of(owned: OwnedGraph, *, is_whole: bool = False, **run: Unpack[Run]) -> SegmentVoronoiDiagram:
     """Make the diagram of the points and segments of a graph."""
     graph, unwanted = owned.graph, None if is_whole else _unwanted(owned)
-    return segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
+    return segment_voronoi(graph.points, graph.segments, unwanted=unwanted, **run)
 
 
 def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:

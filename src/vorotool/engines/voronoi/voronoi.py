@@ -36,10 +36,9 @@ from vorotool.engines.voronoi.site_graph import (
 )
 from vorotool.errors import InputError, RepairWarning, UsageError
 from vorotool.numeric.arrays import Floats
-from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, finite_double, shown_number
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.types.box import Extent, as_extent, check_lengths, default_frame, is_extent
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.voronoi.tables import cell_polygons, site_shapes
@@ -141,17 +140,15 @@ def voronoi(
     [1.570796]
     """
     given_frame = None if frame is None else _checked_frame(frame)
-    threads = checked_threads(threads)
-    given = as_sites(sites, by)
+    run, given = running(threads, progress), as_sites(sites, by)
     limit = None if max_distance is None else _checked_limit(max_distance, given.polygons.xy)
     cuts = given_cuts(clip, enclosures, given.polygons.crs)
     if cuts.are_there:
-        arcs, extent = _map_between_cuts(given, cuts, given_frame, limit, threads, progress)
+        arcs, extent = _map_between_cuts(given, cuts, given_frame, limit, run)
         rings = rings_of(arcs)
     else:
         extent = given_frame or default_frame(given.polygons, limit)
-        owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
-        arcs, rings = _map(owned, extent, limit, threads, progress)
+        arcs, rings = _map(owned_graph(given.polygons, given.site, **run), extent, limit, run)
     vertices = moved_vertices(arcs, rings)
     return VoronoiMap(
         vertices,
@@ -197,35 +194,31 @@ def _checked_limit(max_distance: float, xy: NDArray[np.float64]) -> float:
 
 
 def _map_between_cuts(
-    given: Sites, cuts: GivenCuts, frame: Extent | None, limit: float | None, threads: int, progress: Progress
+    given: Sites, cuts: GivenCuts, frame: Extent | None, limit: float | None, run: Run
 ) -> tuple[Arcs, Extent]:
     """Make the diagrams of all regions that a frame, a clip and enclosures leave, in one map."""
     frame = cuts.frame_for(given.polygons, frame, limit)
-    joint = joint_graph(
-        given.polygons, cuts.sides_near(frame), cuts.clip, cuts.enclosures, threads=threads, progress=progress
-    )
+    joint = joint_graph(given.polygons, cuts.sides_near(frame), cuts.clip, cuts.enclosures, **run)
     if cuts.clip is not None and not joint.clips:
         raise InputError("the clip has no area: give polygons that have one")
     regions = regions_of(joint, given.site, given.count)
-    local = local_diagrams(
-        joint.sites, given.site, given.count, regions, limit=limit, threads=threads, progress=progress
-    )
+    local = local_diagrams(joint.sites, given.site, given.count, regions, limit=limit, **run)
     arcs = cut_map(RegionOverlay(local, regions.edges, joint.graph)).arcs()
     return arcs, frame_of(regions.edges, frame, cuts.clip)
 
 
-def _map(owned: OwnedGraph, frame: Extent, limit: float | None, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
+def _map(owned: OwnedGraph, frame: Extent, limit: float | None, run: Run) -> tuple[Arcs, Rings]:
     if limit is not None:
         owned = _on_fine_lattice(owned, limit)
-    diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
+    diagram = diagram_of(owned, is_whole=limit is not None, **run)
     if limit is not None:
-        borders = borders_of(owned, diagram, level=limit / owned.graph.scale, threads=threads)
+        borders = borders_of(owned, diagram, level=limit / owned.graph.scale, threads=run["threads"])
         overlay = FrameOverlay(borders, owned.graph, frame)
         if (borders.sites[overlay.pieces.piece] == OUTSIDE).any() or _is_beyond(owned, borders.level, frame):
             made, level = CutMap(overlay), borders.level
             del diagram, borders, overlay
             return _cells_of(owned, made, level, frame)
-    borders = borders_of(owned, diagram, threads=threads)
+    borders = borders_of(owned, diagram, threads=run["threads"])
     del diagram  # large, as borders are: what is made of them goes on alone
     made, level = CutMap(FrameOverlay(borders, owned.graph, frame)), borders.level
     del borders
