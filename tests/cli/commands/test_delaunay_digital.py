@@ -63,7 +63,7 @@ def test_objects_cannot_be_repaired(run):
 
 
 def test_a_failed_certificate_is_said(run, monkeypatch):
-    monkeypatch.setattr(engine._core.delaunay, "find_fault", lambda *_: "a side is wrong")
+    monkeypatch.setattr(engine._core.delaunay, "find_fault", lambda *_, **__: "a side is wrong")
     done = run(f"delaunay {DOTS}", *FRAME, "--method", "digital-valid", "--stats", "stats.json")
     assert done.err.startswith("warning: the digital triangulation could not be repaired")
     assert done.out == run(f"delaunay {DOTS}").out

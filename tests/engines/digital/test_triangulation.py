@@ -151,7 +151,7 @@ def test_chains(seeds):
 
 def test_a_failed_certificate_is_said(monkeypatch):
     faults = iter(["triangle 0 is not counter-clockwise"])
-    monkeypatch.setattr(engine._core.delaunay, "find_fault", lambda *_: next(faults))
+    monkeypatch.setattr(engine._core.delaunay, "find_fault", lambda *_, **__: next(faults))
     with pytest.warns(
         VorotoolWarning, match=r"the certificate failed .triangle 0 is not .*: all 4 sites were inserted"
     ):
