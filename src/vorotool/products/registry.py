@@ -158,7 +158,7 @@ _SPACE = (
     _TETRAHEDRA,
     _HULL._replace(usual_for=("obj", "ply", "stl")),
     _product("cells", "SpaceCellSet", f"{_TABLES} obj ply vtu",
-        own=dict.fromkeys(("npz", "obj", "ply", "vtu"), Writer("formats.results.space_cells:write_cells",
+        own=dict.fromkeys(("npz", "obj", "ply", "vtu"), Writer("formats.results.meshes:write_cells",
             ("fmt", "threads")))),
     _product("table", "Tetrahedralization", _TABLES),
 )
