@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -14,6 +13,7 @@ from vorotool.formats.io.arrays import MAGIC, npy_header
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note, with_crs, with_stated_axis
+from vorotool.formats.sniffing import PICTURES, TIFF_MAGIC, UTF8_MARK, image_of
 from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.numbers import Flatten, checked_flatten, checked_tolerance
@@ -124,9 +124,6 @@ def _member(crs: str) -> dict[str, Any]:
 
 
 # ---- images that are read band by band -----------------------------------------------------------
-TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
-
-
 def open_tiff(name: str, input_format: str | None = None, page: int | None = None) -> TiffRows | None:
     """Open a page of a TIFF file that can be read band by band; None if it is none, or comes through a stream."""
     if input_format not in (None, "tiff") or not _begins_as_tiff(name):
@@ -167,11 +164,6 @@ _CRS, _TO_CRS = option("--input-crs", "crs"), option("--crs", "to_crs")
 _LAYER = option("--input-layer or FILE:LAYER", "layer or FILE:LAYER")
 
 _IMAGE_SUFFIXES = {f".{name}": kind for name, kind in IMAGE_NAMES.items() if kind != "zarr"}
-_IMAGE_HEADS = (
-    (b"\x89PNG", "png"),
-    *((head, "tiff") for head in TIFF_MAGIC),
-    (MAGIC, "npy"),
-)
 _RESULTS: dict[bytes, Holds] = {
     b'"vorotool.skeleton"': "skeleton",
     b'"vorotool.offsets"': "offsets",
@@ -238,7 +230,7 @@ def image_format(source: Source, said: str | None = None) -> str | None:
     """Give the format of an image: what is said, else the extension, else the content; None if it is no image."""
     if said is not None and "image" not in INPUTS[said].readers:
         return None
-    found, by_name = _image_by_content(source.data), _IMAGE_SUFFIXES.get(source.suffix)
+    found, by_name = image_of(source.data), _IMAGE_SUFFIXES.get(source.suffix)
     kind = found or by_name
     if said in (None, "npy") and (kind is None or (kind == "npy" and not _is_npy_image(source))):
         return None
@@ -261,42 +253,7 @@ def _is_npy_image(source: Source) -> bool:
     return len(shape) in (2, 3) and shape[1] != 2
 
 
-def _image_by_content(data: bytes) -> str | None:
-    found = next((name for head, name in _IMAGE_HEADS if data.startswith(head)), None)
-    return found or ("pnm" if looks_like_pnm(data) else picture_format(data))
-
-
 def _result(data: bytes) -> Holds | None:
     """What of ours text looks like the JSON of, which is not parsed to tell."""
     found = next((holds for kind, holds in _RESULTS.items() if kind in data), None)
-    return found if found and data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") else None
-
-
-# ---- how images begin ----------------------------------------------------------------------------
-PICTURES = {"jpeg": "JPEG", "bmp": "BMP", "gif": "GIF", "webp": "WebP", "avif": "AVIF"}
-"""Formats and what they are called."""
-
-GAP = rb"(?:\s|#[^\n\r]*[\n\r])+"
-"""Between the numbers of a header of PBM, PGM or PPM: space and comments."""
-_START = rb"P([1-6])" + GAP + rb"(?=[0-9])"
-
-
-_PICTURE_HEADS = (  # where which bytes are
-    *(("jpeg", 0, b"\xff\xd8\xff"), ("gif", 0, b"GIF87a"), ("gif", 0, b"GIF89a"), ("webp", 8, b"WEBP")),
-    *(("avif", 4, b"ftypavif"), ("avif", 4, b"ftypavis"), ("bmp", 0, b"BM")),
-)
-_MORE_OF_HEADS = {
-    "webp": b"RIFF",
-    "bmp": rb"(?s:BM.{12})[\x0c\x10\x28\x34\x38\x40\x6c\x7c](\0{3}|\0{0,2}\Z)",  # the size of its header
-}
-
-
-def picture_format(data: bytes) -> str | None:
-    """Which of `PICTURES` data begins as."""
-    found = next((name for name, place, head in _PICTURE_HEADS if data.startswith(head, place)), "")
-    return found if found and re.match(_MORE_OF_HEADS.get(found, b""), data[:32]) else None
-
-
-def looks_like_pnm(data: bytes) -> bool:
-    """Tell whether data begins as a PBM, PGM or PPM file: P1 to P6, space or comments, a number."""
-    return data.startswith(b"P") and re.match(_START, data[:65_536]) is not None
+    return found if found and data.lstrip(UTF8_MARK + b" \t\r\n").startswith(b"{") else None

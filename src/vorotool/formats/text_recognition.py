@@ -2,38 +2,30 @@
 
 from __future__ import annotations
 
-import re
-import zlib
 from dataclasses import replace
 
 from vorotool.convert.tables import coordinate_columns
 from vorotool.errors import INPUT_FORMAT, OTSU, InputError, UsageError, option
-from vorotool.formats.io.arrays import MAGIC, NPZ_MAGIC, npz_holds
+from vorotool.formats.io.arrays import NPZ_MAGIC, npz_holds
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.json import RECORD_MARK, holds_shapes, is_json_lines, parse_json
+from vorotool.formats.parsing.json import holds_shapes, is_json_lines, parse_json
 from vorotool.formats.points.delimited import geometry_column, header_fields
+from vorotool.formats.sniffing import UTF8_MARK, format_of
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS, Holds
 
 _ALPHA = option("alphashape", "alpha_shape")
+_TAKERS = option("skeleton-exact, skeleton-approx or draw", "skeleton_exact or skeleton_approx")
+
+DRAWN = frozenset(each.name for each in INPUTS.values() if "curves" in each.has)
+"""Formats of drawings."""
 
 _SUFFIXES = {f".{name}": each.name for each in INPUTS.values() for name in each.names if name not in ("json", "txt")}
 """Extensions that tell the format; JSON is of one of several kinds, and text of any."""
 _OF_ROWS = frozenset({"", ".csv", ".tsv", ".txt", ".wkt"})
 """Extensions of texts that need nothing but rows; other formats are damaged without a document or a header."""
-_WKT = (
-    rb"(?i)\s*(SRID\s*=\s*\d+\s*;\s*)?((MULTI)?(POINT|LINESTRING|POLYGON|CURVE|SURFACE)|GEOMETRYCOLLECTION|LINEARRING|"
-    rb"CIRCULARSTRING|COMPOUNDCURVE|CURVEPOLYGON|POLYHEDRALSURFACE|TIN|TRIANGLE)\s*(Z|M|ZM)?\s*(\(|EMPTY)"
-)
-_UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 _WITH_COLUMNS = ("csv", "json", "jsonl", "npz", "parquet", "gpkg", "ply", "xyz", "las")
-_HEADS = (
-    *((MAGIC, "npy"), (NPZ_MAGIC, "npz"), (b"SQLite format 3\0", "gpkg"), (b"fgb\x03fgb", "fgb")),
-    *((b"\0\0\x27\x0a", "shp"), (b"PAR1", "parquet"), (b"{", "geojson"), (b"[", "json"), (RECORD_MARK, "jsonl")),
-    *((b"ply\n", "ply"), (b"ply\r", "ply"), (b"LASF", "las")),
-)
-_MARKUP = rb"<(kml|gpx)[\s>]"
 
 
 def recognized_geometry(
@@ -55,13 +47,27 @@ def recognized_geometry(
 
 
 def point_format(source: Source) -> str:
-    """Tell the format of points, if it is one, by the extension, else by the content."""
-    if source.suffix == ".zip" and resolved("formats.gis.vector_files:holds_shapefile")(source.data):
+    """Tell the format of points; a drawing has none."""
+    found = _format(source)
+    if found in DRAWN:
+        raise InputError(
+            f"{source.name} is a drawing (polygons and lines), but points or an image are expected: use {_TAKERS}, or "
+            f"convert the drawing to an image and use {OTSU}"
+        )
+    return found
+
+
+def _format(source: Source) -> str:
+    """Tell the format of what is no image: by the extension, else by the content; drawings by either."""
+    named, found = _SUFFIXES.get(source.suffix), format_of(source.data)
+    is_drawn = named in DRAWN and bool(source.data.strip())
+    if is_drawn or found in DRAWN:
+        return str(named if is_drawn else found)
+    is_told = named is not None and "points" in INPUTS[named].readers
+    if found == "npz" and not is_told and resolved("formats.gis.vector_files:holds_shapefile")(source.data):
         return "shp"
-    refuse_drawing(source)
-    refuse_convertible(source)
-    found = _SUFFIXES.get(source.suffix)
-    return found if found is not None and "points" in INPUTS[found].readers else _by_content(source.data)
+    _refuse_convertible(source, found)
+    return str(named) if is_told else found or "csv"
 
 
 def _by_header(source: Source, chosen: str, columns: str | None = None) -> str:
@@ -70,19 +76,6 @@ def _by_header(source: Source, chosen: str, columns: str | None = None) -> str:
         return chosen
     fields = header_fields(text_source(source, chosen).data)
     return "csv-wkt" if geometry_column(fields) is not None and coordinate_columns(fields) is None else chosen
-
-
-def _by_content(data: bytes) -> str:
-    head = data[:4096].removeprefix(_UTF8_MARK).lstrip()
-    found = next((name for start, name in _HEADS if head.startswith(start)), None)
-    if found == "npz" and resolved("formats.gis.vector_files:holds_shapefile")(data):
-        return "shp"
-    if found is not None:
-        return found
-    markup = re.search(_MARKUP, head) if head.startswith(b"<") else None
-    if markup is not None:
-        return markup[1].decode()
-    return "wkt" if re.match(_WKT, head) else "csv"
 
 
 def has_no_rows(source: Source) -> bool:
@@ -94,10 +87,9 @@ def polygon_format(source: Source) -> str:
     """Tell the format of polygons by the extension, else by the content."""
     if source.suffix in (".poly", ".json"):
         return source.suffix.removeprefix(".")
-    drawn = drawing_format(source)
-    if drawn is not None:
-        return drawn
-    found = point_format(source)
+    found = _format(source)
+    if found in DRAWN:
+        return found
     if found == "geojson" and source.suffix != ".geojson":  # an object: of either kind
         return "json"
     if has_no_rows(source):
@@ -119,7 +111,7 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     """Tell whether what is no image holds polygons or lines; JSON is parsed for it."""
     if said == "poly" or (said is None and source.suffix == ".poly"):
         return "polygons", text_source(source, "poly")
-    chosen = _by_header(source, said or drawing_format(source) or point_format(source))
+    chosen = _by_header(source, said or _format(source))
     if chosen == "csv" or "polygons" not in INPUTS[chosen].readers:
         return "points", _points(source, chosen, None)
     source = _with_format(source, chosen)
@@ -128,7 +120,7 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
         return ("polygons" if source.document.holds_shapes else "points"), source
     if chosen == "npz":
         return npz_holds(source.data), source
-    if "curves" in INPUTS[chosen].has or chosen == "wkt":
+    if chosen in DRAWN or chosen == "wkt":
         has_shapes = chosen != "wkt" or resolved("formats.gis.feature_table:names_shapes")(source.data)
         return ("polygons" if has_shapes else "points"), source
     return _in_json(source, said)
@@ -195,76 +187,31 @@ def text_source(source: Source, chosen: str) -> Source:
             f"{source.name} is binary, not points or polygons; use CSV, .node, NPY, .poly, GeoJSON, WKT or JSON, or "
             f"name the format with {INPUT_FORMAT}"
         )
-    data = source.data.removeprefix(_UTF8_MARK)
+    data = source.data.removeprefix(UTF8_MARK)
     is_lines = chosen in ("json", "geojson") and is_json_lines(data)
     return replace(source, data=data, format="jsonl" if is_lines else chosen)
 
 
-# ---- drawings ------------------------------------------------------------------------------------
-_TAKERS = option("skeleton-exact, skeleton-approx or draw", "skeleton_exact or skeleton_approx")
-
-SUFFIXES = {".svg": "svg", ".svgz": "svg", ".dxf": "dxf"}
-_HEAD = 4096
-_SVG = rb"(?s)(\xef\xbb\xbf)?(<\?xml[^>]*>|<!--.*?-->|<!DOCTYPE[^>\[]*(\[.*?\]\s*)?>|\s++)*+<([\w-]+:)?svg[\s>]"
-_DXF = rb"(\xef\xbb\xbf)?\s*(999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n"
-BINARY_DXF = b"AutoCAD Binary DXF\r\n\x1a\0"
-
-
-def drawing_format(source: Source) -> str | None:
-    """Tell the format of a drawing by the extension, else by the content; None if it is none."""
-    by_suffix = SUFFIXES.get(source.suffix)
-    if by_suffix is not None and source.data.strip():
-        return by_suffix
-    head = source.data[:_HEAD]
-    if head.startswith(b"\x1f\x8b"):
-        head = _unpacked_head(head)
-    if b"svg" in head and re.match(_SVG, head):
-        return "svg"
-    return "dxf" if head.startswith(BINARY_DXF) or (b"SECTION" in head and re.match(_DXF, head)) else None
-
-
-def _unpacked_head(head: bytes) -> bytes:
-    try:
-        return zlib.decompressobj(16 + zlib.MAX_WBITS).decompress(head, _HEAD)
-    except zlib.error:
-        return b""
-
-
-def refuse_drawing(source: Source) -> None:
-    """Refuse a drawing where points are due."""
-    if drawing_format(source) is not None:
-        raise InputError(
-            f"{source.name} is a drawing (polygons and lines), but points or an image are expected: use {_TAKERS}, or "
-            f"convert the drawing to an image and use {OTSU}"
-        )
-
-
+# ---- what is not read ----------------------------------------------------------------------------
 _MAPS = (".gml", ".gdb", ".tab", ".mif")
 _SHAPEFILE_PARTS = (".shx", ".dbf", ".prj", ".cpg")
 _DRAWINGS = (".pdf", ".eps", ".ps", ".ai")
 _FONTS = (".ttf", ".otf", ".ttc", ".woff", ".woff2")
 _OTHERS = (".dwg", ".zip", ".qgz", ".qgs", ".roi", *_FONTS, *_SHAPEFILE_PARTS)
-_KNOWN_HEADS = (
-    *((b"%PDF-", ".pdf"), (b"%!PS", ".ps"), (b"\xc5\xd0\xd3\xc6", ".eps"), (b"OTTO\0", ".otf")),
-    *((b"\0\1\0\0\0", ".ttf"), (b"wOFF", ".woff"), (b"wOF2", ".woff2"), (b"ttcf", ".ttc")),
-)
-_DWG = rb"AC10\d\d\0"
 
 
-def refuse_convertible(source: Source) -> None:
+def _refuse_convertible(source: Source, found: str | None) -> None:
     """Refuse the formats of maps and drawings that are not read, by extension or content."""
-    heads = (suffix for head, suffix in _KNOWN_HEADS if source.data.startswith(head))
-    found = source.suffix if source.suffix in _MAPS + _DRAWINGS + _OTHERS else next(heads, None)
-    if found is None and source.data.startswith(b"AC10") and re.match(_DWG, source.data):
-        found = ".dwg"
-    if found == ".zip" and b".roi" in source.data:
-        found = ".roi"
-    if found is not None:
-        from pathlib import Path
+    kind = source.suffix if source.suffix in _MAPS + _DRAWINGS + _OTHERS else found
+    if kind is None or not kind.startswith("."):
+        return
+    if kind == ".zip" and b".roi" in source.data:
+        kind = ".roi"
+    from pathlib import Path
 
-        file = source.name if source.suffix == found else f"FILE{found}"
-        advice = _CONVERSIONS.get(found, _MAP).format(file=file, stem=Path(file).with_suffix(""))
-        raise InputError(f"{source.name}: {found} files are not supported; {advice}")
+    file = source.name if source.suffix == kind else f"FILE{kind}"
+    advice = _CONVERSIONS.get(kind, _MAP).format(file=file, stem=Path(file).with_suffix(""))
+    raise InputError(f"{source.name}: {kind} files are not supported; {advice}")
 
 
 _DRAWING = (

@@ -10,7 +10,6 @@ from __future__ import annotations
 import errno
 import io
 import os
-import re
 import struct
 import zipfile
 from collections.abc import Collection, Mapping, Sequence
@@ -40,19 +39,12 @@ from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import Source, check_unpacked, decoding, interruptible
 from vorotool.formats.io.temporaries import Placement, committed_together, new_folder
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.sniffing import format_of
 from vorotool.numeric.crs import member_of_text
 
 TITLES = {"fgb": "FlatGeobuf", "shp": "Shapefile", "kml": "KML", "gpx": "GPX"}
 """Formats and what they are called."""
 
-_MARKUP = rb"(?:\xef\xbb\xbf)?\s*(?:<[?!][^>]*>\s*)*<%b[\s>]"
-_BEGINNINGS = {
-    "fgb": re.compile(rb"fgb\x03fgb"),
-    "shp": re.compile(rb"\0\0\x27\x0a|PK\x03\x04"),
-    "kml": re.compile(_MARKUP % b"kml"),
-    "gpx": re.compile(_MARKUP % b"gpx"),
-}
-"""Of each format: GDAL takes a file for what it begins as, whatever it is called, and some formats name others."""
 _TIMES = {"OFTDate": date, "OFTDateTime": datetime}
 _BYTES = "OFTBinary"
 _COUNT_FIELD, _SMALLEST = 8, 8
@@ -62,7 +54,8 @@ _COUNT_FIELD, _SMALLEST = 8, 8
 def features_of(source: Source) -> Features:
     """Read a layer: the one that is wanted, or the only one."""
     title = TITLES[source.format]
-    if not _BEGINNINGS[source.format].match(source.data):
+    # GDAL takes a file for what it begins as, whatever it is called, and some formats name others
+    if format_of(source.data) not in (source.format, "npz" if source.format == "shp" else None):
         raise InputError(
             f"{source.name} is not a {title} file: its first bytes are those of another format; name its format with "
             f"{INPUT_FORMAT}"

@@ -25,8 +25,8 @@ from vorotool.formats.images.pictures import is_lossy, read_picture_file
 from vorotool.formats.images.png_writer import SIGNATURE
 from vorotool.formats.io.arrays import npy_header, read_npy
 from vorotool.formats.io.sources import Source, check_pixels, decoding
-from vorotool.formats.opening import GAP, PICTURES
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.sniffing import GAP, PICTURES
 from vorotool.types.images import Raster
 from vorotool.types.pixels import PixelGrid
 

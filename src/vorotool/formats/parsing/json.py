@@ -10,6 +10,7 @@ from typing import Any
 from vorotool.errors import NO_PROPERTIES, InputError, LimitError, option
 from vorotool.formats.io.sources import Source, check_nesting
 from vorotool.formats.parsing.reader_options import shortened
+from vorotool.formats.sniffing import RECORD_MARK
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.types.fields import MEMBER, YAxis, y_axis_member
 
@@ -129,9 +130,6 @@ def property_columns(
 
 
 # ---- JSON lines ----------------------------------------------------------------------------------
-RECORD_MARK = b"\x1e"
-"""What each text of a GeoJSON text sequence begins with; it may then have several lines."""
-
 _LOOKED_AT = 1 << 24
 """Bytes in which two lines must end to be told from a document over several lines."""
 _LONGEST_ROW = 1 << 16

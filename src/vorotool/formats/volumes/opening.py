@@ -18,6 +18,7 @@ from vorotool.formats.opening import recognized
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.points.columns import PointRows, parse_columns
 from vorotool.formats.points.tables import check_coordinates, npy_labels
+from vorotool.formats.sniffing import image_of
 from vorotool.formats.volumes.source import NpyVolume, Spool, VolumeSource, ZarrVolume, check_voxels, slabs_of
 from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.formats.zarr.store import is_folder, is_store
@@ -28,7 +29,6 @@ from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.points.point_set import VolumePoints
 from vorotool.types.volumes.volume import Volume
 
-_HEADS = ((b"II*\x00", "tiff"), (b"MM\x00*", "tiff"), (b"II+\x00", "tiff"), (b"MM\x00+", "tiff"), (MAGIC, "npy"))
 _LONGEST_HEAD = 8
 
 
@@ -83,7 +83,8 @@ def _opened(name: str, said: str | None) -> VolumeSource:
 
 def kind_of_head(head: bytes) -> str | None:
     """Tell the format of a volume by its first bytes."""
-    return next((kind for start, kind in _HEADS if head.startswith(start)), None)
+    found = image_of(head)
+    return found if found in ("tiff", "npy") else None
 
 
 def _kind(name: str, head: bytes, said: str | None) -> str:
