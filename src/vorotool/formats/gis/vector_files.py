@@ -55,7 +55,7 @@ def features_of(source: Source) -> Features:
     """Read a layer: the one that is wanted, or the only one."""
     title = TITLES[source.format]
     # GDAL takes a file for what it begins as, whatever it is called, and some formats name others
-    if format_of(source.data) not in (source.format, "npz" if source.format == "shp" else None):
+    if format_of(source.data) not in (source.format, "npz" if source.format == "shp" else source.format):
         raise InputError(
             f"{source.name} is not a {title} file: its first bytes are those of another format; name its format with "
             f"{INPUT_FORMAT}"
