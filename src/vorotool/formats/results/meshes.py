@@ -336,7 +336,7 @@ def _face_stream(cells: SpaceCellSet, kept: NDArray[np.intp]) -> tuple[NDArray[n
 def _corners_of_cells(cells: SpaceCellSet, kept: NDArray[np.intp]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The vertices of each cell, once, and where each ends."""
     sizes, places = _listed(cells)
-    owner = np.repeat(owners(np.diff(cells.cell_starts)), sizes)
+    owner: NDArray[np.int64] = np.repeat(owners(np.diff(cells.cell_starts)), sizes)
     count = max(len(cells.vertices), 1)
     keys = np.sort(owner * count + cells.corners[places])
     keys = keys[np.diff(keys, prepend=-1) > 0]
