@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import warnings
+from collections.abc import Iterable
 from enum import Enum, auto
 
 _TYPED, _PARAMETER, _END = "\ufdd0", "\ufdd1", "\ufdd2"
@@ -66,6 +67,19 @@ def _typed(text: str) -> str:
 def _parameters(text: str) -> str:
     """Read a text with options as Python has them."""
     return re.sub(_OPTION, r"\2", text)
+
+
+def similar(name: str, names: Iterable[str]) -> str:
+    """Join the names that a mistyped one may stand for by "or"; empty where none is like it."""
+    from difflib import get_close_matches
+
+    return " or ".join(get_close_matches(name.lower(), list(names)))
+
+
+def meant(name: str, names: Iterable[str]) -> str:
+    """Return the end of a message about a mistyped name: which of the names is meant, perhaps."""
+    found = similar(name, names)
+    return f"; did you mean {found}?" if found else ""
 
 
 class Kind(Enum):

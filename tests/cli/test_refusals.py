@@ -58,6 +58,15 @@ USAGE = {
     "draw a.csv --widht 1": "--width",
     "draw a.csv --layers seeds": "'seeds': not one of cells",
     "draw a.csv --layers cells,seed": "'seed' is not one of cells",
+    # ---- names that are like others
+    "skeleton-exact a.png --what centerlines": "did you mean centerline?",
+    "skeleton-exact a.png --what skeleton,Centrelines": "did you mean centerline?",
+    "skeleton-exact a.png --ends mddle": "'mddle' is not one of 'middle', 'corner', 'none'; did you mean middle?",
+    "delaunay dots.csv --graph x": "'delaunay', 'gabriel', 'relative', 'mst'\n",
+    "delaunay dots.csv -f jsn": "did you mean json",
+    "delaunay dots.csv -o a.geojsn": "did you mean .geojson",
+    "delaunay dots.csv -o a.svg --color edge=red": "did you mean edges?",
+    "delaunay dots.csv --input-format cvs": "did you mean csv?",
     # ---- what another kind of input has
     "tessellate mask.pbm -o a.png --columns 1,2": "but the input is an image",
     "delaunay mask.pbm --method digital --size 9x9": "--size",

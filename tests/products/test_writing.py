@@ -119,3 +119,13 @@ def test_what_is_no_result():
         vorotool.write([[0, 0]], "a.csv")
     with pytest.raises(UsageError, match="PointSet"):
         vorotool.to_geojson(vorotool.PointSet(POINTS))
+
+
+def test_a_mistyped_result_or_layer_is_told(tmp_path):
+    mesh = vorotool.delaunay(POINTS)
+    with pytest.raises(UsageError, match=r"what='edge' is not a result of a Triangulation: .*; did you mean edges\?$"):
+        vorotool.write(mesh, tmp_path / "a.csv", what="edge")
+    with pytest.raises(UsageError, match=r"the layer 'edgs' does not exist: .*; did you mean edges\?$"):
+        vorotool.write(mesh, tmp_path / "a.svg", layers=["edgs"])
+    with pytest.raises(UsageError, match=r"or table$"):
+        vorotool.write(mesh, tmp_path / "a.csv", what="x")

@@ -12,6 +12,7 @@ from click.core import ParameterSource
 
 from vorotool.cli.help_page import GroupedCommand, short_help_option
 from vorotool.cli.values import UnexpectedError
+from vorotool.errors import meant
 from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import EXTENSIONS, FORMATS
 from vorotool.products.inputs import DRAWN_NAMES, NAMES_WITH, names_of
@@ -51,6 +52,17 @@ class Value(ParameterType):
             self.fail(f"{value!r}: {error}", param, ctx)
 
 
+class Choice(click.Choice):  # type: ignore[type-arg]  # that of click 8.1 takes none
+    """One of a few names."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Refuse others, and say which name is meant, perhaps."""
+        try:
+            return super().convert(value, param, ctx)
+        except click.BadParameter as error:
+            self.fail(error.message.rstrip(".") + meant(str(value), self.choices), param, ctx)
+
+
 class Names(Value):
     """Names from a list, separated by commas."""
 
@@ -78,7 +90,7 @@ def _type_of(command: str, row: Option) -> ParameterType | None:
     """Return the type of the values of an option; None for text."""
     kind, _, rest = row.type.partition(":")
     if kind == "choice":
-        return click.Choice(rest.split(), case_sensitive=False)
+        return Choice(rest.split(), case_sensitive=False)
     if kind in ("int", "float"):
         number: Any = int if kind == "int" else float
         least, most = (number(text) if text else None for text in rest.split(":"))

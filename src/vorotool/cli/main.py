@@ -13,7 +13,7 @@ import click
 from click.utils import _expand_args
 
 from vorotool import __version__
-from vorotool.errors import VorotoolError
+from vorotool.errors import VorotoolError, similar
 from vorotool.jobs.terminal import escaped, explained, print_text, tell
 from vorotool.products import commands
 from vorotool.signals import handle_termination, ignore_interrupts, insist_on_the_end, received, settled
@@ -38,10 +38,8 @@ class LazyGroup(click.Group):
         """Find the command; one that is mistyped is refused with those that are meant, perhaps."""
         name = args[0]
         if not name.startswith("-") and not ctx.resilient_parsing and name not in COMMANDS:
-            from difflib import get_close_matches
-
-            meant = " or ".join(get_close_matches(name.lower().replace("_", "-"), COMMANDS))
-            advice = f"did you mean {meant}?" if meant else f"use one of {', '.join(COMMANDS)}"
+            close = similar(name.replace("_", "-"), COMMANDS)
+            advice = f"did you mean {close}?" if close else f"use one of {', '.join(COMMANDS)}"
             raise click.UsageError(f"unknown command {name!r}: {advice}", ctx)
         if name not in commands.COMMANDS or ctx.resilient_parsing:
             return super().resolve_command(ctx, args)

@@ -28,15 +28,16 @@ from vorotool.products.registry import is_of
 from vorotool.types.points.point_set import LABEL, PointSet, labels_of
 from vorotool.types.polygons.shapely_geometry import part_numbers, single_points
 
-EXPECTED = "an (n, 2) array of numbers, a data frame with columns x, y, or points of shapely, geopandas, GeoJSON or WKT"
+_PAIRS, PAIRS_OR_TRIPLES = "(n, 2)", "(n, 2) or, in space, (n, 3)"
+"""Shapes of arrays that functions take."""
 
 
-def as_points(source: Any, name: str = "points") -> PointSet:
-    """Give points from whatever holds them; the order is kept."""
+def as_points(source: Any, name: str = "points", *, shapes: str = _PAIRS) -> PointSet:
+    """Give points from whatever holds them; the order is kept. Messages name the shapes that the caller takes."""
     if isinstance(source, PointSet):
         return source
     with naming(name):
-        return _points_of(source, name)
+        return _points_of(source, name, shapes)
 
 
 def as_place(source: Any, name: str) -> tuple[float, float]:
@@ -49,7 +50,7 @@ def as_place(source: Any, name: str) -> tuple[float, float]:
     return float(points.xy[0, 0]), float(points.xy[0, 1])
 
 
-def _points_of(source: Any, name: str) -> PointSet:
+def _points_of(source: Any, name: str, shapes: str) -> PointSet:
     if is_of(source, "SeedSet"):
         labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
         frame = None if source.frame is None else source.frame.box
@@ -62,7 +63,7 @@ def _points_of(source: Any, name: str) -> PointSet:
     if isinstance(source, Iterator):
         source = items_of(source)
     if isinstance(source, np.ndarray) and source.dtype.names is None and source.dtype.kind not in "OU":
-        return PointSet(_checked(source, name))
+        return PointSet(_checked(source, name, shapes))
     held = held_features(source)
     if held is not None:
         points = _points_of_features(held)
@@ -70,25 +71,27 @@ def _points_of(source: Any, name: str) -> PointSet:
         return points
     if is_table(source):
         return points_of_table(source, name)
-    return PointSet(_checked(source, name))
+    return PointSet(_checked(source, name, shapes))
 
 
 # ---- arrays ----------------------------------------------------------------------------------------
-def _checked(source: Any, name: str) -> NDArray[Any]:
+def _checked(source: Any, name: str, shapes: str) -> NDArray[Any]:
     """Give an array of numbers whose shape is that of points, or say what to give."""
+    others = "a data frame with columns x, y, or points of shapely, geopandas, GeoJSON or WKT"
+    expected = f"an {shapes} array of numbers, {others}"
     if isinstance(source, Mapping | str | bytes) or not (isinstance(source, Iterable) or hasattr(source, "__array__")):
-        raise unexpected(source, EXPECTED)
+        raise unexpected(source, expected)
     pairs = source if hasattr(source, "dtype") else _pairs(source)
-    array = number_array(pairs, "point", f"expected {EXPECTED}, but got {described(source)}")
+    array = number_array(pairs, "point", f"expected {expected}, but got {described(source)}")
     shape = array.shape
     if array.size == 0 or (array.ndim == 2 and shape[1] == 2):
         return pairs if is_masked_array(pairs) else array
-    said = f"expected shape (n, 2), but got {described(source if hasattr(source, 'shape') else array)}"
+    said = f"expected shape {shapes}, but got {described(source if hasattr(source, 'shape') else array)}"
     if shape == (2,):
         raise InputError(f"{said}: one point is [[x, y]]")
     if array.ndim == 2 and shape[1] == 3:
         raise InputError(f"{said}: points have two coordinates; {name}[:, :2] drops the others")
-    if array.ndim == 2 and shape[0] == 2:
+    if array.ndim == 2 and (shape[0] == 2 or (shape[0] == 3 and shapes != _PAIRS)):
         raise InputError(f"{said}: give {name}.T")
     if array.ndim == 2 and min(shape) > MOST_AXES:
         raise InputError(f"{said}: for an image use vorotool.seeds_from_raster({name})")

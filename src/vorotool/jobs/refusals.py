@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError, UsageError, meant
 from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import unit_of_grid
 from vorotool.jobs.targets import Target
@@ -213,7 +213,7 @@ def _check_styles(o: Options, layers: Sequence[str]) -> None:
     for option, chosen in (("color", o.colors), ("line-width", o.line_widths)):
         names = list(dict.fromkeys([*layers, *([SCALE_BAR] if o.scale_bar and option == "color" else [])]))
         for layer in (layer for layer, _ in chosen if layer not in names):
-            raise UsageError(f"--{option} {layer}: the picture has {', '.join(names)}")
+            raise UsageError(f"--{option} {layer}: the picture has {', '.join(names)}{meant(layer, names)}")
 
 
 def refuse(options: Mapping[str, Any], reason: str) -> None:

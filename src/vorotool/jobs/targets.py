@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
-from vorotool.errors import OUTPUT, UsageError
+from vorotool.errors import OUTPUT, UsageError, meant
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.sources import output_name, suffix_of, without_gz
@@ -164,7 +164,7 @@ def _known_format(fmt: str, products: Mapping[str, Product]) -> str:
     found = format_named(fmt)
     if found is None:
         possible = dict.fromkeys(each for own in products.values() for each in own.formats)
-        raise UsageError(f"invalid -f {fmt!r}: expected one of {', '.join(possible)}")
+        raise UsageError(f"invalid -f {fmt!r}: expected one of {', '.join(possible)}{meant(fmt, possible)}")
     return found
 
 
@@ -175,7 +175,8 @@ def _chosen(products: Mapping[str, Product], what: str, fmt: str | None, extensi
         if chosen is None:
             is_read = extension.removeprefix(".") in NAMES_WITH[None]
             fault = f"{extension} files can be read, but not written" if is_read else f"unknown extension {extension}"
-            raise UsageError(f"{fault}: use one of {', '.join(possible)}, or -f")
+            close = "" if is_read else meant(extension, (name for name, each in EXTENSIONS.items() if each in possible))
+            raise UsageError(f"{fault}: use one of {', '.join(possible)}, or -f{close}")
     chosen = chosen or possible[0]
     if chosen not in possible and what == "picture":
         raise UsageError(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal, NamedTuple
 
-from vorotool.errors import UsageError, option
+from vorotool.errors import UsageError, meant, option
 
 Holds = Literal["points", "polygons", "sites", "image", "skeleton", "offsets", "voronoi"]
 """What an input may hold: polygons stand for lines, too, and sites for all three; they are polygons by default."""
@@ -164,5 +164,7 @@ def known_input_format(name: str | None, names: Mapping[str, str] = NAMES_WITH[N
     if name is None:
         return None
     if not isinstance(name, str) or name.lower() not in names:
-        raise UsageError(f"invalid {option('--input-format')} {name!r}: expected one of {', '.join(names)}")
+        raise UsageError(
+            f"invalid {option('--input-format')} {name!r}: expected one of {', '.join(names)}{meant(str(name), names)}"
+        )
     return names[name.lower()]

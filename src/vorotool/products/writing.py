@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, BinaryIO
 
-from vorotool.errors import UsageError
+from vorotool.errors import UsageError, meant
 from vorotool.products.formats import FORMATS, GENERAL, resolved
 from vorotool.products.registry import Product, is_of, parts_of, public_types
 
@@ -46,7 +46,7 @@ def chosen_part(value: Any, fmt: str, what: str | None) -> Product:
         raise UsageError(f"a {name} cannot be written: give a {', '.join(others)} or {last}")
     if what is not None and not (isinstance(what, str) and what in parts):
         instead = f"use {' or '.join(parts)}" if len(parts) > 1 else "leave it out"
-        raise UsageError(f"what={what!r} is not a result of a {name}: {instead}")
+        raise UsageError(f"what={what!r} is not a result of a {name}: {instead}{meant(str(what), parts)}")
     having = [each for each in parts.values() if fmt in each.written]
     usual = [each for each in having if fmt in each.usual_for]
     chosen = parts[what] if what is not None else next(iter([*usual, *having, *parts.values()]))

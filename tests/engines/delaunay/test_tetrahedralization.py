@@ -140,6 +140,21 @@ def test_few_places_have_a_chain_of_edges(points, dimension, edges):
     vorotool.verify_triangulation(mesh)
 
 
+@pytest.mark.parametrize("function", ["delaunay", "alpha_shape", "alpha_complex", "voronoi_cells"])
+def test_arrays_of_other_shapes_are_refused_with_both_shapes(function):
+    for shape, instead in (
+        ((5, 4), r"\)$"),
+        ((3, 7), r": give points\.T$"),
+        ((2, 7), r": give points\.T$"),
+        ((5,), ""),
+    ):
+        words = rf"expected shape \(n, 2\) or, in space, \(n, 3\), but got an array of float64 .*{instead}"
+        with pytest.raises(vorotool.InputError, match=words):
+            getattr(vorotool, function)(np.zeros(shape))
+    with pytest.raises(vorotool.InputError, match=r"an \(n, 2\) or, in space, \(n, 3\) array of numbers"):
+        getattr(vorotool, function)([[1, 2], [3]])
+
+
 def test_duplicates_are_counted_and_may_be_refused():
     points = np.vstack([CUBE, CUBE[:2]])
     with pytest.warns(vorotool.VorotoolWarning, match="2 of 10 points lie on an earlier point"):

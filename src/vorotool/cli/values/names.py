@@ -8,6 +8,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from vorotool.cli.values import UnexpectedError
+from vorotool.errors import meant
 
 if TYPE_CHECKING:
     from vorotool.render.looks import Scale
@@ -31,7 +32,7 @@ def names_among(choices: tuple[str, ...]) -> Callable[[str], tuple[str, ...]]:
         for name in found:
             if name not in choices:
                 which = f"{name!r} is not" if "," in text else "not"
-                raise UnexpectedError(f"{which} one of {', '.join(choices)}")
+                raise UnexpectedError(f"{which} one of {', '.join(choices)}{meant(name, choices)}")
         return tuple(dict.fromkeys(found))
 
     return split

@@ -125,9 +125,9 @@ def _point_set(points: Any) -> PointSet:
     """Return a set of points, or convert what holds them."""
     if isinstance(points, PointSet):
         return points
-    from vorotool.convert.points import as_points
+    from vorotool.convert.points import PAIRS_OR_TRIPLES, as_points
 
-    return as_points(points)
+    return as_points(points, shapes=PAIRS_OR_TRIPLES)
 
 
 def is_of_space(points: Any) -> bool:

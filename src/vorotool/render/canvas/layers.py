@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
+from vorotool.errors import UsageError, meant
 from vorotool.numeric.arrays import following, owners, starts_of, within
 from vorotool.numeric.curves.flatten import chords_of, cubic_polylines, polylines
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
@@ -233,7 +233,7 @@ def checked_layers(layers: Iterable[str], known: Sequence[str]) -> frozenset[str
     wanted = tuple(layers)
     for layer in wanted:
         if layer not in known:
-            raise UsageError(f"the layer {layer!r} does not exist: use {', '.join(known)}")
+            raise UsageError(f"the layer {layer!r} does not exist: use {', '.join(known)}{meant(layer, known)}")
     return frozenset(wanted)
 
 
