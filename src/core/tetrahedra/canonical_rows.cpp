@@ -15,38 +15,53 @@ namespace vorotool::core::tetrahedra {
 
 namespace {
 
+constexpr std::size_t rows_a_block = std::size_t{1} << 9;  // 16 KiB
 constexpr std::size_t rows_a_piece = std::size_t{1} << 15;
-constexpr std::size_t rows_a_block = std::size_t{1} << 12;  // 64 KiB
+constexpr std::size_t vertices_a_piece = rows_a_piece / 8;
+constexpr std::size_t ahead = 16;  // rows that are loaded before their turn
 
 std::size_t offset(Index v) { return static_cast<std::size_t>(v); }
 
 class Canonical {
  public:
-  Canonical(TetrahedralMesh& mesh, unsigned threads, const base::Monitor& monitor)
+  Canonical(TetrahedralMesh& mesh, std::span<const Index> index, unsigned threads,
+            const base::Monitor& monitor)
       : mesh_(mesh),
-        threads_(threads),
+        index_(index),
+        threads_(base::resolve_threads(threads)),
         monitor_(monitor),
         slots_(mesh.slots()),
-        ends_(mesh.points().size() + 1) {}
+        ends_(mesh.points().size() + 1),
+        left_(slots_ / rows_a_block + 1) {}
 
   CanonicalRows run() {
     turn_rows();
+    mesh_.drop_marks();
     sort_slots();
     number_neighbors();
-    CanonicalRows result{count_, {}, {}};
-    base::LargeArray<Row> rows = mesh_.take_rows(), across = mesh_.take_across();
-    result.vertices = gather(rows);
-    rows = {};
-    result.neighbors = gather(across);
-    return result;
+    return gather();
   }
 
  private:
+  // Their first vertex tells ghosts and empty slots, and later on the place of the others in the order.
+  static constexpr Index none = -1;
+
   template <class Body>
   void for_tetrahedra(const Body& body) {
     base::for_items(slots_, rows_a_piece, threads_, monitor_, [&](std::size_t slot) {
-      if (mesh_.is_tetrahedron(slot)) body(slot);
+      if (mesh_.row(slot)[0] != none) body(slot);
     });
+  }
+  // For pieces of vertices: body(first, last).
+  template <class Body>
+  void for_vertices(const Body& body) {
+    base::for_pieces(ends_.size() - 1, vertices_a_piece, threads_, monitor_,
+                     [&](std::size_t, std::size_t begin, std::size_t end) { body(begin, end); });
+  }
+
+  std::uint32_t add_to(std::uint32_t& number, std::uint32_t added) {
+    if (threads_ > 1) return base::atomic_ref(number).fetch_add(added, std::memory_order_relaxed);
+    return std::exchange(number, number + added);
   }
 
   // Even permutations, which keep the orientation. Counts the tetrahedra of each first vertex.
@@ -55,16 +70,21 @@ class Canonical {
                                                    {{1, 0, 3, 2}, {1, 3, 2, 0}, {1, 2, 0, 3}},
                                                    {{2, 0, 1, 3}, {2, 1, 3, 0}, {2, 3, 0, 1}},
                                                    {{3, 0, 2, 1}, {3, 2, 1, 0}, {3, 1, 0, 2}}};
-    for_tetrahedra([&](std::size_t slot) {
-      const Row old = mesh_.row(slot), across = mesh_.across(slot);
+    base::for_items(slots_, rows_a_piece, threads_, monitor_, [&](std::size_t slot) {
+      Tetrahedron& tetrahedron = mesh_.tetrahedron(slot);
+      if (!mesh_.is_tetrahedron(slot)) {
+        tetrahedron.vertices[0] = none;
+        return;
+      }
+      const auto [old, across] = tetrahedron;
       const std::size_t low = old[1] < old[0], high = 2 + (old[3] < old[2]);
       const auto& choices = turns[old[high] < old[low] ? high : low];
       const std::size_t first = old[choices[1][1]] < old[choices[0][1]];
       const std::size_t best = old[choices[2][1]] < old[choices[first][1]] ? 2 : first;
       const auto& [i, j, k, l] = choices[best];
-      mesh_.row(slot) = {old[i], old[j], old[k], old[l]};
-      mesh_.across(slot) = {across[i], across[j], across[k], across[l]};
-      base::atomic_ref(ends_[offset(old[i]) + 1]).fetch_add(1, std::memory_order_relaxed);
+      tetrahedron = {{old[i], old[j], old[k], old[l]}, {across[i], across[j], across[k], across[l]}};
+      add_to(ends_[offset(old[i]) + 1], 1);
+      ++left_[slot / rows_a_block];
     });
   }
 
@@ -74,26 +94,21 @@ class Canonical {
     count_ = ends_.back();
     order_ = base::LargeArray<std::uint32_t>(count_);
     for_tetrahedra([&](std::size_t slot) {
-      auto place =
-          base::atomic_ref(ends_[offset(mesh_.row(slot)[0])]).fetch_add(1, std::memory_order_relaxed);
-      order_[place] = static_cast<std::uint32_t>(slot);
+      order_[add_to(ends_[offset(mesh_.row(slot)[0])], 1)] = static_cast<std::uint32_t>(slot);
     });
-    position_ = base::LargeArray<Index>(slots_);
-    base::for_pieces(slots_, rows_a_piece, threads_, monitor_,
-                     [&](std::size_t, std::size_t begin, std::size_t end) {
-                       std::fill(position_.data() + begin, position_.data() + end, -1);
-                     });
-    const std::size_t vertices = ends_.size() - 1;
-    base::for_pieces(vertices, rows_a_piece / 8, threads_, monitor_,
-                     [&](std::size_t, std::size_t begin, std::size_t end) { sort_groups(begin, end); });
+    for_vertices([&](std::size_t first, std::size_t last) { sort_groups(first, last); });
   }
+
+  std::size_t begin_of(std::size_t vertex) const { return vertex == 0 ? 0 : ends_[vertex - 1]; }
 
   void sort_groups(std::size_t first_vertex, std::size_t last_vertex) {
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
-    std::size_t place = first_vertex == 0 ? 0 : ends_[first_vertex - 1];
+    std::size_t place = begin_of(first_vertex);
+    const std::size_t last = begin_of(last_vertex) - 1;
     for (std::size_t v = first_vertex; v < last_vertex; ++v) {
       keyed.clear();
       for (std::size_t k = place; k < ends_[v]; ++k) {
+        __builtin_prefetch(&mesh_.row(order_[std::min(k + ahead, last)]));
         const Row& row = mesh_.row(order_[k]);
         keyed.emplace_back(static_cast<std::uint64_t>(row[1]) << 32 | static_cast<std::uint32_t>(row[2]),
                            order_[k]);
@@ -101,50 +116,59 @@ class Canonical {
       std::sort(keyed.begin(), keyed.end());
       for (const auto& [key, slot] : keyed) {
         order_[place] = slot;
-        position_[slot] = static_cast<Index>(place++);
+        mesh_.row(slot)[0] = static_cast<Index>(place++);
       }
     }
   }
 
   void number_neighbors() {
     for_tetrahedra([&](std::size_t slot) {
-      for (Index& facet : mesh_.across(slot)) facet = position_[TetrahedralMesh::slot_of(facet)];
+      for (Index& facet : mesh_.across(slot)) facet = mesh_.row(TetrahedralMesh::slot_of(facet))[0];
     });
-    position_ = {};
   }
 
-  // The rows of tetrahedra in order. Blocks go back to the system once all their rows are read: as slots are about in
-  // the order of the curve too, few blocks are in use at a time.
-  base::LargeArray<Row> gather(base::LargeArray<Row>& from) {
-    std::vector<std::uint32_t> left(slots_ / rows_a_block + 1);
-    for (std::size_t k = 0; k < count_; ++k) ++left[order_[k] / rows_a_block];
-    base::LargeArray<Row> to(count_);
-    const auto copy = [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) to[k] = from[order_[k]];
-      for (std::size_t k = begin; k < end; ++k) {
+  // Blocks go back to the system once all their rows are read: as slots are about in the order of the curve too, few
+  // blocks are in use at a time.
+  CanonicalRows gather() {
+    CanonicalRows result{count_, base::LargeArray<Row>(count_), base::LargeArray<Row>(count_)};
+    base::LargeArray<Tetrahedron> from = mesh_.take_tetrahedra();
+    for_vertices([&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) {
+        for (std::size_t k = begin_of(v); k < ends_[v]; ++k) {
+          __builtin_prefetch(&from[order_[std::min(k + ahead, begin_of(last) - 1)]]);
+          const Tetrahedron& tetrahedron = from[order_[k]];
+          const Row& row = tetrahedron.vertices;
+          result.vertices[k] = {index_[v], index_[offset(row[1])], index_[offset(row[2])],
+                                index_[offset(row[3])]};
+          result.neighbors[k] = tetrahedron.across;
+        }
+      }
+      for (std::size_t k = begin_of(first); k < begin_of(last); ++k) {
         const std::size_t block = order_[k] / rows_a_block;
-        if (base::atomic_ref(left[block]).fetch_add(0xffffffffU, std::memory_order_relaxed) == 1)
+        if (add_to(left_[block], 0xffffffffU) == 1)
           base::discard(from, block * rows_a_block, std::min(slots_, (block + 1) * rows_a_block));
       }
-    };
-    base::for_pieces(count_, rows_a_piece, threads_, monitor_, copy);
-    return to;
+      base::discard(order_, begin_of(first), begin_of(last));
+    });
+    return result;
   }
 
   TetrahedralMesh& mesh_;
+  const std::span<const Index> index_;
   const unsigned threads_;
   const base::Monitor& monitor_;
   const std::size_t slots_;
   std::vector<std::uint32_t> ends_;  // [vertices + 1] where the rows of each end
+  std::vector<std::uint32_t> left_;  // tetrahedra of each block that are not gathered yet
   std::size_t count_ = 0;
   base::LargeArray<std::uint32_t> order_;  // slots of tetrahedra
-  base::LargeArray<Index> position_;       // [slots] in that order, -1 of others
 };
 
 }  // namespace
 
-CanonicalRows canonical_rows(TetrahedralMesh& mesh, unsigned threads, const base::Monitor& monitor) {
-  return Canonical(mesh, threads, monitor).run();
+CanonicalRows canonical_rows(TetrahedralMesh& mesh, std::span<const Index> index, unsigned threads,
+                             const base::Monitor& monitor) {
+  return Canonical(mesh, index, threads, monitor).run();
 }
 
 }  // namespace vorotool::core::tetrahedra

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
@@ -16,7 +17,8 @@ struct CanonicalRows {
   base::LargeArray<Row> vertices, neighbors;
 };
 
-// The arrays of the mesh are used up: there is never a second copy of all of them.
-CanonicalRows canonical_rows(TetrahedralMesh& mesh, unsigned threads, const base::Monitor& monitor);
+// Vertices are replaced by their index. The mesh is used up: there is never a second copy of all of it.
+CanonicalRows canonical_rows(TetrahedralMesh& mesh, std::span<const Index> index, unsigned threads,
+                             const base::Monitor& monitor);
 
 }  // namespace vorotool::core::tetrahedra

@@ -179,7 +179,8 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
   result.dimension = static_cast<int>(start.size()) - 1;
   if (result.dimension < 3) return result;
   const SetPredicates predicates(order.points);
-  TetrahedralMesh mesh(order.points, predicates);
+  order.points.push_back(order.points.front());  // in place of that at infinity
+  TetrahedralMesh mesh(std::span(order.points).first(order.index.size()), predicates);
   CanonicalRows rows;
   try {
     Insertion(mesh, start, threads, monitor).run();
@@ -187,16 +188,13 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
     const Monitor rest = [&](double part) {
       return !monitor || monitor(mesh_share + (1 - mesh_share) * part);
     };
-    rows = canonical_rows(mesh, threads, rest);
+    rows = canonical_rows(mesh, order.index, threads, rest);
   } catch (const std::bad_alloc&) {
     throw TooManyTetrahedra(mesh.slots());
   }
   result.count = rows.count;
   result.vertices = std::move(rows.vertices);
   result.neighbors = std::move(rows.neighbors);
-  base::for_items(result.count, std::size_t{1} << 16, threads, {}, [&](std::size_t i) {
-    for (Index& v : result.vertices[i]) v = order.index[static_cast<std::size_t>(v)];
-  });
   return result;
 }
 

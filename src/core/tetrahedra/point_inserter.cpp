@@ -1,6 +1,7 @@
 #include "core/tetrahedra/point_inserter.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/base/flat_map.hpp"
 
@@ -8,8 +9,10 @@ namespace vorotool::core::tetrahedra {
 
 namespace {
 
-// The other places of each place, an even permutation with it.
-constexpr std::array<std::array<std::size_t, 3>, 4> others{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+// The other places of each place, an even permutation with it; the last one is last unless it is the place.
+constexpr std::array<std::array<std::size_t, 3>, 4> others{{{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}}};
+
+constexpr std::size_t lanes = 4;  // tetrahedra that are tested together
 
 }  // namespace
 
@@ -22,16 +25,16 @@ bool PointInserter::begin_at(std::size_t slot) {
 bool PointInserter::insert(Index v) {
   const Point3& p = mesh_.point(v);
   if (!is_placed_ || !locate(p)) return false;
-  if (!dig(p) || !reserve()) {
-    for (const std::size_t slot : cavity_) mesh_.removed(slot) = 0;
+  if (!dig(p)) {
+    undo();
+    return false;
+  }
+  list_walls();
+  if (!reserve()) {
+    undo();
     return false;
   }
   fill(v);
-  if (walls_.size() / 2 + 2 <= few) {  // by Euler's relation, as many vertices
-    link_few();
-  } else {
-    link_many();
-  }
   return true;
 }
 
@@ -55,59 +58,112 @@ bool PointInserter::locate(const Point3& p) {
     from = TetrahedralMesh::place_of(next);
     if (!owns_slot(slot)) return false;
   }
-  cavity_.assign(1, slot);
+  cavity_.size = 0;
+  *cavity_.room(1) = static_cast<std::uint32_t>(slot);
+  cavity_.size = 1;
   return true;
 }
 
+// Where the filter cannot tell, or the tetrahedron is a ghost.
 bool PointInserter::holds(std::size_t slot, const Point3& p) const {
   const auto point = [this](Index v) -> const Point3& { return mesh_.point(v); };
-  const Row* row = &mesh_.row(slot);
-  if ((*row)[3] == mesh_.infinity()) {
-    const int side = mesh_.predicates().orient(point((*row)[0]), point((*row)[1]), point((*row)[2]), p);
+  if (mesh_.is_ghost(slot)) {
+    const auto& [a, b, c, infinite] = mesh_.row(slot);
+    const int side = mesh_.predicates().orient(point(a), point(b), point(c), p);
     if (side != 0) return side > 0;
     slot = TetrahedralMesh::slot_of(mesh_.across(slot)[3]);
-    if (mesh_.removed(slot) != 0) return true;
-    row = &mesh_.row(slot);
+    if (mesh_.mark(slot) == Mark::removed) return true;
   }
-  const auto& [a, b, c, d] = *row;
+  const auto& [a, b, c, d] = mesh_.row(slot);
   return mesh_.predicates().in_sphere(point(a), point(b), point(c), point(d), p) > 0;
 }
 
-// Marks what is removed, and lists the facets around it, whose outer sides must be of own slots.
+// Marks what is removed; false where that is not known without slots of others.
 bool PointInserter::dig(const Point3& p) {
-  walls_.clear();
-  mesh_.removed(cavity_[0]) = 1;
-  for (std::size_t k = 0; k < cavity_.size(); ++k) {
-    const std::size_t inner = cavity_[k];
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Index outside = mesh_.across(inner)[i];
-      const std::size_t outer = TetrahedralMesh::slot_of(outside);
-      if (mesh_.removed(outer) != 0) continue;
-      if (!owns_slot(outer)) return false;
-      if (holds(outer, p)) {
-        mesh_.removed(outer) = 1;
-        cavity_.push_back(outer);
-      } else {
-        add_wall(inner, i, outside);
-      }
+  seen_.size = sides_.size = 0;
+  mesh_.mark(cavity_[0]) = Mark::removed;
+  std::size_t looked = 0, tested = 0;
+  do {
+    const std::size_t count = std::min(lanes, seen_.size - tested);
+    if (count > 0) test(tested, count, p);
+    tested += count;
+    while (looked < cavity_.size && seen_.size - tested < lanes) {
+      if (!look_around(cavity_[looked++])) return false;
     }
-  }
+  } while (tested < seen_.size);
   return true;
 }
 
-// An infinite vertex comes last.
-void PointInserter::add_wall(std::size_t slot, std::size_t place, Index outside) {
-  const Row& row = mesh_.row(slot);
-  const auto [k, l, m] = others[place];
-  Wall wall{row[k], row[l], row[m], outside};
-  const Index infinity = mesh_.infinity();
-  if (wall.a == infinity) wall = {wall.b, wall.c, wall.a, outside};
-  if (wall.b == infinity) wall = {wall.c, wall.a, wall.b, outside};
-  walls_.push_back(wall);
+// Lists the neighbors of a slot that were not seen before.
+bool PointInserter::look_around(std::size_t inner) {
+  Sides* sides = sides_.room(4);
+  std::uint32_t* seen = seen_.room(4);
+  const Row& across = mesh_.across(inner);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t outer = TetrahedralMesh::slot_of(across[i]);
+    Mark& mark = mesh_.mark(outer);
+    const bool is_new = mark == Mark::live, is_removed = mark == Mark::removed;
+    if (!is_alone_ && is_new && !owns_slot(outer)) return false;
+    *sides = {TetrahedralMesh::facet(inner, i), across[i]};
+    sides += !is_removed;
+    *seen = static_cast<std::uint32_t>(outer);
+    seen += is_new;
+    mark = is_removed ? Mark::removed : Mark::seen;
+    seen_.size += is_new;
+  }
+  sides_.size = static_cast<std::size_t>(sides - sides_.items.data());
+  return true;
+}
+
+// Decides which of some slots are in the cavity.
+void PointInserter::test(std::size_t begin, std::size_t count, const Point3& p) {
+  const int* rows[lanes];
+  unsigned ghosts = 0;
+  for (std::size_t k = 0; k < lanes; ++k) {
+    const Row& row = mesh_.row(seen_[begin + std::min(k, count - 1)]);
+    rows[k] = row.data();
+    ghosts |= static_cast<unsigned>(row[3] == mesh_.infinity()) << k;
+  }
+  const SphereSides sides = batch_(mesh_.points().data(), rows, p, mesh_.predicates().sphere_bound());
+  const unsigned all = (1U << count) - 1;
+  unsigned inside = sides.inside;
+  for (unsigned unsure = (ghosts | ~(sides.inside | sides.outside)) & all; unsure != 0;
+       unsure &= unsure - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(unsure));
+    const unsigned is_inside = holds(seen_[begin + k], p);
+    inside = (inside & ~(1U << k)) | is_inside << k;
+  }
+  std::uint32_t* cavity = cavity_.room(lanes);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t slot = seen_[begin + k];
+    const bool is_inside = (inside >> k & 1) != 0;
+    mesh_.mark(slot) = is_inside ? Mark::removed : Mark::seen;
+    *cavity = slot;
+    cavity += is_inside;
+  }
+  cavity_.size = static_cast<std::size_t>(cavity - cavity_.items.data());
+}
+
+void PointInserter::undo() {
+  mesh_.mark(cavity_[0]) = Mark::live;
+  for (const std::uint32_t slot : seen_.all()) mesh_.mark(slot) = Mark::live;
+}
+
+void PointInserter::list_walls() {
+  walls_.size = 0;
+  Wall* wall = walls_.room(sides_.size + 1);
+  for (const auto [inside, outside] : sides_.all()) {
+    const Row& row = mesh_.row(TetrahedralMesh::slot_of(inside));
+    const auto& [k, l, m] = others[TetrahedralMesh::place_of(inside)];
+    wall->a = row[k], wall->b = row[l], wall->c = row[m];
+    wall->outside = outside;
+    wall += mesh_.mark(TetrahedralMesh::slot_of(outside)) != Mark::removed;
+  }
+  walls_.size = static_cast<std::size_t>(wall - walls_.items.data());
 }
 
 bool PointInserter::reserve() {
-  while (cavity_.size() + free_.size() < walls_.size()) {
+  while (cavity_.size + free_.size() < walls_.size) {
     if (!mesh_.take_slots(free_, is_alone_)) return false;
   }
   return true;
@@ -115,33 +171,41 @@ bool PointInserter::reserve() {
 
 // A tetrahedron at each wall, with the new vertex as its first.
 void PointInserter::fill(Index v) {
-  filled_.clear();
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    std::size_t slot;
-    if (w < cavity_.size()) {
-      slot = cavity_[w];
+  for (const std::uint32_t slot : seen_.all()) {
+    Mark& mark = mesh_.mark(slot);
+    mark = mark == Mark::removed ? Mark::removed : Mark::live;
+  }
+  for (std::size_t w = 0; w < walls_.size; ++w) {
+    Wall& wall = walls_[w];
+    if (w < cavity_.size) {
+      wall.slot = cavity_[w];
     } else {
-      slot = free_.back();
+      wall.slot = static_cast<std::uint32_t>(free_.back());
       free_.pop_back();
     }
-    const Wall& wall = walls_[w];
-    mesh_.removed(slot) = 0;
-    mesh_.row(slot) = {v, wall.a, wall.b, wall.c};
-    mesh_.link(TetrahedralMesh::facet(slot, 0), wall.outside);
-    filled_.push_back(slot);
-    if (wall.c != mesh_.infinity()) last_ = slot;
+    mesh_.mark(wall.slot) = Mark::live;
+    mesh_.row(wall.slot) = {v, wall.a, wall.b, wall.c};
+    mesh_.link(TetrahedralMesh::facet(wall.slot, 0), wall.outside);
+    if (wall.c != mesh_.infinity()) last_ = wall.slot;
   }
-  for (std::size_t k = walls_.size(); k < cavity_.size(); ++k) free_.push_back(cavity_[k]);
+  for (std::size_t k = walls_.size; k < cavity_.size; ++k) free_.push_back(cavity_[k]);
+  if (walls_.size / 2 + 2 <= few) {  // by Euler's relation, as many vertices
+    link_few();
+  } else {
+    link_many();
+  }
 }
 
 // A number below `few` for each vertex of the insertion: that which is at the vertex, if the list agrees.
 std::size_t PointInserter::number_of(Index v) {
   if (v == mesh_.infinity()) return few - 1;
-  std::uint8_t& number = numbers_[static_cast<std::size_t>(v)];
-  if (number >= numbered_count_ || numbered_[number] != v) {
-    number = static_cast<std::uint8_t>(numbered_count_);
-    numbered_[numbered_count_++] = v;
-  }
+  std::uint8_t& at_vertex = numbers_[static_cast<std::size_t>(v)];
+  const std::size_t known = at_vertex;
+  const bool is_new = (known >= numbered_count_) | (numbered_[known] != v);
+  const std::size_t number = is_new ? numbered_count_ : known;
+  at_vertex = static_cast<std::uint8_t>(number);
+  numbered_[number] = v;
+  numbered_count_ += is_new;
   return number;
 }
 
@@ -149,23 +213,26 @@ std::size_t PointInserter::number_of(Index v) {
 // all have left in a table which facet is beside it, each finds the other.
 void PointInserter::link_few() {
   numbered_count_ = 0;
-  edges_.resize(walls_.size());
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    const std::size_t a = number_of(walls_[w].a), b = number_of(walls_[w].b), c = number_of(walls_[w].c);
-    const Index facet = TetrahedralMesh::facet(filled_[w], 0);
-    facets_[b * few + c] = facet + 1;
-    facets_[c * few + a] = facet + 2;
-    facets_[a * few + b] = facet + 3;
-    edges_[w] = {c * few + b, a * few + c, b * few + a};
+  const auto edge = [](std::size_t from, std::size_t to) {
+    return static_cast<std::uint16_t>(from * few + to);
+  };
+  for (std::size_t w = 0; w < walls_.size; ++w) {
+    Wall& wall = walls_[w];
+    const std::size_t a = number_of(wall.a), b = number_of(wall.b), c = number_of(wall.c);
+    const Index facet = TetrahedralMesh::facet(wall.slot, 0);
+    facets_[edge(b, c)] = facet + 1;
+    facets_[edge(c, a)] = facet + 2;
+    facets_[edge(a, b)] = facet + 3;
+    wall.edges = {edge(c, b), edge(a, c), edge(b, a)};
   }
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    Row& across = mesh_.across(filled_[w]);
-    for (std::size_t k = 0; k < 3; ++k) across[k + 1] = facets_[edges_[w][k]];
+  for (const Wall& wall : walls_.all()) {
+    Row& across = mesh_.across(wall.slot);
+    for (std::size_t k = 0; k < 3; ++k) across[k + 1] = facets_[wall.edges[k]];
   }
 }
 
 void PointInserter::link_many() {
-  base::FlatMap facets(2 * walls_.size());
+  base::FlatMap facets(2 * walls_.size);
   const auto meet = [&](Index a, Index b, Index facet) {
     const auto [least, most] = std::minmax(a, b);
     std::uint64_t& other = facets[static_cast<std::uint64_t>(least) << 32 | static_cast<std::uint64_t>(most)];
@@ -175,9 +242,8 @@ void PointInserter::link_many() {
       mesh_.link(facet, static_cast<Index>(other - 1));
     }
   };
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    const Wall& wall = walls_[w];
-    const Index facet = TetrahedralMesh::facet(filled_[w], 0);
+  for (const Wall& wall : walls_.all()) {
+    const Index facet = TetrahedralMesh::facet(wall.slot, 0);
     meet(wall.b, wall.c, facet + 1);
     meet(wall.c, wall.a, facet + 2);
     meet(wall.a, wall.b, facet + 3);

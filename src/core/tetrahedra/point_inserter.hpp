@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/tetrahedra/sphere_batch.hpp"
 #include "core/tetrahedra/tetrahedral_mesh.hpp"
 
 namespace vorotool::core::tetrahedra {
@@ -16,8 +17,8 @@ namespace vorotool::core::tetrahedra {
 // the tetrahedron within: so no new one is flat, for whether a sphere holds a point in the plane of a facet depends on
 // the facet alone, ties included.
 //
-// An inserter owns the vertices of an interval, which may go on from the last to the first of all, and the slots all of whose finite vertices it owns; it changes no
-// others, and reads beside its own only neighbors of those. As these share vertices with its own, no inserter of
+// An inserter owns the vertices of an interval, which may go on from the last to the first of all, and the slots all of
+// whose finite vertices it owns; it changes no others, and reads beside its own only neighbors of those. As these share vertices with its own, no inserter of
 // another interval changes them: several may work at the same time, without locks.
 class PointInserter {
  public:
@@ -27,7 +28,8 @@ class PointInserter {
         numbers_(numbers),
         begin_(static_cast<std::uint32_t>(begin)),
         size_(static_cast<std::uint32_t>(size)),
-        is_alone_(size == mesh.points().size()) {}
+        is_alone_(size == mesh.points().size()),
+        batch_(sphere_batch()) {}
 
   // Begins to search at a tetrahedron, if the inserter owns that.
   bool begin_at(std::size_t slot);
@@ -37,10 +39,33 @@ class PointInserter {
   std::vector<std::size_t>& free() { return free_; }
 
  private:
-  // A facet of the cavity, its vertices counter-clockwise seen from the new vertex, and the facet outside.
+  // A list to whose end items are written before it is known whether they stay: no branch is mispredicted.
+  template <class T>
+  struct List {
+    std::vector<T> items;
+    std::size_t size = 0;
+
+    // Room behind the end for so many more.
+    T* room(std::size_t more) {
+      if (items.size() < size + more) items.resize(2 * (size + more));
+      return items.data() + size;
+    }
+    T& operator[](std::size_t k) { return items[k]; }
+    const T& operator[](std::size_t k) const { return items[k]; }
+    std::span<const T> all() const { return {items.data(), size}; }
+  };
+
+  // The two sides of a facet.
+  struct Sides {
+    Index inside, outside;
+  };
+  // A facet of the cavity, its vertices counter-clockwise seen from the new vertex, an infinite one last; the facet
+  // outside; and once it is filled the tetrahedron, and its three edges in the table of pairs.
   struct Wall {
     Index a, b, c;
     Index outside;
+    std::uint32_t slot;
+    std::array<std::uint16_t, 3> edges;
   };
 
   bool owns(Index v) const {
@@ -56,7 +81,10 @@ class PointInserter {
   bool locate(const Point3& p);
   bool holds(std::size_t slot, const Point3& p) const;
   bool dig(const Point3& p);
-  void add_wall(std::size_t slot, std::size_t place, Index outside);
+  bool look_around(std::size_t inner);
+  void test(std::size_t begin, std::size_t count, const Point3& p);
+  void undo();
+  void list_walls();
   bool reserve();
   void fill(Index v);
   void link_few();
@@ -67,19 +95,20 @@ class PointInserter {
   std::span<std::uint8_t> numbers_;
   const std::uint32_t begin_, size_;
   const bool is_alone_;
+  const SphereBatch batch_;
   std::size_t last_ = 0;  // where the next search begins: no ghost
   bool is_placed_ = false;
   std::vector<std::size_t> free_;
 
   // Of the insertion at work.
-  std::vector<std::size_t> cavity_;  // its slots
-  std::vector<Wall> walls_;
-  std::vector<std::size_t> filled_;       // slots of the new tetrahedra, a wall each
+  List<std::uint32_t> cavity_;  // its slots
+  List<std::uint32_t> seen_;    // slots around those, in the cavity or not
+  List<Sides> sides_;           // facets of the cavity whose other side was not yet known to be in it
+  List<Wall> walls_;
   static constexpr std::size_t few = 64;  // vertices of a cavity with a table of pairs
-  std::array<Index, few> numbered_;       // by the number that numbers_ has
+  std::array<Index, 256> numbered_{};     // by the number that numbers_ has
   std::size_t numbered_count_ = 0;
-  std::array<Index, few * few> facets_;            // by the numbers of a directed edge
-  std::vector<std::array<std::size_t, 3>> edges_;  // [walls] where the edges are in that table
+  std::array<Index, few * few> facets_;  // by the numbers of a directed edge
 };
 
 }  // namespace vorotool::core::tetrahedra

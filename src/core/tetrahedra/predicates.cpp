@@ -9,6 +9,7 @@
 #include "core/numbers/dyadic_grid.hpp"
 #include "core/numbers/fixed_integer.hpp"
 #include "core/numbers/int128.hpp"
+#include "core/tetrahedra/filter_bounds.hpp"
 
 namespace vorotool::core::tetrahedra {
 
@@ -16,33 +17,8 @@ using numbers::DyadicGrid;
 using numbers::FixedInteger;
 using numbers::int128;
 using numbers::undecided;
-using numbers::unit_roundoff;
 
 namespace {
-
-// The filters. u = 2^-53 bounds the relative error of a rounding, h = 2^-1075 the absolute one of a product that
-// underflows; differences and sums have no other error than u. An overflow makes the bound infinite or NaN, and
-// nothing is greater than that.
-//
-// A monomial of orient3d meets 8 roundings (three differences, two products, three sums), one of in_sphere 16 (five
-// differences, the product and the difference of a minor, the product and the two sums of a cofactor, three of a lift,
-// the last product and two sums), and the permanent, the sum of the absolute monomials, as computed from rounded
-// differences at most as many. So
-//   |det - D| <= P ((1 + u)^n - 1) (1 - u)^-n <= P (n u + 2 n^2 u^2), and the rounding of k P takes n u^2 P more:
-// k = n u + 4 n^2 u^2 is enough. (In P the factors are absolute differences, whose own roundings are in the 16 too.)
-constexpr double orient_factor = (8 + 256 * unit_roundoff) * unit_roundoff;
-constexpr double sphere_factor = (16 + 1024 * unit_roundoff) * unit_roundoff;
-
-// Underflow in orient3d: each of six products of two costs h |z|, each of three products with z costs h, in all at most
-// 2 h (|za| + |zb| + |zc|) + 3 h with the roundings that follow, 7 h (1 + |za| + |zb| + |zc|) in plenty; the term
-// 2^-1000 (1 + ...) is worth 8 u 2^-1000 = 2^-1050 times the same.
-constexpr double orient_guard = 0x1p-1000;
-
-// Underflow in in_sphere: products of two cost h times a cubic factor of at most 6 M^3 (24 of them) or 9 M^3 (12
-// coordinates squared), where no difference is larger than M; products with z cost h 3 M^2, the last ones h. With
-// M <= 2^190 that is less than 2^9 h 2^570 = 2^-496; the guard is worth 16 u 2^-440 = 2^-489.
-constexpr double largest_lift = 0x1p380;
-constexpr double sphere_guard = 0x1p-440;
 
 double absolute_minor(const Difference3<double>& a, const Difference3<double>& b) {
   return std::abs(a.x * b.y) + std::abs(b.x * a.y);
@@ -181,19 +157,6 @@ int sign_of_tie(const Point3& a, const Point3& b, const Point3& c, const Point3&
   return 0;
 }
 
-// The extent along each axis.
-Point3 extent_of(std::span<const Point3> points) {
-  if (points.empty()) return {0, 0, 0};
-  Point3 least = points[0], most = points[0];
-  for (const Point3& p : points) {
-    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-    most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
-  }
-  return {most.x - least.x, most.y - least.y, most.z - least.z};
-}
-
-bool is_integer(double value) { return std::abs(value) <= 0x1p53 && std::trunc(value) == value; }
-
 }  // namespace
 
 int orient3d_filter(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
@@ -243,33 +206,14 @@ int in_sphere_or_tie(const Point3& a, const Point3& b, const Point3& c, const Po
   return sign != 0 ? sign : tie_sign(a, b, c, d, e);
 }
 
-// With differences of at most (x, y, z) the permanent of orient3d is at most 6 x y z, that of in_sphere
-// 24 x y z (x^2 + y^2 + z^2); 1 + 2^-40 covers the roundings of both. Extents that are as large as what the guard of
-// in_sphere needs leave everything to the other filter. Integers below 2^m have no roundings at all where the results
-// are below 2^53: m <= 16 and m <= 9.
-SetPredicates::SetPredicates(std::span<const Point3> points) {
-  const auto [x, y, z] = extent_of(points);
-  const double largest = std::max({x, y, z}), squares = x * x + y * y + z * z;
-  const double above = 1 + 0x1p-40;
-  const bool in_range = largest <= 0x1p189;
-  const double none = std::numeric_limits<double>::infinity();
-  orient_bound_ = in_range ? orient_factor * above * (6 * x * y * z + orient_guard * (1 + 3 * z)) : none;
-  sphere_bound_ = in_range ? sphere_factor * above * (24 * x * y * z * squares + sphere_guard) : none;
-  const auto whole = [](const Point3& p) { return is_integer(p.x) && is_integer(p.y) && is_integer(p.z); };
-  if (largest >= 0x1p16 || !std::all_of(points.begin(), points.end(), whole)) return;
-  orient_exact_ = true;
-  orient_bound_ = 0.5;
-  if (largest >= 0x1p9) return;
-  sphere_exact_ = true;
-  sphere_bound_ = 0.5;
-}
-
-int SetPredicates::tie(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
-                       const Point3& e) const {
-  return sign_of_tie(a, b, c, d, e,
-                     [this](const Point3& p, const Point3& q, const Point3& r, const Point3& s) {
-                       return orient(p, q, r, s);
-                     });
+Point3 extent_of(std::span<const Point3> points) {
+  if (points.empty()) return {0, 0, 0};
+  Point3 least = points[0], most = points[0];
+  for (const Point3& p : points) {
+    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+    most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+  }
+  return {most.x - least.x, most.y - least.y, most.z - least.z};
 }
 
 void move_to_integers(std::span<Point3> points) {

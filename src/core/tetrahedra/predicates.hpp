@@ -80,31 +80,8 @@ std::array<Difference3<double>, sizeof...(Points)> differences(const Point3& to,
   return {Difference3<double>{points.x - to.x, points.y - to.y, points.z - to.z}...};
 }
 
-// The predicates for points of one set, for which a static filter comes first: a bound for all calls, from the extent
-// of the set. On coordinates that are integers (after integer_lattice) and small it is exact, zeros included.
-class SetPredicates {
- public:
-  explicit SetPredicates(std::span<const Point3> points);
-
-  int orient(const Point3& a, const Point3& b, const Point3& c, const Point3& d) const {
-    const double value = orient3d_determinant(differences(d, a, b, c));
-    if (std::abs(value) > orient_bound_) return numbers::sign_of(value);
-    return orient_exact_ ? 0 : orient3d(a, b, c, d);
-  }
-
-  // With ties broken.
-  int in_sphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) const {
-    const double value = in_sphere_determinant(differences(e, a, b, c, d));
-    if (std::abs(value) > sphere_bound_) return numbers::sign_of(value);
-    return sphere_exact_ ? tie(a, b, c, d, e) : in_sphere_or_tie(a, b, c, d, e);
-  }
-
- private:
-  int tie(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) const;
-
-  double orient_bound_, sphere_bound_;
-  bool orient_exact_ = false, sphere_exact_ = false;  // what is within the bound is 0
-};
+// The extent along each axis.
+Point3 extent_of(std::span<const Point3> points);
 
 // Replaces coordinates by integers below 2^53 where all are on a common lattice that is fine enough for that: they are
 // moved and scaled, which changes no sign and no order.

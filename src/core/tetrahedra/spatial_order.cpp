@@ -134,6 +134,7 @@ SpatialOrder spatial_order(std::span<const Point3> points, std::span<std::int32_
     }
   });
   std::partial_sum(places.begin(), places.end(), places.begin());
+  order.points.reserve(places.back() + 1);  // for one more, which the mesh needs
   order.points.resize(places.back());
   order.index.resize(places.back());
   base::parallel_for(pieces, threads, [&](std::size_t piece) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t most_slots = std::size_t{1} << 29;
 constexpr std::size_t slots_at_once = 256;
-constexpr std::size_t bytes_a_slot = 2 * sizeof(Row) + sizeof(std::uint8_t);
+constexpr std::size_t bytes_a_slot = sizeof(Tetrahedron) + sizeof(Mark);
 
 std::size_t whole_pieces(std::size_t slots) {
   return (slots + slots_at_once - 1) / slots_at_once * slots_at_once;
@@ -23,9 +23,8 @@ TetrahedralMesh::TetrahedralMesh(std::span<const Point3> points, const SetPredic
   // Points in general position have 6.77 tetrahedra each; pages that are not used take no memory.
   const std::size_t expected =
       whole_pieces(std::min(7 * points.size() + points.size() / 8 + 4096, most_slots));
-  rows_ = base::LargeArray<Row>(expected);
-  across_ = base::LargeArray<Row>(expected);
-  removed_ = base::LargeArray<std::uint8_t>(expected);
+  tetrahedra_ = base::LargeArray<Tetrahedron>(expected);
+  marks_ = base::LargeArray<Mark>(expected);
 }
 
 void TetrahedralMesh::grow() {
@@ -36,20 +35,19 @@ void TetrahedralMesh::grow() {
     std::copy_n(array.data(), slots_, larger.data());
     array = std::move(larger);
   };
-  copy(rows_);
-  copy(across_);
-  copy(removed_);
+  copy(tetrahedra_);
+  copy(marks_);
 }
 
 bool TetrahedralMesh::take_slots(std::vector<std::size_t>& free, bool may_grow) {
   const std::lock_guard lock(growing_);
-  if (slots_ == rows_.size()) {
+  if (slots_ == tetrahedra_.size()) {
     if (!may_grow) return false;
     grow();
   }
   const std::size_t end = slots_ + slots_at_once;
   for (std::size_t slot = end; slot-- > slots_;) {  // the first is taken first
-    removed_[slot] = 1;
+    marks_[slot] = Mark::removed;
     free.push_back(slot);
   }
   slots_ = end;
@@ -60,20 +58,20 @@ void TetrahedralMesh::start(Row vertices) {
   const auto& [a, b, c, d] = vertices;
   if (predicates_.orient(point(a), point(b), point(c), point(d)) < 0) std::swap(vertices[0], vertices[1]);
   slots_ = 5;
-  std::fill_n(removed_.data(), slots_at_once, std::uint8_t{1});
-  std::fill_n(removed_.data(), slots_, std::uint8_t{0});
-  rows_[0] = vertices;
+  std::fill_n(marks_.data(), slots_at_once, Mark::removed);
+  std::fill_n(marks_.data(), slots_, Mark::live);
+  row(0) = vertices;
   for (std::size_t i = 0; i < 4; ++i) {  // ghost i + 1 is across facet i
     const auto [k, l, m] = facet_vertices[i];
-    rows_[i + 1] = {vertices[k], vertices[m], vertices[l], infinity_};
+    row(i + 1) = {vertices[k], vertices[m], vertices[l], infinity_};
     link(facet(0, i), facet(i + 1, 3));
     for (std::size_t place = 0; place < 3; ++place) {
       // The ghost across this facet lacks this vertex.
-      const Index v = rows_[i + 1][place];
+      const Index v = row(i + 1)[place];
       const auto j =
           static_cast<std::size_t>(std::find(vertices.begin(), vertices.end(), v) - vertices.begin());
       if (j > i) continue;  // that ghost is not there yet
-      const Row& other = rows_[j + 1];
+      const Row& other = row(j + 1);
       const auto back = std::find(other.begin(), other.end(), vertices[i]) - other.begin();
       link(facet(i + 1, place), facet(j + 1, static_cast<std::size_t>(back)));
     }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/large_array.hpp"
-#include "core/tetrahedra/predicates.hpp"
+#include "core/tetrahedra/set_predicates.hpp"
 
 namespace vorotool::core::tetrahedra {
 
@@ -29,12 +29,19 @@ struct TooManyTetrahedra : std::length_error {
 inline constexpr std::array<std::array<std::size_t, 3>, 4> facet_vertices{
     {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
 
-// Tetrahedra lie in slots of four vertices, which are positive in their order, and four facets across, each opposite to
-// a vertex and numbered 4 slot + place. A facet of the hull has a ghost beyond it, whose last vertex is infinite; its
+// Four vertices, positive in their order, and four facets across, each opposite to a vertex. Half a line of the cache.
+struct alignas(32) Tetrahedron {
+  Row vertices, across;
+};
+
+// What a slot holds: a tetrahedron; none, or one that is about to be removed; one that is looked at.
+enum class Mark : std::uint8_t { live, removed, seen };
+
+// Tetrahedra lie in slots; their facets are numbered 4 slot + place. A facet of the hull has a ghost beyond it, whose last vertex is infinite; its
 // three others are counter-clockwise seen from outside. Several threads may change slots that they do not share.
 class TetrahedralMesh {
  public:
-  // Distinct points.
+  // Distinct points, behind whose end another one can be read.
   TetrahedralMesh(std::span<const Point3> points, const SetPredicates& predicates);
 
   // The first tetrahedron, of vertices that are not coplanar.
@@ -49,27 +56,27 @@ class TetrahedralMesh {
   const Point3& point(Index v) const { return points_[static_cast<std::size_t>(v)]; }
   const SetPredicates& predicates() const { return predicates_; }
   Index infinity() const { return infinity_; }
-  bool is_ghost(std::size_t slot) const { return rows_[slot][3] == infinity_; }
-  bool is_tetrahedron(std::size_t slot) const { return removed_[slot] == 0 && !is_ghost(slot); }
+  bool is_ghost(std::size_t slot) const { return row(slot)[3] == infinity_; }
+  bool is_tetrahedron(std::size_t slot) const { return marks_[slot] == Mark::live && !is_ghost(slot); }
 
   static std::size_t slot_of(Index facet) { return static_cast<std::uint32_t>(facet) / 4; }
   static std::size_t place_of(Index facet) { return static_cast<std::uint32_t>(facet) % 4; }
   static Index facet(std::size_t slot, std::size_t place) { return static_cast<Index>(4 * slot + place); }
   void link(Index a, Index b) {
-    across_[slot_of(a)][place_of(a)] = b;
-    across_[slot_of(b)][place_of(b)] = a;
+    across(slot_of(a))[place_of(a)] = b;
+    across(slot_of(b))[place_of(b)] = a;
   }
 
-  Row& row(std::size_t slot) { return rows_[slot]; }
-  const Row& row(std::size_t slot) const { return rows_[slot]; }
-  Row& across(std::size_t slot) { return across_[slot]; }
-  const Row& across(std::size_t slot) const { return across_[slot]; }
-  // Whether a slot is empty, or its tetrahedron about to be removed.
-  std::uint8_t& removed(std::size_t slot) { return removed_[slot]; }
-  std::uint8_t removed(std::size_t slot) const { return removed_[slot]; }
+  Tetrahedron& tetrahedron(std::size_t slot) { return tetrahedra_[slot]; }
+  Row& row(std::size_t slot) { return tetrahedra_[slot].vertices; }
+  const Row& row(std::size_t slot) const { return tetrahedra_[slot].vertices; }
+  Row& across(std::size_t slot) { return tetrahedra_[slot].across; }
+  const Row& across(std::size_t slot) const { return tetrahedra_[slot].across; }
+  Mark& mark(std::size_t slot) { return marks_[slot]; }
+  Mark mark(std::size_t slot) const { return marks_[slot]; }
 
-  base::LargeArray<Row> take_rows() { return std::move(rows_); }
-  base::LargeArray<Row> take_across() { return std::move(across_); }
+  base::LargeArray<Tetrahedron> take_tetrahedra() { return std::move(tetrahedra_); }
+  void drop_marks() { marks_ = {}; }
 
  private:
   void grow();
@@ -79,8 +86,8 @@ class TetrahedralMesh {
   const Index infinity_;
   std::size_t slots_ = 0;
   std::mutex growing_;  // guards the number of slots
-  base::LargeArray<Row> rows_, across_;
-  base::LargeArray<std::uint8_t> removed_;
+  base::LargeArray<Tetrahedron> tetrahedra_;
+  base::LargeArray<Mark> marks_;
 };
 
 }  // namespace vorotool::core::tetrahedra
