@@ -8,7 +8,7 @@ import shapely
 
 import vorotool
 from support.few import few
-from vorotool.numeric.curves.flatten import cubic_polylines, parts_between, places_at
+from vorotool.numeric.curves.flatten import cubic_polylines, places_at
 from vorotool.types.skeleton.lines import LedOn
 
 ELL = [[0, 0], [60, 0], [60, 40], [50, 40], [50, 10], [0, 10]]
@@ -159,3 +159,14 @@ def test_parts_and_polylines_of_cubic_curves():
             places = places_at(np.repeat(control[k : k + 1], 500, axis=0), np.linspace(0, 1, 500))
             line = shapely.LineString(points[start[k] : start[k + 1]])
             assert shapely.distance(shapely.points(places), line).max() <= tolerance
+
+
+def parts_between(control, first, last):
+    """(n, 4, 2) control points of the parts of curves from one parameter to another."""
+    made = np.empty_like(control)
+    for k, parameters in enumerate(((first,) * 3, (first, first, last), (first, last, last), (last,) * 3)):
+        points = np.moveaxis(control, 1, 0)
+        for t in parameters:  # the blossom
+            points = points[:-1] + t[:, None] * (points[1:] - points[:-1])
+        made[:, k] = points[0]
+    return made

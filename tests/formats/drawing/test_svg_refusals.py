@@ -157,14 +157,6 @@ def test_files_and_contents(tmp_path, name, geometry):
         vorotool.read(path, flatten=0)
 
 
-def test_without_the_library(tmp_path, monkeypatch):
-    (tmp_path / "a.svg").write_text(LOGO)
-    monkeypatch.setitem(sys.modules, "svgelements", None)
-    monkeypatch.setitem(sys.modules, "svgelements.svgelements", None)
-    with pytest.raises(UsageError, match=r"SVG drawings need the package svgelements: pip install 'vorotool\[cad\]'"):
-        vorotool.read(tmp_path / "a.svg")
-
-
 def test_nothing_is_loaded_or_fetched(tmp_path):
     """No module that opens files or connections is asked by a drawing that names some."""
     hostile = (

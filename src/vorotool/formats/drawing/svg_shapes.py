@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from math import inf, isfinite, sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from vorotool.convert.extras import needed
 from vorotool.errors import InputError
 from vorotool.formats.drawing.curves import (
     Affine,
@@ -260,17 +259,40 @@ def fitted(box: tuple[float, float, float, float], viewport: Viewport, aspect: s
 
 
 # ---- path data -----------------------------------------------------------------------------------
+_COMMAND = re.compile(r"[\s,]*([MLTHVCSQAZ])", re.IGNORECASE)
+_STEPS = {"M": "nn", "L": "nn", "T": "nn", "H": "n", "V": "n", "C": "nnnnnn", "S": "nnnn", "Q": "nnnn", "A": "nnnffnn"}
+"""Numbers and flags of a step of each kind; one that closes has none."""
+_FORMS = {"n": re.compile(rf"[\s,]*({_NUMBER})"), "f": re.compile(r"[\s,]*([01])")}
+_DEGREES = {"T": 2, "S": 3}
+"""Of curves that go on as the one before, if that is of their degree."""
+
+
 def path_curves(data: str, place: str) -> list[Curve]:
     """Give the subpaths of path data."""
-    lexer = needed("svgelements.svgelements", "cad", "SVG drawings").SVGLexicalParser()
-    made = _Path()
-    try:
-        lexer.parse(made, data)
-    except (ValueError, TypeError, AttributeError, OverflowError):
-        raise _damaged(data, lexer.pos, place) from None
-    if lexer.pos < len(data):
-        raise _damaged(data, lexer.pos, place)
-    curves = made.curves()
+    made, at, end = _Path(), 0, len(data.rstrip(" \t\r\n\f,"))
+    letter = "Z"
+    while at < end:
+        command = _COMMAND.match(data, at)
+        if command is not None:
+            letter, at = command[1], command.end()
+        elif letter in "Zz":
+            raise _damaged(data, at, place)
+        kind, values = letter.upper(), list[float]()
+        step = _STEPS.get(kind, "")
+        while len(values) < len(step) and (value := _FORMS[step[len(values)]].match(data, at)):
+            values.append(float(value[1]))
+            at = value.end()
+        missing = len(step) - len(values)
+        closing = _COMMAND.match(data, at) if missing == 2 and kind != "M" else None
+        if (missing and (closing is None or closing[1] not in "Zz")) or not (made.curves or kind == "M"):
+            raise _damaged(data, at, place)
+        if kind != "Z":
+            made.add(kind, values, is_relative=letter.islower(), is_closing=closing is not None)
+        if kind == "Z" or closing is not None:
+            made.close()
+            at = at if closing is None else closing.end()
+        letter = {"M": "L", "m": "l"}.get(letter, letter)  # of places that follow
+    curves = [curve for curve in made.curves if curve.pieces or curve.is_closed]  # a lone place to move to is none
     if not all(curve.is_finite() for curve in curves):
         raise InputError(f"{place}: a coordinate of the path is too large for a double; correct it, or remove it")
     return curves
@@ -284,126 +306,64 @@ def _damaged(data: str, position: int, place: str) -> InputError:
 
 
 class _Path:
-    """What the parser tells of: its methods have the names that it calls."""
+    """Subpaths that grow step by step."""
 
     def __init__(self) -> None:
-        self._made: list[Curve] = []
+        self.curves: list[Curve] = []
         self._open: Curve | None = None
-        self._last: tuple[str, Point] | None = None  # the kind of the curve before, and its last control point
-
-    def curves(self) -> list[Curve]:
-        """Give all of them: a lone place to move to is none, but one that is closed is a place."""
-        return [curve for curve in self._made if curve.pieces or curve.is_closed]
-
-    def start(self) -> None:
-        """Begin."""
-
-    def end(self) -> None:
-        """Finish."""
-
-    @property
-    def current_point(self) -> Any:
-        """Where the path is, as the parser wants it; None at its very beginning."""
-        return None if not self._made else _Place(*self._here)
+        self._last: tuple[int, Point] | None = None  # the degree of the curve before, and its last control point
 
     @property
     def _here(self) -> Point:
+        """Where the next step begins: behind a closed subpath at its start."""
         if self._open is not None:
             return self._open.end
-        if not self._made:
-            raise ValueError  # path data begin with a place to move to
-        return self._made[-1].start  # behind a closed subpath, or at a place that was moved to
+        return self.curves[-1].start if self.curves else (0.0, 0.0)
 
-    def _add(self, piece: Piece, control: tuple[str, Point] | None = None) -> None:
-        if self._open is None:
-            self._open = Curve(self._here)
-            self._made.append(self._open)
-        self._open.pieces.append(piece)
-        self._last = control
+    def _begin(self, start: Point) -> Curve:
+        self._open = Curve(start)
+        self.curves.append(self._open)
+        return self._open
 
-    def _target(self, place: Any) -> Point:
-        """Give a place; ``z`` stands for the start of the subpath, which it closes, too."""
-        if place in ("z", "Z"):
-            return self._open.start if self._open is not None else self._here
-        x, y = place
-        return (float(x), float(y))
+    def add(self, kind: str, values: list[float], *, is_relative: bool, is_closing: bool) -> None:
+        """Add a step, whose last place may be the start of the subpath."""
+        x, y = here = self._here
+        if kind in "HV":
+            (value,) = values
+            value += (x if kind == "H" else y) * is_relative
+            places = [(value, y) if kind == "H" else (x, value)]
+        else:
+            pairs = values[5:] if kind == "A" else values
+            places = list(zip(pairs[::2], pairs[1::2], strict=True))
+            if is_relative and self.curves:
+                places = [(a + x, b + y) for a, b in places]
+        if is_closing:  # the place that closes it is left out
+            places.append(here if self._open is None else self._open.start)
+        if kind == "M":
+            self._begin(places[0])
+            self._last = None
+            return
+        if kind in _DEGREES:
+            places.insert(0, self._mirrored(_DEGREES[kind]))
+        if kind == "A":
+            rx, ry, rotation, is_large, sweep = values[:5]
+            piece = elliptic_arc(here, (rx, ry), rotation, (bool(is_large), bool(sweep)), places[0])
+        else:
+            piece = Bezier(tuple(places)) if len(places) > 1 else Line(places[0])
+        (self._open or self._begin(here)).pieces.append(piece)
+        self._last = (len(places), places[-2]) if len(places) > 1 else None
 
-    def _close_if(self, place: Any) -> None:
-        if place in ("z", "Z"):
-            self.closed()
-
-    def move(self, place: Any, *, relative: bool = False) -> None:
-        """Begin a subpath."""
-        self._open = Curve(self._target(place))
-        self._made.append(self._open)
-        self._last = None
-
-    def closed(self, *, relative: bool = False) -> None:
-        """Close the subpath; the next one begins where it did, if nothing else is said."""
-        if self._open is None:
-            self._open = Curve(self._here)
-            self._made.append(self._open)
-        self._open.is_closed = True
-        self._open = None
-        self._last = None
-
-    def line(self, place: Any, *, relative: bool = False) -> None:
-        """Add a straight line."""
-        self._add(Line(self._target(place)))
-        self._close_if(place)
-
-    def horizontal(self, x: float, *, relative: bool = False) -> None:
-        """Add one to an x."""
-        here = self._here
-        self._add(Line((here[0] * relative + x, here[1])))
-
-    def vertical(self, y: float, *, relative: bool = False) -> None:
-        """Add one to a y."""
-        here = self._here
-        self._add(Line((here[0], here[1] * relative + y)))
-
-    def quad(self, control: Any, place: Any, *, relative: bool = False) -> None:
-        """Add a quadratic curve."""
-        middle = self._target(control)
-        self._add(Bezier((middle, self._target(place))), ("Q", middle))
-        self._close_if(place)
-
-    def smooth_quad(self, place: Any, *, relative: bool = False) -> None:
-        """Add one that goes on as the one before."""
-        self.quad(self._mirrored("Q"), place)
-
-    def cubic(self, control: Any, second: Any, place: Any, *, relative: bool = False) -> None:
-        """Add a cubic curve."""
-        last = self._target(second)
-        self._add(Bezier((self._target(control), last, self._target(place))), ("C", last))
-        self._close_if(place)
-
-    def smooth_cubic(self, second: Any, place: Any, *, relative: bool = False) -> None:
-        """Add one that goes on as the one before."""
-        self.cubic(self._mirrored("C"), second, place)
-
-    def _mirrored(self, kind: str) -> Point:
-        here = self._here
-        if self._last is None or self._last[0] != kind:
+    def _mirrored(self, degree: int) -> Point:
+        x, y = here = self._here
+        if self._last is None or self._last[0] != degree:
             return here
-        x, y = self._last[1]
-        return (2 * here[0] - x, 2 * here[1] - y)
+        a, b = self._last[1]
+        return (2 * x - a, 2 * y - b)
 
-    def arc(
-        self, rx: float, ry: float, rotation: float, is_large: Any, sweep: Any, place: Any, *, relative: bool = False
-    ) -> None:
-        """Add an arc of an ellipse."""
-        if is_large is None or sweep is None:
-            raise ValueError
-        self._add(elliptic_arc(self._here, (rx, ry), rotation, (bool(is_large), bool(sweep)), self._target(place)))
-        self._close_if(place)
-
-
-class _Place:
-    """A place with x and y."""
-
-    def __init__(self, x: float, y: float) -> None:
-        self.x, self.y = x, y
+    def close(self) -> None:
+        """Close the subpath; the next one begins where it did, if nothing else is said."""
+        (self._open or self._begin(self._here)).is_closed = True
+        self._open = self._last = None
 
 
 def elliptic_arc(start: Point, radii: Point, rotation: float, flags: tuple[bool, bool], end: Point) -> Piece:

@@ -86,17 +86,6 @@ def places_at(control: Floats, t: Floats) -> Floats:
     return places
 
 
-def parts_between(control: Floats, first: Floats, last: Floats) -> Floats:
-    """(n, 4, 2) control points of the parts of curves from one parameter to another."""
-    made = np.empty_like(control)
-    for k, parameters in enumerate(((first,) * 3, (first, first, last), (first, last, last), (last,) * 3)):
-        points = np.moveaxis(control, 1, 0)
-        for t in parameters:  # the blossom
-            points = points[:-1] + t[:, None] * (points[1:] - points[:-1])
-        made[:, k] = points[0]
-    return made
-
-
 def cubic_polylines(control: Floats, tolerance: float | Floats) -> tuple[Floats, NDArray[np.int64]]:
     """Curves as polylines, divided evenly in their parameter."""
     second = control[:, 2:] - 2 * control[:, 1:-1] + control[:, :-2]
