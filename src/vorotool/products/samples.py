@@ -12,7 +12,7 @@ SAMPLES = {
     "nuclei.tif": "a mask of 40 nuclei, a stack of 192 x 144 x 24 voxels of 0.325 x 0.325 x 1.5 um",
     "shape.json": "a polygon",
     "two-shapes.json": "two polygons, one with a hole",
-    "logo.svg": "a drawing in curves, 90 x 40 mm (read with the extra cad)",
+    "logo.svg": "a drawing in curves, 90 x 40 mm",
     "segments.wkt": "four line segments",
     "houses.geojson": "72 houses in four blocks, in meters",
     "streets.geojson": "the two streets between the houses",
