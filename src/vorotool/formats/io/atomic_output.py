@@ -24,6 +24,7 @@ from vorotool.formats.io.descriptors import (
 )
 from vorotool.formats.io.sources import file_of
 from vorotool.formats.io.temporaries import Placement, committed_together, new_file
+from vorotool.plain import scoped
 
 STANDARD_OUTPUT = "standard output"
 
@@ -42,12 +43,12 @@ class Rules(NamedTuple):
             _check_replaced(name, target, self)
 
 
-_RULES: ContextVar[Rules] = ContextVar("rules")
+_RULES: ContextVar[Rules] = ContextVar("rules", default=Rules())  # noqa: B039, they are frozen
 
 
 def current_rules() -> Rules:
     """Return the rules of the output that is being written."""
-    return _RULES.get(Rules())
+    return _RULES.get()
 
 
 @contextmanager
@@ -62,16 +63,35 @@ def open_output(
     """Open an output that replaces an older file only when all of it has been written."""
     name = os.fspath(path)
     descriptor = _checked_descriptor(name, binary, option)
-    if descriptor is not None:
-        writer = _continuing(name, descriptor, option)
-    elif name == STANDARD:
-        writer = _embedded_output()
-    else:
-        rules = Rules(no_clobber, tuple(inputs), option)
-        target, is_regular = _checked_target(name, rules)
-        writer = _replacing(name, target, rules) if is_regular else _direct(name, target, binary, option)
-    with writer as out:
-        yield out
+    told = partial(explained, spoken(name), option)
+    if descriptor is not None:  # open already: written in order, after what it holds
+        with told(), open_output_descriptor(descriptor) as out:
+            yield out
+        return
+    if name == STANDARD:  # where standard output is no descriptor
+        with told():
+            sys.stdout.flush()
+            yield sys.stdout.buffer
+            sys.stdout.buffer.flush()
+        return
+    rules = Rules(no_clobber, tuple(inputs), option)
+    target, is_regular = _checked_target(name, rules)
+    if not is_regular:  # a pipe or a device
+        with told(), open_onward(target) as out:
+            if binary and out.isatty():
+                raise terminal_error()
+            yield out
+        return
+    with told(), committed_together() as commit:
+        temporary = commit.make(target, partial(new_file, like=target))
+        with scoped(_RULES, rules), temporary.opened() as out:
+            yield out
+
+        def check() -> None:
+            if os.path.exists(target):
+                raise clobber_error(name, option)
+
+        commit.add(Placement(target, temporary, told, check if no_clobber else None))
 
 
 def check_output(
@@ -139,22 +159,6 @@ def spoken(name: str) -> str:
     return STANDARD_OUTPUT if name == STANDARD else name
 
 
-@contextmanager
-def _continuing(name: str, descriptor: int, option: str) -> Iterator[BinaryIO]:
-    """Write what is open already, in order, after what it holds."""
-    with explained(spoken(name), option), open_output_descriptor(descriptor) as out:
-        yield out
-
-
-@contextmanager
-def _embedded_output() -> Iterator[BinaryIO]:
-    """Write to standard output where it is no descriptor."""
-    with explained(STANDARD_OUTPUT):
-        sys.stdout.flush()
-        yield sys.stdout.buffer
-        sys.stdout.buffer.flush()
-
-
 def _checked_target(name: str, rules: Rules) -> tuple[str, bool]:
     """Follow links; tell as well whether there is, or will be, an ordinary file, which may be replaced."""
     target, mode = followed(name, rules.option), None
@@ -220,34 +224,6 @@ def is_same_file(target: str | os.PathLike[str], source: str) -> bool:
         return os.path.samefile(target, file_of(source))
     except (OSError, ValueError, AttributeError):  # an input that is not there, or no file, is no output
         return False
-
-
-@contextmanager
-def _direct(name: str, target: str, binary: bool, option: str) -> Iterator[BinaryIO]:
-    """Write to a pipe or a device."""
-    with explained(name, option), open_onward(target) as out:
-        if binary and out.isatty():
-            raise terminal_error()
-        yield out
-
-
-@contextmanager
-def _replacing(name: str, target: str, rules: Rules) -> Iterator[BinaryIO]:
-    def check() -> None:
-        if os.path.exists(target):
-            raise clobber_error(name, rules.option)
-
-    outer = _RULES.get(None)
-    told = partial(explained, name, rules.option)
-    with told(), committed_together() as commit:
-        temporary = commit.make(target, partial(new_file, like=target))
-        _RULES.set(rules)
-        try:
-            with temporary.opened() as out:
-                yield out
-        finally:
-            _RULES.set(outer or Rules())
-        commit.add(Placement(target, temporary, told, check if rules.no_clobber else None))
 
 
 @contextmanager
