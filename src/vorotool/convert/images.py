@@ -124,7 +124,9 @@ def _check_shape(source: Any, name: str, *, is_gray: bool, max_pixels: int) -> N
     if not isinstance(shape, tuple):
         return
     if len(shape) == 3 and shape[2] in COLOR_CHANNELS and not is_gray:
-        raise InputError(f"it is a color image, {described(source)}: give {_thresholded(name)}")
+        raise InputError(
+            f"it is a color image, {described(source)}: give vorotool.seeds_from_raster({name}, threshold=…)"
+        )
     if len(shape) == 3 and shape[2] not in COLOR_CHANNELS:
         raise InputError(
             f"it is a stack of {shape[0]} images, {described(source)}: give one of them, {name}[0]; "
@@ -138,7 +140,3 @@ def _check_shape(source: Any, name: str, *, is_gray: bool, max_pixels: int) -> N
             f"{name} has {shape[1]} x {shape[0]} = {pixels} pixels, more than max_pixels {max_pixels}: the command "
             "line reads images of TIFF, NPY and Zarr band by band"
         )
-
-
-def _thresholded(name: str) -> str:
-    return f"vorotool.seeds_from_raster({name}, threshold=…)"

@@ -80,11 +80,7 @@ def _polygons_in(source: Any, name: str) -> PolygonSet:
 def _of_features(held: HeldFeatures) -> PolygonSet:
     if not held.is_all_shapely:
         return _set_of_items(held.items, "polygons", held)
-
-    def described_by(owners: NDArray[np.int64]) -> dict[str, Any]:
-        return {"feature": owners, **held.described(owners)}
-
-    return polygons_of_geometry(held.geometry, described_by)
+    return polygons_of_geometry(held.geometry, lambda owners: {"feature": owners, **held.described(owners)})
 
 
 def is_ring(source: Any) -> bool:

@@ -161,12 +161,8 @@ _RUNS = """
 """Codes, and runs of codes between which no other system has one."""
 
 
-def _codes() -> frozenset[int]:
-    ends = [[int(end) for end in run.split("-")] for run in _RUNS.split()]
-    return frozenset(code for run in ends for code in range(run[0], run[-1] + 1))
-
-
-GEOGRAPHIC_CODES = _codes()
+_ENDS = [[int(end) for end in run.split("-")] for run in _RUNS.split()]
+GEOGRAPHIC_CODES = frozenset(code for run in _ENDS for code in range(run[0], run[-1] + 1))
 """Geographic systems, of two or three dimensions, deprecated ones too."""
 
 

@@ -15,9 +15,7 @@ def check_value(value: Any, name: str, *types: str) -> None:
     if is_of(value, *types):
         return
     makers = {each: getattr(import_module("vorotool"), each).maker for each in types}
-    expected = " or ".join(f"{_article(each)} of vorotool.{maker}" for each, maker in makers.items())
+    expected = " or ".join(
+        f"{'an' if each[0] in 'AO' else 'a'} {each} of vorotool.{maker}" for each, maker in makers.items()
+    )
     raise InputError(f"invalid {name}: expected {expected}, but got {described(value)}")
-
-
-def _article(name: str) -> str:
-    return f"{'an' if name[0] in 'AO' else 'a'} {name}"

@@ -69,7 +69,7 @@ def _add_arcs(drawing: DxfDrawing, layer: str, skeleton: Skeleton, arcs: NDArray
     for begin, end in itertools.pairwise([*changes.tolist(), len(arcs)]):
         if bent[begin]:
             both = np.stack([skeleton.control[arcs[begin:end]], target[begin:end]], axis=1).reshape(-1, 2)
-            drawing.parabolas(layer, np.concatenate([source[begin : begin + 1], both]))
+            drawing.spline(layer, np.concatenate([source[begin : begin + 1], both]), 2)
         else:
             drawing.polyline(layer, np.concatenate([source[begin : begin + 1], target[begin:end]]))
 
@@ -79,7 +79,7 @@ def _add_smooth(drawing: DxfDrawing, smoothed: SmoothLines, what: str) -> None:
     for begin, end in itertools.pairwise(smoothed.start.tolist()):
         control = smoothed.control[begin:end]
         if (control != control[0, 0]).any():
-            drawing.cubics(what, np.concatenate([control[:1, 0], control[:, 1:].reshape(-1, 2)]))
+            drawing.spline(what, np.concatenate([control[:1, 0], control[:, 1:].reshape(-1, 2)]), 3)
 
 
 def _add_led_on(drawing: DxfDrawing, lines: LedOn, what: str) -> None:
@@ -244,15 +244,8 @@ class DxfDrawing:
         elif placed:
             self._space.add_point(placed[0], dxfattribs=self._on(layer))
 
-    def parabolas(self, layer: str, points: Floats) -> None:
-        """Add parabolas that follow each other, as one spline of degree 2: end, control point, end, and so on."""
-        self._spline(layer, points, 2)
-
-    def cubics(self, layer: str, points: Floats) -> None:
-        """Add cubic curves that follow each other, as one spline of degree 3: end, two control points, end."""
-        self._spline(layer, points, 3)
-
-    def _spline(self, layer: str, points: Floats, degree: int) -> None:
+    def spline(self, layer: str, points: Floats, degree: int) -> None:
+        """Add curves of a degree that follow each other, as one spline: end, control points, end, and so on."""
         spline = self._space.add_spline(degree=degree, dxfattribs=self._on(layer))
         count = len(points) // degree
         spline.control_points = [(x, y, 0.0) for x, y in self._placed(points)]

@@ -233,12 +233,9 @@ def _chain(curves: Sequence[Curve], is_closed: bool) -> Curve:
     pieces = [piece for curve in curves for piece in curve.pieces]
     start = curves[0].start
     if is_closed and pieces[-1].end != start:
-        pieces[-1] = _ending(pieces[-1], start)
+        last = pieces[-1]
+        pieces[-1] = Bezier((*last.control[:-1], start)) if isinstance(last, Bezier) else last._replace(end=start)
     return Curve(start, pieces, is_closed)
-
-
-def _ending(piece: Piece, end: Point) -> Piece:
-    return Bezier((*piece.control[:-1], end)) if isinstance(piece, Bezier) else piece._replace(end=end)
 
 
 def _reversed(curve: Curve) -> Curve:

@@ -61,16 +61,12 @@ def grid_of(name: str, file: Any, page: Any) -> PageGrid:
                 "no system"
             )
         return PageGrid(map_grid(transform, unit=unit, crs=crs, keys=keys), nodata, note)
-    ome = _ome_grid(file)
+    sizes = ome_sizes(file.pages[0].description) if file.is_ome else None
+    ome = None if sizes is None else PixelGrid(*sizes, "ome")
     one = "" if ome is None else states_one_side(file.pages[0].description)
     if one:
         note = f"{name} states only {one}: pixels are assumed to be squares"
     return PageGrid(ome or _resolution_grid(file, page), nodata, note)
-
-
-def _ome_grid(file: Any) -> PixelGrid | None:
-    sizes = ome_sizes(file.pages[0].description) if file.is_ome else None
-    return None if sizes is None else PixelGrid(*sizes, "ome")
 
 
 def _resolution_grid(file: Any, page: Any) -> PixelGrid | None:

@@ -29,15 +29,11 @@ def tiff_pages(source: Source) -> int:
 def count_pages(file: Any) -> int:
     """Count the pages of a file; if all others are smaller copies or masks of the first, it has one."""
     count = len(file.pages)
-    return 1 if count > 1 and all(_is_of_first(file.pages[number]) for number in range(1, count)) else count
+    return 1 if count > 1 and all(int(file.pages[k].subfiletype) & (_COPY | _MASK) for k in range(1, count)) else count
 
 
 _COPY, _MASK = 1, 4
 """Bits of the tag NewSubfileType."""
-
-
-def _is_of_first(page: Any) -> bool:
-    return bool(int(page.subfiletype) & (_COPY | _MASK))
 
 
 def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDArray[Any], PageGrid]:

@@ -74,12 +74,14 @@ def write_pages(
         return
     import tifffile
 
-    compressed, is_tiled = is_compressed(kind), "tile" in tags
+    is_tiled = "tile" in tags
+    strips = (_tiles if is_tiled else _strips)(bands, shape, kind)
+    compressed = kind.kind in "ui" and kind.itemsize <= 4  # distances and 64-bit integers are not
     # named here, since the name of a temporary file is a number, which tifffile does not expect
     handle = tifffile.FileHandle(out, name="image.tif", size=0)
     with tifffile.TiffWriter(handle, bigtiff=is_large, byteorder="<") as writer:
         writer.write(
-            _encoded((_tiles if is_tiled else _strips)(bands, shape, kind), compressed, threads),
+            in_order(deflated, strips, threads) if compressed else (strip[1:].tobytes() for strip in strips),
             shape=shape,
             dtype=kind,
             photometric="minisblack" if palette is None else "palette",
@@ -91,16 +93,6 @@ def write_pages(
             software=False,
             **tags,
         )
-
-
-def is_compressed(kind: np.dtype[Any]) -> bool:
-    """Whether pixels of a type are deflated: distances and 64-bit integers are not."""
-    return kind.kind in "ui" and kind.itemsize <= 4
-
-
-def _encoded(strips: Iterable[NDArray[Any]], compressed: bool, threads: int) -> Iterator[bytes]:
-    """Give strips, or tiles, as the file has them."""
-    return in_order(deflated, strips, threads) if compressed else (strip[1:].tobytes() for strip in strips)
 
 
 def _strips(

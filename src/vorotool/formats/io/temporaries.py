@@ -315,7 +315,8 @@ class Commit:
     def _put(self, placement: Placement) -> None:
         """Set aside what is at a place, and put an output there."""
         target, temporary = placement.target, placement.temporary
-        if _may_be_set_aside(target, temporary):
+        # a folder goes for a folder only
+        if os.path.lexists(target) and (_is_folder(temporary) or not os.path.isdir(target)):
             kept = os.path.join(self._aside(os.path.dirname(target)), os.path.basename(target))
             if not os.path.lexists(kept):
                 _set_aside(target, kept, by_link=temporary is not None and not os.path.isdir(target))
@@ -377,11 +378,6 @@ def _put_at_once(placement: Placement) -> bool:
     with placement.explained():
         temporary.move_to(target)
     return True
-
-
-def _may_be_set_aside(target: str, temporary: Temporary | None) -> bool:
-    """Return whether what is at a place may go: a folder goes for a folder only."""
-    return os.path.lexists(target) and (_is_folder(temporary) or not os.path.isdir(target))
 
 
 def _is_folder(temporary: Temporary | None) -> bool:

@@ -72,19 +72,14 @@ def _header(source: Source) -> _Header:
         struct.unpack_from("<3d", data, 131),
         struct.unpack_from("<3d", data, 155),
     )
-    if header.format not in _FORMATS or length < _end_of_fields(header.format):
-        raise InputError(
-            f"{source.name}: its points are in format {header.format}, of {length} bytes: 0 to 10 are read"
-        )
+    kind = header.format
+    least = max(20 if kind < 6 else 30, _GPS_TIME.get(kind, 0) + 8, _COLORS.get(kind, 0) + 6)
+    if kind not in _FORMATS or length < least:
+        raise InputError(f"{source.name}: its points are in format {kind}, of {length} bytes: 0 to 10 are read")
     whole = max(len(data) - begin, 0) // length
     if whole < points and not header.is_packed:
         raise InputError(f"{source.name} states {points} points, but holds {whole}; is the file damaged or cut off?")
     return header
-
-
-def _end_of_fields(kind: int) -> int:
-    """Give the least length of a point."""
-    return max(20 if kind < 6 else 30, _GPS_TIME.get(kind, 0) + 8, _COLORS.get(kind, 0) + 6)
 
 
 def _records(data: bytes, header: _Header) -> Iterator[tuple[bytes, int, bytes]]:

@@ -69,11 +69,6 @@ def _edge(mesh: Triangulation | ProximityGraph) -> tuple[str, list[Column]]:
     return "1", [*_numbers(mesh, mesh.edges, mesh.first_number), Column.of("", mesh.hull_edges.astype(np.int64))]
 
 
-def _ele(mesh: Triangulation) -> tuple[str, list[Column]]:
-    """Give the numbers of nodes and attributes a triangle; its nodes."""
-    return "3 0", _numbers(mesh, mesh.triangles, mesh.first_number)
-
-
 def _node(mesh: Triangulation) -> tuple[str, list[Column]]:
     """Give the numbers of dimensions, attributes and markers; x, y and the marker of each vertex."""
     on_hull = np.zeros(len(mesh.points), dtype=np.int64)
@@ -81,7 +76,11 @@ def _node(mesh: Triangulation) -> tuple[str, list[Column]]:
     return "2 0 1", [*_places(mesh), Column("", on_hull)]
 
 
-_TRIANGLE: dict[str, Callable[[Any], tuple[str, list[Column]]]] = {"edge": _edge, "ele": _ele, "node": _node}
+_TRIANGLE: dict[str, Callable[[Any], tuple[str, list[Column]]]] = {
+    "edge": _edge,
+    "ele": lambda mesh: ("3 0", _numbers(mesh, mesh.triangles, mesh.first_number)),
+    "node": _node,
+}
 
 
 # ---- points in space -----------------------------------------------------------------------------

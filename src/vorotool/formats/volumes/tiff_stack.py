@@ -49,7 +49,7 @@ class TiffStack(VolumeSource):
     def _stack(self) -> _Stack:
         size = len(self._bytes)
         with opened_tiff(self.name, self.path) as file, decoding(self.name, "TIFF"):
-            pages = list(_full_pages(file))
+            pages = [page for index, page in enumerate(file.pages) if index == 0 or not page.is_reduced]
             if not pages:
                 raise InputError(f"{self.name} is damaged: it begins as a TIFF, but holds no image")
             axes = stack_axes(self.name, file, len(pages))
@@ -126,13 +126,6 @@ class TiffStack(VolumeSource):
 
     def _read(self, offset: int, size: int) -> bytes:
         return self._bytes[offset : offset + size]
-
-
-def _full_pages(file: Any) -> Iterator[Any]:
-    """Pages that are no smaller copies of others."""
-    for index, page in enumerate(file.pages):
-        if index == 0 or not page.is_reduced:
-            yield page
 
 
 def _count_of(name: str, axes: StackAxes, pages: int) -> int:

@@ -41,7 +41,7 @@ def write_volume(
     if fmt != "tiff":
         one = option("-o labels.tif, labels.npy or labels.zarr", "the path labels.tif, labels.npy or labels.zarr")
         raise UsageError(f"a volume cannot be written as {fmt!r}: use {one}")
-    is_large = _most_bytes(shape, kind) >= CLASSIC_LIMIT
+    is_large = shape[0] * (shape[1] * shape[2] * kind.itemsize + _PAGE_BYTES) >= CLASSIC_LIMIT
     tags = stack_tags(grid, shape, np.dtype(kind).newbyteorder("="), is_large=is_large, nodata=nodata)
     write_pages(out, slabs, shape, kind, tags, is_large=is_large, threads=threads)
 
@@ -50,11 +50,6 @@ def write_values(out: BinaryIO, value: LabelVolume | Volume, fmt: VolumeFormat, 
     """Write a volume that is in memory."""
     values = value.labels if isinstance(value, LabelVolume) else value.values
     write_volume(out, [values], shape=value.shape, dtype=values.dtype, fmt=fmt, grid=value.grid, threads=threads)
-
-
-def _most_bytes(shape: tuple[int, int, int], kind: np.dtype[Any]) -> int:
-    depth, height, width = shape
-    return depth * (height * width * kind.itemsize + _PAGE_BYTES)
 
 
 # ---- what is said of voxels ----------------------------------------------------------------------

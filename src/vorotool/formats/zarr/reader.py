@@ -220,7 +220,10 @@ def largest_image(name: str, folder: str) -> Described | None:
         return None
     try:
         first = scales[0]
-        dataset, axes = first["datasets"][0], tuple(_axis_name(axis) for axis in first["axes"])
+        dataset, axes = (
+            first["datasets"][0],
+            tuple(str(axis["name"] if isinstance(axis, dict) else axis) for axis in first["axes"]),
+        )
         path = str(dataset["path"])
         changes = [*dataset.get("coordinateTransformations", ()), *first.get("coordinateTransformations", ())]
         units = tuple(axis.get("unit") if isinstance(axis, dict) else None for axis in first["axes"])
@@ -243,10 +246,6 @@ def label_images(folder: str) -> list[str]:
         return []
     found = about.get("labels")
     return [str(each) for each in found] if isinstance(found, list) else []
-
-
-def _axis_name(axis: Any) -> str:
-    return str(axis["name"] if isinstance(axis, dict) else axis)
 
 
 def _ome_attributes(folder: str) -> dict[str, Any]:

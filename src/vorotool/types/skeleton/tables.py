@@ -212,7 +212,7 @@ def branch_columns(skeleton: Skeleton, *, threads: int = 0) -> dict[str, Any]:
     framed = skeleton.on_frame[both]
     has_end = ((skeleton.degree[both] == 1) & ~framed).any(axis=0)
     kind = np.select([a == b, has_end, framed.any(axis=0)], [2, 0, 3], 1).astype(np.int32)
-    chord = _distance(skeleton.vertices[a], skeleton.vertices[b])
+    chord = _length(*(skeleton.vertices[b] - skeleton.vertices[a]).T)
     tortuosity = np.maximum(np.divide(length, chord, out=np.ones(len(chord)), where=chord > 0), 1.0)
     return {
         "branch": skeleton.branch[start],
@@ -232,10 +232,6 @@ def _branch_types(skeleton: Skeleton, ends: NDArray[np.int32]) -> NDArray[np.int
     is_junction = skeleton.degree[ends] > 2
     is_cycle = (ends[0] == ends[1]) & ~is_junction[0]
     return np.where(is_cycle, 3, is_junction.sum(axis=0)).astype(np.int32)
-
-
-def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    return _length(b[:, 0] - a[:, 0], b[:, 1] - a[:, 1])
 
 
 def _length(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -330,13 +326,8 @@ def _components(
     number = np.cumsum(is_end) - 1
     nodes = np.flatnonzero(is_end)
     root = connected_roots(number[ends].T, len(nodes))
-    np.minimum.at(nodes, root[number[ends[0]]], _least_nodes(skeleton, starts)[inner])
+    np.minimum.at(nodes, root[number[ends[0]]], np.minimum.reduceat(skeleton.arcs.reshape(-1), 2 * starts)[inner])
     return np.bincount(node_polygon[nodes[root == np.arange(len(root))]], minlength=count)
-
-
-def _least_nodes(skeleton: Skeleton, starts: NDArray[np.int64]) -> NDArray[np.int32]:
-    """(b,) the smallest node of each branch."""
-    return np.minimum.reduceat(skeleton.arcs.reshape(-1), 2 * starts)
 
 
 def connected_roots(pairs: NDArray[np.integer], count: int) -> NDArray[np.int64]:
