@@ -15,8 +15,8 @@ from vorotool.batch.manifest import RECORD_ENDING
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.sources import GZIP, file_of, output_name, without_gz
+from vorotool.frozen import frozen
 from vorotool.jobs.inputs import is_pattern, is_searched
-from vorotool.plain import plain
 
 MOST_NAMED = 10
 """Names that a note lists."""
@@ -29,7 +29,7 @@ HEAD = 2**16
 _NUMBER = re.compile(rb"(?<![\w.])[-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d+)?(?![\w.])")
 
 
-@plain
+@frozen
 class Input:
     """One input of a batch."""
 

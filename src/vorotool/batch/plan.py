@@ -19,11 +19,11 @@ from vorotool.batch.tasks import Task, digest_of
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.sources import file_of, without_gz
+from vorotool.frozen import frozen
 from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.refusals import check_options
 from vorotool.jobs.targets import Target, check_cluster, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels
-from vorotool.plain import plain
 from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import EXTENSIONS
 from vorotool.products.options import GROUPS
@@ -39,7 +39,7 @@ _NO_ROWS = frozenset(["skeleton", "diagram", "offset", "parts", "cells"])
 """Results whose JSON is not a list of rows."""
 
 
-@plain
+@frozen
 class Plan:
     """What is to be done."""
 

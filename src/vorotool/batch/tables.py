@@ -14,7 +14,7 @@ from vorotool.batch.tasks import Outcome, Task
 from vorotool.errors import InputError, Message, UsageError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.text.tables import safe_text
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 
 NO_FIELDS = re.compile("")
 TABLE_FORMATS = ("csv", "tsv", "json")
@@ -41,7 +41,7 @@ def _values(fields: re.Pattern[str], source: str) -> list[str | None]:
     return [source, *(match and match[name] for name in fields.groupindex)]
 
 
-@plain
+@frozen
 class JointTable:
     """The tables that are written of all inputs."""
 

@@ -13,12 +13,12 @@ from vorotool import __version__
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import file_of
 from vorotool.formats.io.temporaries import tagged_temporaries
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 
 T = TypeVar("T")
 
 
-@plain
+@frozen
 class Task:
     """The work for one input."""
 
@@ -35,7 +35,7 @@ class Task:
         return self.path or self.source
 
 
-@plain
+@frozen
 class Outcome:
     """The outcome of one input."""
 

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from vorotool.convert.tables import index_of, listed
 from vorotool.errors import InputError, warn
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import LONGEST, index_of_rows
 from vorotool.numeric.crs import crs_member, member_of_text, without_number
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.fields import UP, YAxis, y_axis_member
 
@@ -27,7 +27,7 @@ MOST_LEVELS = 100
 """Of brackets in well-known text, as in files."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class HeldFeatures:
     """Features, one geometry each, and what is known of them."""
 

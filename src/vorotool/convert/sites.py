@@ -16,11 +16,11 @@ from vorotool.convert.points import as_points
 from vorotool.convert.polygons import as_polygons, is_ring
 from vorotool.convert.tables import MISSING_TYPES, is_table, listed
 from vorotool.errors import InputError, UsageError, option, warn
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import index_of_rows, items_of, naming, unexpected
 from vorotool.numeric.crs import note_degrees
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import shown_number
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.box import Box, bounds
 from vorotool.types.fields import UP
@@ -40,7 +40,7 @@ EXPECTED = (
 )
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Sites:
     """Sites of a Voronoi diagram, and what the input says of them."""
 

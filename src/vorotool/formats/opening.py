@@ -15,9 +15,9 @@ from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note, with_crs, with_stated_axis
 from vorotool.formats.sniffing import PICTURES, TIFF_MAGIC, UTF8_MARK, image_of
 from vorotool.formats.zarr.store import is_folder, is_store
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.numbers import Flatten, checked_flatten, checked_tolerance
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import IMAGE_NAMES, INPUTS, NAMES_WITH, Holds, known_input_format
 from vorotool.products.registry import is_of
@@ -52,7 +52,7 @@ def opened(
         yield Opened(name, geometry, said, page, layer, open_zarr(name, said, page))
 
 
-@plain
+@frozen
 class Opened:
     """An input that is read once, whole or by its rows."""
 

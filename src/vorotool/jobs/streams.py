@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from vorotool.engines.tessellation.frames import band_limits, label_dtype, require_memory
 from vorotool.engines.tessellation.tessellator import Band, SeedBands, Tessellator, with_neighbors
 from vorotool.errors import LimitError
+from vorotool.frozen import frozen
 from vorotool.jobs.inputs import JobInput, check_columns, frame_of
 from vorotool.jobs.options import AUTO_LEVELS, Options
 from vorotool.jobs.results import Results
@@ -22,7 +23,6 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, table_in_units
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import CELL, SQUARE, Frame, PixelSides
@@ -49,7 +49,7 @@ STREAMED = frozenset({"labels", "diagram", "distance", "distance2"})
 """Results that need not be in memory."""
 
 
-@plain
+@frozen
 class Stream:
     """An image or a volume that need not be in memory."""
 

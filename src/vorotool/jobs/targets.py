@@ -10,7 +10,7 @@ from vorotool.errors import OUTPUT, UsageError, meant
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.sources import output_name, suffix_of, without_gz
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 from vorotool.products.formats import EXTENSIONS, FORMATS, format_named
 from vorotool.products.inputs import NAMES_WITH
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from vorotool.products.registry import Product
 
 
-@plain
+@frozen
 class Target:
     """One output: ``path`` is a file's name, or ``-`` for standard output."""
 

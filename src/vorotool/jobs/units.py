@@ -11,10 +11,10 @@ from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeVar
 
 from vorotool.errors import UsageError, VorotoolError
+from vorotool.frozen import frozen
 from vorotool.jobs.options import changed
 from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
-from vorotool.plain import plain
 from vorotool.products.formats import FORMATS
 from vorotool.products.options import flag, options_of
 from vorotool.products.registry import PLOTS
@@ -115,7 +115,7 @@ def shows_units(targets: Sequence[Target]) -> bool:
     return any(_has_units(target) for target in targets)
 
 
-@plain
+@frozen
 class Measured:
     """A length, an area or a volume with a unit, as an option has it until the size of a pixel is known."""
 

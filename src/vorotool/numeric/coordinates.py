@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import is_masked_array
 from vorotool.numeric.numbers import nearest_double, shown_number, whole_number
-from vorotool.plain import plain
 
 LARGEST_INTEGER = 2**53
 """Integers up to here are doubles; of those beyond only some are, and points that differ would become one."""
@@ -169,7 +169,7 @@ def current_decimals() -> int | None:
     return _DECIMALS.get()
 
 
-@plain
+@frozen
 class Grid:
     """Multiples of a step: of 10 to the power -decimals, or of 2 to the power of the exponent."""
 

@@ -1,10 +1,12 @@
-"""Threads for work that releases the lock of the interpreter, and the progress of long work."""
+"""Threads for work that releases the lock of the interpreter, the progress of long work, and variables of contexts."""
 
 from __future__ import annotations
 
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, Protocol, TypedDict, TypeVar
 
 from vorotool.numeric.checks import available_threads, checked_threads
@@ -127,3 +129,13 @@ def report(progress: Progress, fraction: float) -> None:
     """Tell who asks how much is done."""
     if progress is not None:
         progress(fraction)
+
+
+@contextmanager
+def scoped(variable: ContextVar[Result], value: Result) -> Iterator[None]:
+    """Give a variable of the context a value for what runs within."""
+    token = variable.set(value)
+    try:
+        yield
+    finally:
+        variable.reset(token)

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
+from vorotool.frozen import frozen
 from vorotool.numeric.numbers import finite_double, nearest_double, real_number, shown_number
-from vorotool.plain import plain
 
 if TYPE_CHECKING:
     from vorotool.types.polygons.polygon_set import PolygonSet
@@ -34,7 +34,7 @@ def bounds(points: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     return np.array([column.min() for column in columns]), np.array([column.max() for column in columns])
 
 
-@plain
+@frozen
 class Box:
     """A closed rectangle in the units of the input.
 

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Nesting
 from vorotool.numeric.numbers import Flatten, checked_flatten
-from vorotool.plain import plain
 from vorotool.products.registry import is_of
 from vorotool.types.identity import names_of, with_columns_of
 from vorotool.types.table import Table
@@ -49,7 +49,7 @@ Geometry = Union[Corners, Lines, Areas, "PolygonSet"]
 """Of rows. Of polygons each is a row; in files all polygons of a feature are, with its id and its properties."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Rows:
     """Rows of a value, with columns and maybe with geometry."""
 

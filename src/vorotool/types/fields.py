@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 
 _KEY = "declared"
 T = TypeVar("T")
@@ -35,7 +35,7 @@ class Meaning(Enum):
     VALUE = "value"
 
 
-@plain
+@frozen
 class Declared:
     """What a field holds."""
 
@@ -202,7 +202,7 @@ def with_y_axis(value: T, axis: YAxis) -> T:
 )
 def record(kind: type[T]) -> type[T]:
     """Make a frozen data class of one with declared fields."""
-    return plain(eq=False, repr=False)(kind)
+    return frozen(eq=False, repr=False)(kind)
 
 
 class Record:

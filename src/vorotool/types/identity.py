@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option
 from vorotool.numeric.numbers import shown_number
-from vorotool.plain import scoped
+from vorotool.numeric.parallel import scoped
 from vorotool.types.points.point_set import LABEL, labels_of
 from vorotool.types.table import Lookup, Table
 

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import mask_of
 from vorotool.numeric.checks import is_masked_array
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.fields import DOWN, YAxis, record
@@ -27,7 +27,7 @@ COUNTED = 1 << 24
 """Labels of images of more pixels are not counted to describe one."""
 
 
-@plain(eq=False, repr=False)
+@frozen(eq=False, repr=False)
 class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
     """Labels of the pixels of a frame.
 

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, UsageError, option
+from vorotool.frozen import frozen
 from vorotool.numeric.length_units import unit_name
 from vorotool.numeric.numbers import real_number, shown_number
-from vorotool.plain import plain
 from vorotool.types.fields import DOWN, UP, YAxis
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ ALIKE = Fraction(1, 10**7)
 """Sides that differ by no more of their length are one: files round them, each by itself."""
 
 
-@plain
+@frozen
 class GeoKeys:
     """The keys of a GeoTIFF, as they are stored: they go from an input to what is made of it."""
 
@@ -35,7 +35,7 @@ class GeoKeys:
     text: str = ""  # `GeoAsciiParams`
 
 
-@plain
+@frozen
 class PixelGrid:
     """The grid of the pixels of an image, in units of the world.
 
@@ -168,7 +168,7 @@ LARGEST_STEP = 10**140
 _ORDER = {2: "(height, width)", 3: "(depth, height, width)"}
 
 
-@plain
+@frozen
 class PixelSides:
     """The sides of a pixel or a voxel."""
 
@@ -244,7 +244,7 @@ FARTHEST = 2**44
 """No seed lies farther from the origin (in pixels)."""
 
 
-@plain
+@frozen
 class Frame:
     """A window of pixels: pixel (0, 0) of the image has its center at (``x``, ``y``).
 

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import is_equal
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.values import Tabular, counted
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Lookup:
     """A column that shows the values of other objects: row i holds ``values[index[i]]``."""
 
@@ -38,7 +38,7 @@ def object_column(values: Sequence[Any]) -> NDArray[Any]:
     return array
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Computed:
     """A column of numbers that are computed when its rows are asked for."""
 

@@ -13,11 +13,11 @@ from vorotool import _core
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.repaired_polygons import flat_holes, with_flat_shells_as_lines
 from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError, warn
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import divides, owners, ranges, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, Run
-from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.box import check_magnitude
 from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
@@ -102,7 +102,7 @@ def graph_for_skeletons(polygons: Any, *, strict: bool = False, **run: Unpack[Ru
     return planar_graph(given, strict=strict, **run)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Placement:
     """Vertices of polygons on the lattice."""
 
@@ -127,7 +127,7 @@ def placed_vertices(
     return replace(made, vertices=made.vertices[: len(polygons.xy)])
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Arrangement:
     """The planar graph of polygons, and what was repaired for it, before anybody is told."""
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
 from vorotool.numeric.checks import index_of_rows
-from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
@@ -19,7 +19,7 @@ from vorotool.types.skeleton.skeleton import EDGE, VERTEX, SiteTable
 from vorotool.types.skeleton.tables import connected_roots
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class PlacedShapes:
     """Polygons as they are used."""
 
@@ -157,7 +157,7 @@ class PolygonRegions:
         return self._root[np.searchsorted(self._keys, face.astype(np.int64) * self._width + polygon)]
 
 
-@plain
+@frozen
 class _Rings:
     """Points and segments along rings, one after the other; the kind and the input polygon of each ring."""
 
@@ -325,7 +325,7 @@ def _inner_faces(graph: PlanarGraph, point: NDArray[Any], segment: NDArray[Any])
     return graph.segment_faces[segment, np.where(is_forward, 0, 1)]
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class RepairedPolygons:
     """The rings of a planar graph, and where each vertex and edge is in it."""
 

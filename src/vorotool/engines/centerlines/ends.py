@@ -37,13 +37,13 @@ from vorotool.engines.centerlines.twigs import (
     with_pruned_twigs,
 )
 from vorotool.engines.skeleton.parts import with_straight_arcs
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Booleans, Floats, Numbers, starts_of
-from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton, ends_of_sites
 from vorotool.types.skeleton.tables import connected_roots
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Unforked:
     """A skeleton whose forks are led to the middles of their edges."""
 
@@ -237,7 +237,7 @@ class _End:
     """Whether it goes all around its polygon."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class RoundEnds:
     """Twigs in runs: those beside each other; and the branches between the twigs of one run."""
 

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from vorotool.engines.from_skeleton.points_along import first_crossings, first_hits
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Booleans, Floats, Numbers, mask_of, owners, starts_of, within
 from vorotool.numeric.parallel import Progress, Run
-from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.lines import ExtendedSkeleton, LedOn
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
@@ -42,7 +42,7 @@ def without_end_pieces(skeleton: Skeleton, **run: Unpack[Run]) -> Skeleton:
     return prune(with_arcs(made, kept), length=0, **run)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class EndPieces:
     """Which arcs belong to ends, and the trees of which nothing else is left."""
 
@@ -262,7 +262,7 @@ TIMES = 3
 """How often directions are taken."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class _Outlines:
     """The outline of each end: a place on a side, vertices of the polygon, a place on the other side."""
 

@@ -14,9 +14,9 @@ from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.centerlines.extended_ends import TIP, Reaches
 from vorotool.engines.centerlines.twigs import TIE
 from vorotool.engines.skeleton.parts import core_skeleton
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Booleans, Columns, Floats, owners, ranks_of, starts_of
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 Indices = NDArray[np.int32]
@@ -28,7 +28,7 @@ def geometry_of(skeleton: Skeleton, arc: Indices, first: Floats, last: Floats) -
     return _core.pruning.part_geometry(core_skeleton(skeleton), arc, first, last)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Paths:
     """Arcs of paths that follow one another, and the nodes that each leads from and to."""
 
@@ -58,7 +58,7 @@ class Paths:
         return np.stack([self.sources[self.start[:-1]], self.targets[self.start[1:] - 1]], axis=1)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Pieces(Columns):
     """Parts of arcs along lines, each in the direction of its line."""
 
@@ -265,7 +265,7 @@ def at_strip_ends(
     return replace(made, line=owners(np.array(sizes, dtype=np.int64), dtype=np.int32)), is_made
 
 
-@plain
+@frozen
 class _Walk:
     """Nodes and arcs from an end of a line inwards: what the line loses, and what is there instead, is left out."""
 
@@ -277,7 +277,7 @@ class _Walk:
     is_lead: bool = False  # whether a lead was at the end
 
 
-@plain
+@frozen
 class _End:
     """What a line loses, from the outside, and what it gets instead: arcs and their outer nodes."""
 

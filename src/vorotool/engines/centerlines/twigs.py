@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.parts import with_straight_arcs
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import (
     Booleans,
     Columns,
@@ -25,12 +26,11 @@ from vorotool.numeric.arrays import (
     within,
 )
 from vorotool.numeric.numbers import difference, is_among, product
-from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Branches:
     """Branches inside polygons."""
 
@@ -56,7 +56,7 @@ def branches_inside(skeleton: Skeleton) -> Branches:
     return Branches(first, last, ends, length, degree)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Twigs:
     """Branches from a leaf between two edges with a corner in common to a junction, along one of these or both."""
 
@@ -124,7 +124,7 @@ def _cosine(ends: Floats, meets: Booleans) -> Floats:
     return 0.0 - np.divide(ux * vx + uy * vy, size, out=np.zeros(len(ends)), where=size > 0)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Pairs(Columns):
     """Twigs at both corners of an edge."""
 
@@ -209,7 +209,7 @@ def _exact_square(a: list[float], b: list[float]) -> Fraction:
     return sum(((Fraction(q) - Fraction(p)) ** 2 for p, q in zip(a, b, strict=True)), Fraction(0))
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class _Sides(Columns):
     """Edges on one side of arcs around nodes that are on the other side of no arc there."""
 
@@ -219,7 +219,7 @@ class _Sides(Columns):
     vertex: Numbers  # (k,) integer array: the node, the arc, the edge, and the vertex where that begins
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class _Order:
     """Edges around rings, by the vertices where they begin: one way round or the other."""
 
@@ -231,7 +231,7 @@ class _Order:
     bends: Numbers
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class _Gaps:
     """Where twigs were pruned."""
 
@@ -398,7 +398,7 @@ def _with_arcs(
 Line = tuple[float, float, float]
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Chains:
     """Chains of edges, counterclockwise around what is inside."""
 
@@ -409,7 +409,7 @@ class Chains:
     target: Floats
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Trees:
     """Nodes and arcs inside chains."""
 

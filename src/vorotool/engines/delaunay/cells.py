@@ -12,12 +12,12 @@ from vorotool import _core
 from vorotool.convert.polygons import as_geometry
 from vorotool.engines.delaunay.delaunay import core_mesh, is_of_space, triangulated
 from vorotool.errors import InputError, VerificationError, warn
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, owners, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.products.registry import is_of
 from vorotool.types.arguments import check_value
@@ -337,7 +337,7 @@ def _cut_out_of(shapes: NDArray[Any], near: Any, whole: Any) -> NDArray[Any]:
     return np.asarray(made)
 
 
-@plain
+@frozen
 class Rings:
     """The rings of an area."""
 

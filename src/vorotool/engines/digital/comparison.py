@@ -18,10 +18,10 @@ from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.frames import as_seeds, asked_frame, default_frame, require_memory
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import Message, option
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.images import LabelImage
 from vorotool.types.mesh.triangulation import DigitalComparison, DigitalTriangulation, Triangulation
 from vorotool.types.pixels import MAX_PIXELS, Frame
@@ -120,7 +120,7 @@ def compare_digital(
     )
 
 
-@plain
+@frozen
 class Difference:
     """An edge or a triangle that one triangulation has and the other has not."""
 
@@ -131,7 +131,7 @@ class Difference:
     voronoi_length: float | None
 
 
-@plain
+@frozen
 class Comparison:
     """Of all edges, or of all triangles."""
 

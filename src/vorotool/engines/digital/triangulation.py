@@ -24,9 +24,9 @@ from vorotool.engines.tessellation.frames import (
 from vorotool.engines.tessellation.tessellate import verify_labels
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, VerificationError, option, warn
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress, running
-from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.images import LabelImage
 from vorotool.types.mesh.triangulation import DigitalTriangulation, Triangulation
@@ -196,7 +196,7 @@ def _counter_clockwise(points: NDArray[np.float64], triangles: NDArray[np.int32]
 # ---- the repair -----------------------------------------------------------------------------------------
 
 
-@plain
+@frozen
 class DigitalRepair:
     """Counts of the steps of `repair_digital`."""
 

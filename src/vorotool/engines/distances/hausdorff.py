@@ -16,13 +16,13 @@ from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.common import fail
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import InputError, RepairWarning
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, ranges
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.box import check_magnitude
 from vorotool.types.distances.distances import FROM_A, FROM_B, SMALLEST, Distances, PlacePair
@@ -251,7 +251,7 @@ def _equally_far(about: Floats, radius: Floats, at: Floats, normal: Floats, is_p
     return p
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class MeasuredShape:
     """A shape, and the same in the core."""
 

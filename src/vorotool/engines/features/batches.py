@@ -24,11 +24,11 @@ from vorotool.engines.arrangement.planar_graph import (
 )
 from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes, with_flat_shells_as_lines
 from vorotool.errors import LimitError, warn
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, mask_of, owners, ranges, starts_of
 from vorotool.numeric.checks import available_threads
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, Run, in_threads
-from vorotool.plain import plain
 from vorotool.types.box import bounds, check_magnitude
 from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
@@ -37,7 +37,7 @@ from vorotool.types.polygons.shapely_geometry import RingArrays
 Result = TypeVar("Result")
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class FeatureBatch:
     """Some features of a set that is placed, as if there were no others."""
 
@@ -53,7 +53,7 @@ class FeatureBatch:
     share: float  # of all vertices
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class BatchShapes:
     """A batch as a planar graph."""
 
@@ -75,7 +75,7 @@ class BatchShapes:
         return feature
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class FeatureShapes:
     """Totals of features, each by itself, when all batches are done."""
 
@@ -333,7 +333,7 @@ def _all_repairs(parts: Sequence[BatchShapes], corners: OwnCorners | None) -> Fo
     return total
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class OwnCorners:
     """Polygons without vertices in which they go straight on."""
 
@@ -387,7 +387,7 @@ APART = 1
 """Lattice steps around each feature: what snap rounding may move is nearer than one to it."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Features:
     """The features of polygons, numbered without gaps."""
 

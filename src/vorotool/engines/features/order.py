@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranks_of, starts_of, within
-from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.skeleton import SiteTable
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Places:
     """Where the items of all batches, one batch after the other, come in the end."""
 
@@ -48,7 +48,7 @@ class Places:
         return self.place.astype(np.int32)[items]
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class InputOrder:
     """How what batches have comes in the order of the input."""
 

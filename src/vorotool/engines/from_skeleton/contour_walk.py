@@ -6,14 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.clearance import SitePlaces
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, following, mask_of, owners, ranks_of
 from vorotool.numeric.curves.inverse_functions import angle_of
-from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Contours:
     """Closed walks with the arcs on their left, as runs: arcs in a row that have one site on the right."""
 

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from vorotool.engines.skeleton.clearance import SitePlaces, clearance_course, is_maximum, plateaus
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Columns, Floats, Numbers, mask_of, starts_of, within
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import whole_number
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.skeleton.arc_measures import ArcMeasures
 from vorotool.types.skeleton.discs import Discs
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
@@ -127,7 +127,7 @@ TIE = 2.0**-48
 """Of a radius: those that differ by less are the same, as they are right to 10 roundings."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Candidates(Columns):
     """Places with the discs around them."""
 
@@ -163,7 +163,7 @@ def _least(order: Numbers, feature: Numbers, values: Floats, slack: Floats) -> N
     return order[values[order] <= least[own] + slack[order]]
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Plateaus:
     """Segments on which the clearance is the same everywhere, and nodes, which are segments without length."""
 

@@ -13,12 +13,12 @@ from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.engines.skeleton.parts import core_skeleton
 from vorotool.errors import LimitError, UsageError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Booleans, Floats, Indices, owners, ranges, starts_of, within
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.numbers import finite_double
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import to_shapely
@@ -123,7 +123,7 @@ def sections_along(lines: LedOn, counts: Indices, every: float) -> SkeletonPoint
     return SkeletonPoints(lines.path, arc, along, xy, radius, feet, rings)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class _Pieces:
     """Arcs of lines and the straight lines that lead on, line by line."""
 

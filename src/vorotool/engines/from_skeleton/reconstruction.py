@@ -18,13 +18,13 @@ from vorotool.engines.from_skeleton.contour_walk import (
     twice_areas,
 )
 from vorotool.errors import UsageError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, owners, starts_of
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.curves.flatten import chords_of, circle_tolerances, middles_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import Flatten, checked_flatten
-from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
@@ -95,7 +95,7 @@ def _norm(way: Floats) -> Floats:
     return np.sqrt((way * way).sum(axis=-1))
 
 
-@plain
+@frozen
 class _Feet:
     """Where the discs at the ends of each run touch its site, and by how much that magnifies errors of the discs."""
 
@@ -191,7 +191,7 @@ def _outline(skeleton: Skeleton, contours: Contours, tolerance: float | None) ->
     return _in_order(pieces, contours, skeleton)
 
 
-@plain
+@frozen
 class _Places:
     """Places at runs: at the beginning (rank 0) or after the end (1 and more) of each, and how errors are magnified."""
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.label_images.outlines import outlines
 from vorotool.engines.label_images.regions import region_table
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 from vorotool.types.features import Rows
 from vorotool.types.fields import UP, YAxis
 from vorotool.types.images import LabelImage
@@ -23,7 +23,7 @@ from vorotool.types.table import Table
 from vorotool.types.volumes.volume import LabelVolume
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class _Map:
     """What the regions of a label image come from: its seeds, in the coordinate reference system of its grid."""
 

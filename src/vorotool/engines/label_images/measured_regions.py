@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.common import label_array, refuse_negative
 from vorotool.errors import InputError
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.pixels import CELL, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.table import Table
@@ -26,7 +26,7 @@ _MEASURES = {2: ("area", "perimeter", "border_length"), 3: ("volume", "surface",
 """Columns: the size of a region and of its border, and of the border that two share."""
 
 
-@plain
+@frozen
 class RegionMeasures:
     """Measures of the regions of a label image or volume; what `measure_regions` gives.
 
@@ -76,7 +76,7 @@ def measure_parts(parts: Iterable[NDArray[Any]], *, threads: int = 0, progress: 
     return RegionMeasures(borders=borders, cells=found.pop("voxels"), **found)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Regions:
     """Measures of regions, and their sites."""
 

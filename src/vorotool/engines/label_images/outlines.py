@@ -24,12 +24,12 @@ from vorotool.engines.tessellation.raster_objects import (
     settled_threshold,
 )
 from vorotool.errors import InputError, LimitError, UsageError, option
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, following, owners, ranges, starts_of, within
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, finite_double, shown_number, whole_number
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.images import LabelImage, Raster
 from vorotool.types.pixels import Frame
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
@@ -245,7 +245,7 @@ Rings = tuple[NDArray[np.float64], NDArray[np.int64]]
 """Vertices, and where each ring begins among them."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class GrayLevel:
     """Gray values, of which those above a level are inside; none is at the level."""
 
@@ -328,7 +328,7 @@ def simplified_polygons(polygons: PolygonSet, tolerance: float) -> PolygonSet:
     return _turned_as(replace(polygons, xy=xy, ring_starts=starts_of(sizes)), polygons)
 
 
-@plain
+@frozen
 class _Chains:
     """Chains of edges, and the stretches of rings along them."""
 

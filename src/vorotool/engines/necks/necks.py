@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from vorotool.engines.skeleton.clearance import clearance_course, plateaus
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError, option
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Columns, Floats, Indices, mask_of
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress, Run
-from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import moved_feet, projected
 from vorotool.types.skeleton.arc_measures import ClearanceCourse
 from vorotool.types.skeleton.necks import Necks
@@ -110,7 +110,7 @@ def whole_skeleton(
     return polygons
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class FoundNecks:
     """Necks, and where the skeleton is to be cut for each."""
 
@@ -168,7 +168,7 @@ def _found(root: list[int], place: int) -> int:
     return place
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Ways(Columns):
     """The two ways that lead on from each neck."""
 
@@ -190,7 +190,7 @@ class Ways(Columns):
         return np.equal(self.arc[:, 0], self.arc[:, 1])
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Flow:
     """How the clearance grows from plateau to plateau, most of which are single nodes."""
 
@@ -275,7 +275,7 @@ _SNAP = 4
 """Ulp of the largest coordinate by which the projection of a place half-way along a plateau is rounded at most."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Feet(Columns):
     """Feet of necks: left and right of the way from the first of their ways to the second."""
 

@@ -17,9 +17,9 @@ from vorotool.engines.from_skeleton.contour_walk import (
     twice_areas,
 )
 from vorotool.engines.necks.necks import Feet, FoundNecks, Ways, check_neck, found_necks, whole_skeleton
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, following, owners, ranges, ranks_of
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import moved_feet, places_as_given
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
@@ -115,7 +115,7 @@ def _cut(found: FoundNecks, chosen: Indices) -> CutAxis:
 
 
 # ---- pieces --------------------------------------------------------------------------------------
-@plain(eq=False)
+@frozen(eq=False)
 class _Rings:
     """Rings, the part that each is around, and its polygon."""
 
@@ -203,7 +203,7 @@ def _polygons(
     return replace(made.polygons(given, source), feature=np.arange(len(source), dtype=np.int32), connectivity=None)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class CutAxis:
     """A skeleton in which each cut has two nodes of its own, one for each way."""
 
@@ -246,7 +246,7 @@ def _parts(skeleton: Skeleton) -> Indices:
     return connected_roots(np.where(is_corner, apart, ends), len(skeleton.vertices) + ends.size)[: len(skeleton.radius)]
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Outlines:
     """Vertices around the parts of a cut skeleton, contour after contour."""
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.skeleton.parts import PER_ARC, core_skeleton
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, ranges, ranks_of
-from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
@@ -63,7 +63,7 @@ def join_junctions(skeleton: Skeleton) -> Skeleton:
     return _led(skeleton, branches, place, vanishes)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Branches:
     """Where branches begin and end."""
 
@@ -128,7 +128,7 @@ def _taken(center: int, radius: float, beside: list[list[tuple[float, int, int]]
 
 
 # ---- how branches are led to their new ends -------------------------------------------------------
-@plain(eq=False)
+@frozen(eq=False)
 class _Cuts:
     """Where branches that are moved at one end are left for a straight arc."""
 

@@ -21,11 +21,11 @@ from vorotool.engines.skeleton.exact import (
 )
 from vorotool.engines.skeleton.parts import without_equal_nodes
 from vorotool.errors import LimitError, UsageError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import owners
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.box import Extent, default_frame
 from vorotool.types.identity import names_of, part_table, place_columns
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -34,7 +34,7 @@ from vorotool.types.skeleton.skeleton import SiteTable, Skeleton
 from vorotool.types.table import Lookup, Table
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class BoundarySamples:
     """Seeds: the points of a planar graph, then those inside each of its segments, along it."""
 
@@ -118,7 +118,7 @@ ROUNDING_ULPS = 2
 """Of the largest coordinate: by how much nodes move when they are rounded to input units."""
 
 
-@plain
+@frozen
 class SamplingOptions:
     """A step or a tolerance, and how edges are sampled."""
 
@@ -147,7 +147,7 @@ class SamplingOptions:
         return self.tolerance is not None or self.sampling == "symmetric"
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Wanted:
     """What of a skeleton is computed, and with how many seeds and threads."""
 
@@ -159,7 +159,7 @@ class Wanted:
     progress: Progress = None
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class SampleGroups:
     """Which seeds have a diagram together, and in which bounds its parts are put into order."""
 
@@ -176,7 +176,7 @@ class SampleGroups:
         return np.concatenate([self.of_point, self.of_point[samples.graph.segments[samples.segment[points:], 0]]])
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class SampledShapes:
     """Polygons made a planar graph, seeds on it, and their Voronoi diagram."""
 
@@ -187,7 +187,7 @@ class SampledShapes:
     groups: SampleGroups  # which of them have a diagram together
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class ApproximateSkeleton:
     """A skeleton and what it was made of."""
 

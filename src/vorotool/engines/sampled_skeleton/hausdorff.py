@@ -14,9 +14,9 @@ from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation
 from vorotool.engines.skeleton.exact import diagram_of_placed, skeleton_of
 from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
 from vorotool.errors import silent
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
-from vorotool.plain import plain
 from vorotool.types.box import Extent, widened
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
@@ -82,7 +82,7 @@ PER_ARC = 16
 """Places on an arc beside its ends, evenly in its parameter."""
 
 
-@plain
+@frozen
 class Deviation:
     """The largest distance of places on one skeleton from another one, and where it is."""
 

@@ -34,15 +34,15 @@ from vorotool.engines.skeleton.diagrams import joined_sides, joined_with_places
 from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.engines.skeleton.parts import contraction
 from vorotool.errors import LimitError, silent
+from vorotool.frozen import frozen
 from vorotool.numeric.parallel import Run
-from vorotool.plain import plain
 from vorotool.types.box import bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import Skeleton
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class FeatureApproximation:
     """An approximate skeleton of features, and what it was made of."""
 

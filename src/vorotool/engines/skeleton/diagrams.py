@@ -37,10 +37,10 @@ from vorotool.engines.skeleton.shortened_edges import (
     whole_element_diagram,
 )
 from vorotool.errors import silent
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Run
-from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -49,7 +49,7 @@ from vorotool.types.skeleton.skeleton import EDGE, SiteTable, Skeleton
 Seen = TypeVar("Seen")
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class FeatureSkeleton(Generic[Seen]):
     """The skeleton inside features."""
 

@@ -13,11 +13,11 @@ from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi, unwanted_sides
 from vorotool.errors import InputError, Kind, Message, UsageError, VorotoolWarning, option, warn
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, ranks_of
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress, Run
-from vorotool.plain import plain
 from vorotool.types.box import Extent, check_lengths, default_frame, is_extent
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -46,7 +46,7 @@ def check_features(features: str) -> None:
         raise UsageError(f"features is {features!r}: use {' or '.join(FEATURES)}")
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class ShapeDiagram:
     """Polygons made a planar graph, and the Voronoi diagram of its points and open segments."""
 
@@ -265,7 +265,7 @@ OUTWARDS = np.array([[-1, 0], [1, 0], [0, -1], [0, 1]], dtype=np.int64)
 """From the sides of least and most x, then y."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Opening:
     """A planar graph whose segments on the border of a rectangle are far away."""
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, mask_of, ranks_of
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
@@ -106,7 +106,7 @@ def core_skeleton(skeleton: Skeleton, *, threads: int = 1, has_sites: bool = Tru
     )
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Contraction:
     """A skeleton after arcs between equal nodes were contracted."""
 

@@ -23,12 +23,12 @@ from vorotool.engines.skeleton.exact import (
     whole_diagram,
 )
 from vorotool.errors import InputError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, following, owners
 from vorotool.numeric.curves.inverse_functions import angle_of, hypotenuse
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import is_among
 from vorotool.numeric.parallel import Run
-from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
@@ -40,7 +40,7 @@ DEVIATION_STEPS = 2.0**-14
 """Of the extent: how finely arcs are flattened to measure how far two skeletons are apart."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class ElementDiagram:
     """Elements of shapes, and their Voronoi diagram."""
 
@@ -328,7 +328,7 @@ def exact_inside(elements: ElementDiagram) -> Skeleton:
     return interior_skeleton(diagram_of_placed(elements.shapes, elements.placed, threads=1), threads=1)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class ShortEdges:
     """Segments that are not longer than twice a gap."""
 
@@ -362,7 +362,7 @@ class ShortEdges:
         )
 
 
-@plain
+@frozen
 class CornerSectors:
     """Corners under 180 degrees: counter-clockwise from one segment of the graph to the next."""
 

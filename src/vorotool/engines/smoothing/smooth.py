@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of, within
 from vorotool.numeric.curves.flatten import chained, polylines
 from vorotool.numeric.numbers import checked_tolerance
 from vorotool.numeric.parallel import Progress, report
-from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.lines import LedOn, SmoothLines
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -22,7 +22,7 @@ LEAST_PIECES = 8
 """Of each line with more than one, so that there are places enough to fit by."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class LineSamples:
     """Places along lines, line by line, from the start to the end of each."""
 
@@ -107,7 +107,7 @@ HANDLE = 0.25
 """In tolerances: handles this short turn a curve within the tolerance wherever its tangents lead."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Stretches:
     """Parts of lines that are fitted by one curve each."""
 
@@ -120,7 +120,7 @@ class Stretches:
         return Stretches(self.first[chosen], self.last[chosen], self.leaving[:, chosen], self.entering[:, chosen])
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Fits:
     """Curves, one a stretch."""
 

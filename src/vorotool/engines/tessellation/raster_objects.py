@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import OTSU, STRICT, InputError, Kind, Message, UsageError, VorotoolWarning, option, warn
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import checked_flag, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
-from vorotool.plain import plain
 from vorotool.types.images import Raster
 from vorotool.types.volumes.volume import Volume
 
@@ -260,7 +260,7 @@ def label_values(values: NDArray[Any], *, first: int = 0) -> NDArray[Any]:
 # ---- objects of what is read part by part
 
 
-@plain
+@frozen
 class PartwiseObjects:
     """The rows of an image, or the slices of a volume, of which the objects are seeds."""
 

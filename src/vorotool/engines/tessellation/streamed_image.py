@@ -22,8 +22,8 @@ from vorotool.engines.tessellation.raster_objects import (
 )
 from vorotool.engines.tessellation.tessellator import Quantity, Tessellator, surrounded
 from vorotool.errors import LimitError, option
+from vorotool.frozen import frozen
 from vorotool.numeric.parallel import Progress, report
-from vorotool.plain import plain
 from vorotool.types.pixels import SQUARE, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
 
@@ -34,7 +34,7 @@ SWEEP_PIXELS = 2**22
 """Pixels that are labeled at a time: each may be a seed, which takes some 60 bytes."""
 
 
-@plain
+@frozen
 class ColumnEnvelope:
     """At most one seed a column."""
 
@@ -94,7 +94,7 @@ def _put(found: ColumnEnvelope, row: int, line: NDArray[np.uint32]) -> None:
     np.copyto(found.label, line, where=has)
 
 
-@plain
+@frozen
 class ObjectBand:
     """Some rows of objects, and all that their tessellation needs of the other rows."""
 
@@ -122,7 +122,7 @@ class ObjectBand:
         return numbers
 
 
-@plain
+@frozen
 class ImageBand:
     """Some rows of the tessellation of an image, computed where they are asked for: it can be pickled."""
 

@@ -23,10 +23,10 @@ from vorotool.engines.tessellation.frames import (
 from vorotool.engines.tessellation.raster_objects import refuse_distances
 from vorotool.engines.tessellation.seeding import on_coarser_lattice
 from vorotool.errors import InputError, LimitError, UsageError, option
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.pixels import CELL, MAX_SIDE, Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.volumes.volume import VolumeSeeds, VoxelFrame
@@ -247,7 +247,7 @@ def with_neighbors(frame: Frame | VoxelFrame, first: int, count: int) -> tuple[i
     return begin, end - begin
 
 
-@plain
+@frozen
 class SeedBand:
     """Rows or slices of a tessellation, with the seeds that they need."""
 

@@ -12,9 +12,9 @@ from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.engines.voronoi.site_graph import OwnedGraph
 from vorotool.errors import VerificationError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.numbers import distinct
-from vorotool.plain import plain
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
@@ -31,7 +31,7 @@ STEP = 4
 """By which orders around places are apart, so that arcs of the limit come in between."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Borders:
     """Pieces of borders in the plane, before a frame cuts them."""
 

@@ -9,17 +9,17 @@ import numpy as np
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.cut_curves import FAR, SLACK, CutCurves, CutEdges, cut_curves
 from vorotool.engines.voronoi.regions import LocalDiagrams
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import rows_of
-from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import packed
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Pairs = tuple[Indices, Indices]
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Drawn:
     """Places of borders, then ends of cut edges, that are known to be at each other or on edges: see `Crossings`."""
 
@@ -33,7 +33,7 @@ class Drawn:
         return cls(np.arange(count), np.full(count, -1), np.zeros(count))
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Crossings:
     """The places of a map that is cut: those of borders, then the ends of cut edges, then where both meet inside."""
 

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices
-from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 
 FAR = 2.0**34
@@ -31,7 +31,7 @@ ROUNDING_GIVEN = 2.0**-51
 """Of coordinates in input units: what differs by less may be the same number there, or come from the same one."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class CutCurves:
     """Curves on the lattice, from one parameter to another."""
 

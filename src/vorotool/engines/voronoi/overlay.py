@@ -10,10 +10,10 @@ from vorotool.engines.voronoi.borders import Borders, sites_beside_segments
 from vorotool.engines.voronoi.crossings import Crossings, Drawn, crossings_between, crossings_of
 from vorotool.engines.voronoi.cut_curves import NO_REGION, SLACK, CutEdges, controls_of, cut_curves
 from vorotool.engines.voronoi.regions import LocalDiagrams, faces_of_sides
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, mask_of, owners, ranges
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import rows_of
-from vorotool.plain import plain
 from vorotool.types.box import Extent, corners_of
 from vorotool.types.polygons.planar_graph import PlanarGraph, packed
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
@@ -22,7 +22,7 @@ UNKNOWN = -2
 """The site of what is not known yet."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Pieces:
     """Parts of borders between places: first those that are whole, then those of `Crossings.pieces`."""
 
@@ -42,7 +42,7 @@ class Pieces:
         return Pieces(self.piece.take(chosen), self.ends.take(chosen, axis=0), self.row[cut], self.t[cut])
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class CutPieces:
     """Parts of cut edges between places."""
 

@@ -11,17 +11,17 @@ from vorotool import _core
 from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay, RegionOverlay
 from vorotool.engines.voronoi.regions import NearestElements
 from vorotool.errors import VerificationError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, following, mask_of, ranges, ranks_of, starts_of
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.lazy import shapely
-from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 _AT_ONCE = 2**18
 """Arcs that are measured together, so that this takes little memory."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Arcs:
     """Arcs of a planar map, from the vertex with the smaller number each."""
 
@@ -68,7 +68,7 @@ def by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
     return sorting
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Rings:
     """Rings of a planar map without double points."""
 

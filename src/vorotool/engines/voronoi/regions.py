@@ -25,11 +25,11 @@ from vorotool.engines.voronoi.site_graph import (
     rings_at_one_place,
 )
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, is_among, rows_of
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph, packed
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -39,7 +39,7 @@ from vorotool.types.voronoi.voronoi_map import OUTSIDE
 Sites = NDArray[np.int32]
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Regions:
     """Regions, and which sites each is shared among."""
 
@@ -228,7 +228,7 @@ def faces_of_sides(lines: Floats, sides: Indices) -> tuple[Indices, NDArray[Any]
     return names, shapes
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class LocalDiagrams:
     """What belongs to whom in each of several regions, and the borders there."""
 

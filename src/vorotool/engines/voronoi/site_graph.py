@@ -22,10 +22,10 @@ from vorotool.engines.arrangement.planar_graph import (
 from vorotool.engines.arrangement.repaired_polygons import flat_holes, with_flat_shells_as_lines
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import InputError, LimitError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress, Run
-from vorotool.plain import plain
 from vorotool.types.box import Extent, Sides, bounds, check_magnitude, default_frame, extent_sides
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, SHELL, PolygonSet, set_of_rings
@@ -40,7 +40,7 @@ NOBODY = np.int32(2**31 - 1)
 _FAULTS = ("repeated_vertices", "idle_segments", "empty_polygons")
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class OwnedGraph:
     """A planar graph, and the site that has each of its elements."""
 
@@ -229,7 +229,7 @@ def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:
     return unwanted_sides(graph, owned.face < 0)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class JointGraph:
     """The planar graph of sites, a frame, clips and enclosures together."""
 
@@ -340,7 +340,7 @@ FARTHEST = 8.0
 """Margin of the frame at most, in extents of what is in it: the frame is on the lattice, whose step grows with it."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class GivenCuts:
     """What cells are cut by, beside a frame."""
 

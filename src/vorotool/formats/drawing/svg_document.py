@@ -12,7 +12,7 @@ from xml.parsers import expat
 from vorotool.errors import INPUT_FORMAT, InputError, LimitError, VorotoolError
 from vorotool.formats.drawing.svg_shapes import SHAPES
 from vorotool.formats.parsing.reader_options import shortened
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 from vorotool.types.values import counted
 
 NAMESPACE = "http://www.w3.org/2000/svg"
@@ -205,7 +205,7 @@ def referred(value: str) -> str | None:
     return name.strip(" \t\r\n'\"") if sign and end else None
 
 
-@plain
+@frozen
 class StyleSheet:
     """The rules of the style elements of a drawing."""
 

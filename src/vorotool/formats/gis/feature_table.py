@@ -18,9 +18,9 @@ from vorotool.formats.parsing.reader_options import ReadOptions, crs_of_numbers,
 from vorotool.formats.points.columns import PointRows
 from vorotool.formats.points.delimited import GEOMETRY_COLUMNS, DelimitedText, delimited_text, geometry_column
 from vorotool.formats.points.tables import rows_of_columns
+from vorotool.frozen import frozen
 from vorotool.numeric.crs import without_number
 from vorotool.numeric.curves.well_known import geometry_of_binary, geometry_of_texts
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS
 from vorotool.types.fields import UP
@@ -30,7 +30,7 @@ from vorotool.types.polygons.shapely_geometry import part_numbers, polygons_of_g
 _POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GEOS
 
 
-@plain
+@frozen
 class Features:
     """The features of one layer."""
 

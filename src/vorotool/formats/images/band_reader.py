@@ -17,13 +17,13 @@ from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_o
 from vorotool.formats.io.arrays import plain_values
 from vorotool.formats.io.sources import StoredParts, check_pixels, decoding
 from vorotool.formats.zarr.reader import StoredArray, ZarrImage
+from vorotool.frozen import frozen
 from vorotool.numeric.length_units import ratio
-from vorotool.plain import plain
 from vorotool.types.images import Raster
 from vorotool.types.pixels import MAX_PIXELS, PixelGrid
 
 
-@plain
+@frozen
 class ZarrRows(ZarrImage):
     """The rows of a Zarr array."""
 
@@ -76,7 +76,7 @@ class ZarrRows(ZarrImage):
         return self.read(self._array, slice(first, first + count), slice(0, self.shape[1]))
 
 
-@plain
+@frozen
 class TiffRows(StoredParts):
     """The rows of a page of a TIFF file with one value a pixel."""
 

@@ -17,9 +17,9 @@ from vorotool.errors import InputError
 from vorotool.formats.images.ome_xml import ome_sizes, ome_xml, states_one_side
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import STANDARD_INPUT
+from vorotool.frozen import frozen
 from vorotool.numeric.crs import crs_member, crs_name, is_geographic
 from vorotool.numeric.length_units import meters
-from vorotool.plain import plain
 from vorotool.types.images import Raster
 from vorotool.types.pixels import GeoKeys, PixelGrid, Transform, map_grid
 
@@ -39,7 +39,7 @@ _IMAGEJ_STEPS = 10**6
 """ImageJ states pixels a unit in millionths."""
 
 
-@plain
+@frozen
 class PageGrid:
     """What a page says of its pixels."""
 

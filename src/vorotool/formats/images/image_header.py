@@ -16,14 +16,14 @@ from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import GZIP, Source, check_pixels, decoding, explained_reading, read_source
 from vorotool.formats.opening import image_format, open_zarr
 from vorotool.formats.sniffing import PICTURES, TIFF_MAGIC, image_of
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 from vorotool.types.pixels import PixelGrid
 
 _BYTES = 65_536
 """Within which the header of a PNG, PNM or NPY file ends."""
 
 
-@plain
+@frozen
 class ImageHeader:
     """What the header of an image says."""
 

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.io import unpacking
+from vorotool.frozen import frozen
 from vorotool.numeric.parallel import in_order
-from vorotool.plain import plain
 
 LARGEST_TILE = 2**26
 """Bytes of a tile; only a larger image may have larger ones."""
@@ -39,7 +39,7 @@ JPEGS = {6, 7, 33007, 34892}
 """Compressions that are JPEG."""
 
 
-@plain
+@frozen
 class TiffLayout:
     """Strips or tiles of a page, all of which are in the file."""
 

@@ -24,7 +24,7 @@ from vorotool.formats.io.descriptors import (
 )
 from vorotool.formats.io.sources import file_of
 from vorotool.formats.io.temporaries import Placement, committed_together, new_file
-from vorotool.plain import scoped
+from vorotool.numeric.parallel import scoped
 
 STANDARD_OUTPUT = "standard output"
 

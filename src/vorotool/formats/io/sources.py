@@ -15,8 +15,8 @@ from typing import Any, BinaryIO, TypeVar
 
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolError, option
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, number_of, open_input, stream_kind
+from vorotool.frozen import frozen
 from vorotool.numeric.parallel import start
-from vorotool.plain import plain
 
 STANDARD_INPUT = "standard input"
 GZIP = b"\x1f\x8b\x08"
@@ -29,7 +29,7 @@ NESTING_LIMIT = 100
 """Levels of brackets; no file of points or polygons has ten."""
 
 
-@plain
+@frozen
 class Source:
     """The content of one input."""
 
@@ -53,7 +53,7 @@ class Source:
         return suffix_of(without_gz(self.name))
 
 
-@plain
+@frozen
 class StoredParts:
     """A file or folder that is read in parts, by other processes, too."""
 

@@ -32,7 +32,7 @@ from functools import cache
 from typing import BinaryIO, NamedTuple
 from zlib import crc32
 
-from vorotool.plain import scoped
+from vorotool.numeric.parallel import scoped
 
 try:
     import fcntl

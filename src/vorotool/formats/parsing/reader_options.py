@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, LimitError, Message, UsageError, option
+from vorotool.frozen import frozen
 from vorotool.numeric.crs import TO_CRS, crs_member, crs_name, crs_text, note_degrees, same_crs
-from vorotool.plain import plain
 from vorotool.types.fields import DOWN, UP, YAxis, with_y_axis
 from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.points.point_set import PointSet
@@ -32,7 +32,7 @@ def no_note(message: str) -> None:
     """Drop a note that nobody asked for."""
 
 
-@plain
+@frozen
 class ReadOptions:
     """What a reader is told beside its source; each format takes what is about it."""
 

@@ -36,9 +36,9 @@ from vorotool.formats.points.columns import (
     note_no_label,
     parse_columns,
 )
+from vorotool.frozen import frozen
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.numbers import typed_texts
-from vorotool.plain import plain
 from vorotool.types.fields import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet
 
@@ -48,7 +48,7 @@ GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry"
 _QUOTED = r'"[^"]*"'
 
 
-@plain
+@frozen
 class DelimitedText:
     """How the text of one file is read: columns are 0-based; without a header there are no names."""
 
@@ -242,7 +242,7 @@ _FORM = "<vertices> {} <attributes> <0 or 1 boundary markers>"
 _SPACE = option("tessellate --size WxHxD", 'geometry="space"')
 
 
-@plain
+@frozen
 class _Header:
     """The first line of a ``.node`` file."""
 

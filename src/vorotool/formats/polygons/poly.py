@@ -13,8 +13,8 @@ from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.text.row_writer import coordinate_text
+from vorotool.frozen import frozen
 from vorotool.numeric.numbers import distinct
-from vorotool.plain import plain
 from vorotool.types.box import bounds
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 from vorotool.types.polygons.shapely_geometry import to_shapely
@@ -186,7 +186,7 @@ def chains_of(ends: Sequence[tuple[int, int] | None]) -> Iterator[tuple[int, lis
         yield index, path, is_closed
 
 
-@plain
+@frozen
 class _Frame:
     """A frame in which coordinates are at most about 1, so that areas neither overflow nor vanish."""
 

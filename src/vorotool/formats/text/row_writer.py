@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import UsageError, option
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import is_masked_array
 from vorotool.numeric.coordinates import on_grid
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import in_order
-from vorotool.plain import plain
 from vorotool.types.table import Computed, Lookup
 
 SLICE_ROWS = 1 << 14
@@ -34,7 +34,7 @@ class RowShape(NamedTuple):
     missing: str = ""
 
 
-@plain
+@frozen
 class Column:
     """Values (an array of bool, int64, uint64 or float64, or a list; or lazy), and which of them are missing."""
 

@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, Nesting, following, owners, starts_of
 from vorotool.numeric.coordinates import Grid
-from vorotool.plain import plain
 
 Rings = tuple[Floats, Nesting]
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Snapped:
     """Features after snap rounding, and what that means for others with the same vertices and edges."""
 
@@ -71,7 +71,7 @@ def _hashes(points: Floats) -> NDArray[np.uint64]:
     return made
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class _Names:
     """Numbers of distinct points: the points in order, and one index of each."""
 
@@ -142,7 +142,7 @@ def _graph(
     return graph | {"vertex_count": len(vertices) + len(line_ends)}
 
 
-@plain
+@frozen
 class _Lattice:
     """Multiples of the grid by a power of two, from an origin on."""
 
@@ -170,7 +170,7 @@ class _Lattice:
         return self.grid.values(self.origin + (places.astype(np.int64) << self.shift))
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class _Places:
     """Coordinates of places of a lattice."""
 

@@ -26,8 +26,7 @@ from vorotool.formats.text.row_writer import (
 from vorotool.numeric.coordinates import current_written, on_grid
 from vorotool.numeric.length_units import ascii_unit, is_known
 from vorotool.numeric.numbers import NumberText
-from vorotool.numeric.parallel import in_order
-from vorotool.plain import scoped
+from vorotool.numeric.parallel import in_order, scoped
 from vorotool.products.formats import TABLES, resolved
 from vorotool.types.features import Areas, features_of, matrix_of, rows_of
 from vorotool.types.fields import MEMBER, UP, YAxis

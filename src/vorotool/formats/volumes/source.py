@@ -21,8 +21,8 @@ from vorotool.formats.io.arrays import NpyHeader, npy_header, npy_values, plain_
 from vorotool.formats.io.sources import Source, StoredParts, copy_stream, decoding
 from vorotool.formats.zarr.metadata import read_metadata
 from vorotool.formats.zarr.reader import Described, StoredArray, ZarrImage
+from vorotool.frozen import frozen
 from vorotool.numeric.length_units import ratio, unit_name
-from vorotool.plain import plain
 from vorotool.types.volumes.volume import VoxelGrid
 
 SLAB_BYTES = 2**26
@@ -31,7 +31,7 @@ SLAB_BYTES = 2**26
 _PAGES = option("--page N or --page all", "page=N")
 
 
-@plain
+@frozen
 class VolumeSource(StoredParts, ABC):
     """A volume in a file, of which some slices are read at a time."""
 
@@ -130,7 +130,7 @@ def _remove(path: str) -> None:
 
 
 # ---- NPY -----------------------------------------------------------------------------------------
-@plain
+@frozen
 class NpyVolume(VolumeSource):
     """The slices of an array of three axes; in Fortran order each slice is scattered over the whole file."""
 
@@ -178,7 +178,7 @@ class NpyVolume(VolumeSource):
 _SPACE = ("z", "y", "x")
 
 
-@plain
+@frozen
 class ZarrVolume(ZarrImage, VolumeSource):
     """The slices of a Zarr array."""
 

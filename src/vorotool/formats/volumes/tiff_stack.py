@@ -22,16 +22,16 @@ from vorotool.formats.images.tiff_reader import opened_tiff, page_layout
 from vorotool.formats.io.arrays import plain_values
 from vorotool.formats.io.sources import decoding
 from vorotool.formats.volumes.source import VolumeSource, mapped, refuse_axes
+from vorotool.frozen import frozen
 from vorotool.numeric.length_units import ratio
 from vorotool.numeric.parallel import in_order
-from vorotool.plain import plain
 from vorotool.types.volumes.volume import VoxelGrid
 
 _WORTH_THREADS = 2**20
 """Bytes of slices from which threads take less time than they cost."""
 
 
-@plain
+@frozen
 class _Stack:
     """Where the voxels are."""
 
@@ -41,7 +41,7 @@ class _Stack:
     step: int | None  # bytes from slice to slice where each is one array and they are equally far apart
 
 
-@plain
+@frozen
 class TiffStack(VolumeSource):
     """The slices of a TIFF file with one value a pixel."""
 
@@ -198,7 +198,7 @@ _NAMES = {"T": "time steps", "C": "channels", "S": "samples"}
 _MOST_IMAGES = 2**31
 
 
-@plain
+@frozen
 class StackAxes:
     """A stack as a file describes it."""
 

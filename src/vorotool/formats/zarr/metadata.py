@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io import unpacking
 from vorotool.formats.io.sources import check_nesting
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 
 LARGEST_METADATA = 2**20
 """Bytes; of an array they are some hundred."""
@@ -52,7 +52,7 @@ _KNOWN_KEYS = {
 _SPECIAL = {"NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}
 
 
-@plain
+@frozen
 class ZarrMetadata:
     """An array in a store."""
 
@@ -285,7 +285,7 @@ _MISSING = 2**64 - 1
 _CHECKSUM_BYTES = 4
 
 
-@plain
+@frozen
 class Compression:
     """One of `BYTES_CODECS`."""
 
@@ -299,7 +299,7 @@ class Compression:
         return unpacked
 
 
-@plain
+@frozen
 class Checksum:
     """CRC-32C in the last four bytes."""
 
@@ -315,7 +315,7 @@ class Checksum:
         return body
 
 
-@plain
+@frozen
 class Shuffle:
     """Bytes of values apart: all first ones, all second ones, and so on."""
 
@@ -328,7 +328,7 @@ class Shuffle:
         return mixed.tobytes() + bytes(data[whole:])
 
 
-@plain
+@frozen
 class Delta:
     """Differences of values."""
 
@@ -343,7 +343,7 @@ class Delta:
 Codec = Compression | Checksum | Shuffle | Delta
 
 
-@plain
+@frozen
 class Pipeline:
     """How values become the bytes of a chunk."""
 
@@ -382,7 +382,7 @@ class Pipeline:
         return values[region]
 
 
-@plain
+@frozen
 class Shard:
     """A chunk that is made of smaller ones, with an index of where they are."""
 

@@ -27,8 +27,8 @@ from vorotool.formats.zarr.metadata import (
     read_metadata,
 )
 from vorotool.formats.zarr.store import is_array, is_group
+from vorotool.frozen import frozen
 from vorotool.numeric.parallel import in_order
-from vorotool.plain import plain
 
 _WORTH_THREADS = 2**20
 """Bytes from which threads take less time than they cost."""
@@ -123,7 +123,7 @@ class StoredArray:
 
 
 # ---- images and volumes --------------------------------------------------------------------------
-@plain
+@frozen
 class ZarrImage(StoredParts):
     """An image or a volume in a store: an array, or the largest one that a group of OME-Zarr describes."""
 
@@ -202,7 +202,7 @@ _LONG_UNITS = {"pm": "picometer", "nm": "nanometer", "µm": "micrometer", "mm": 
 _LONG_UNITS |= {"m": "meter", "km": "kilometer", "Å": "angstrom", "inch": "inch", "ft": "foot"}
 
 
-@plain
+@frozen
 class Described:
     """What the metadata of a group say of the largest image in it."""
 

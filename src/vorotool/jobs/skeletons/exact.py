@@ -15,12 +15,12 @@ from vorotool.engines.skeleton.diagrams import (
 from vorotool.engines.skeleton.exact import ShapeDiagram
 from vorotool.engines.skeleton.parts import outside_of
 from vorotool.engines.skeleton.shortened_edges import ElementDiagram, exact_for, exact_inside, gap_deviation
+from vorotool.frozen import frozen
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeletons.products import SKELETON_INSIDE, SkeletonProducts
 from vorotool.numeric.parallel import Progress
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -28,7 +28,7 @@ from vorotool.types.skeleton.skeleton import Skeleton
 _VERIFY_DIAGRAM = "engines.segment_voronoi.segment_voronoi:verify_segment_voronoi"
 
 
-@plain
+@frozen
 class Seen:
     """Counts of the diagram of some features."""
 

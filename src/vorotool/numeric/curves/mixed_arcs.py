@@ -7,10 +7,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, ranges, starts_of
 from vorotool.numeric.curves.flatten import chords_of, polylines
 from vorotool.numeric.curves.inverse_functions import PI, hypotenuse, inverse_sine, inverse_sinh
-from vorotool.plain import plain
 
 _SMALL = 0.25
 """Sines of half angles up to which segments of circles are sums of series: beyond, four bits at most are lost."""
@@ -22,7 +22,7 @@ _TERMS = 15
 """Of the series: the next one is below 2^-60 of the first where the sine is small."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class MixedArcs:
     """Arcs with two ends each."""
 

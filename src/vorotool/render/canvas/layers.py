@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError, meant
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import following, owners, starts_of, within
 from vorotool.numeric.curves.flatten import chords_of, cubic_polylines, polylines
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
-from vorotool.plain import plain
 from vorotool.render.canvas.styles import INK, SEED, PictureStyle, edge_color
 from vorotool.types.box import bounds
 from vorotool.types.identity import column_of
@@ -27,7 +27,7 @@ TALLEST = 4
 """A page is at most so many times as high as wide: narrower data are drawn smaller."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Lines:
     """Straight lines."""
 
@@ -43,7 +43,7 @@ class Lines:
         return cls(name, ends.reshape(-1, 2), np.arange(2 * len(ends), dtype=np.int32).reshape(-1, 2), color, width)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Curves:
     """Straight lines, quadratic Bezier curves and circular arcs."""
 
@@ -77,7 +77,7 @@ class Curves:
         return Lines(self.name, points, np.stack([first, first + 1], axis=1).astype(np.int32), self.color, self.width)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Polygons:
     """Polygons of one or more rings each, filled by the even-odd rule."""
 
@@ -121,7 +121,7 @@ class Polygons:
         return np.stack([self.corners, self.corners[after]], axis=1)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class CurvedPolygons(Polygons):
     """Polygons whose sides may be curves, which two of them share."""
 
@@ -142,7 +142,7 @@ class CurvedPolygons(Polygons):
         return Polygons(self.name, points, taken.astype(np.int32), rings, *fills, *looks)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Points:
     """Discs of one radius, in px; those with a halo, a color, have an edge around them."""
 
@@ -158,7 +158,7 @@ class Points:
         return min(1.0, self.radius)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Texts:
     """Short texts beside points."""
 
@@ -180,7 +180,7 @@ class Texts:
         return y + self.size * np.where(below, 1.1, -0.5)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Arcs:
     """Closed curves of circular arcs and straight lines, filled by the even-odd rule or not at all."""
 
@@ -314,7 +314,7 @@ class Page:
         return math.sqrt(self.width * self.height / max(count, 1))
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Backdrop:
     """An image to draw over."""
 
@@ -373,7 +373,7 @@ def with_halos(layers: Sequence[Layer]) -> list[Layer]:
     return made
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class Circles(Arcs):
     """Circles, each of two arcs of half of it; see `circles`."""
 
@@ -391,7 +391,7 @@ def circles(name: str, xy: NDArray[np.float64], radius: NDArray[np.float64], edg
     return Circles(name, start, end, np.repeat(xy, 2, axis=0), rings, None, edge, width, np.ones(2 * len(xy), bool))
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class CubicCurves(Curves):
     """Cubic Bézier curves."""
 

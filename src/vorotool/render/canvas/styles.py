@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 from vorotool.products.formats import AS_SVG
 
 WHITE = "#ffffff"
@@ -141,7 +141,7 @@ class ScaleBar(NamedTuple):
     unit: str | None
 
 
-@plain
+@frozen
 class PictureStyle:
     """What of a picture is not left to what draws it."""
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 from vorotool.types.images import LabelImage
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ LEAST_SPACING = 6.0
 """Pixels between the middles of cells, below which borders in PNG would hide them."""
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class LabelPicture:
     """A label image, and how it is drawn."""
 

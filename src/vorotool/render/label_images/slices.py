@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.tessellator import inner_runs
 from vorotool.errors import LimitError, UsageError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import ranges
-from vorotool.plain import plain
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
@@ -44,7 +44,7 @@ class View(NamedTuple):
         return 3 - sum(self.axes)
 
 
-@plain
+@frozen
 class SlicePicture:
     """Where slices lie in a picture, whose pixels are squares with the shortest side of a voxel."""
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 from vorotool.types.features import Rows, of_segments, without_places
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Lookup, Table
@@ -18,7 +18,7 @@ HAUSDORFF, FROM_A, FROM_B, SMALLEST = "hausdorff", "a to b", "b to a", "smallest
 """Names of distances in tables: the larger of both directions, each of them, and the smallest one."""
 
 
-@plain
+@frozen
 class PlacePair:
     """Point of a shape, the nearest point of another shape, and their distance.
 
@@ -38,7 +38,7 @@ class PlacePair:
         return self.distance
 
 
-@plain(eq=False, repr=False)
+@frozen(eq=False, repr=False)
 class Distances(Value, Tabular, Geometric, Pictured):
     """Distances between two shapes a and b: the Hausdorff distance, the smallest distance, or both.
 

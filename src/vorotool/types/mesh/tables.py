@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import mask_of
-from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.features import Corners, Rows, chosen, point_rows, without_places
 from vorotool.types.identity import with_ends
@@ -156,7 +156,7 @@ MEASURES = ("area", "perimeter", "roundness", "neighbors", "nearest_distance")
 """Columns of cells that are summarized."""
 
 
-@plain(eq=False, repr=False)
+@frozen(eq=False, repr=False)
 class CellStatistics(Value, Tabular):
     """Measures of cells, and their summary.
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import check_index
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.numbers import nearest_double
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.box import Box
@@ -406,7 +406,7 @@ AnyTriangulation = Triangulation | DigitalTriangulation
 """Any value with points, edges and triangles to write or draw, whether or not these fit together."""
 
 
-@plain(eq=False, repr=False)
+@frozen(eq=False, repr=False)
 class DigitalComparison(Value, Tabular):
     """Precision and recall of a digital triangulation, and every difference with its cause.
 

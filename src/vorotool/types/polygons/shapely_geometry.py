@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of, within
 from vorotool.numeric.checks import index_of_rows
-from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 
 _POINT, _LINESTRING, _LINEARRING, _POLYGON, _MULTIPOINT = 0, 1, 2, 3, 4  # type numbers of GEOS
@@ -144,7 +144,7 @@ def _is_within(ring: NDArray[np.float64], places: NDArray[np.float64]) -> NDArra
     return np.concatenate(parts)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class RingArrays:
     """Rings of polygons, in any order."""
 

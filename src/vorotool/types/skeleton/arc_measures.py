@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import inverse_sinh
-from vorotool.plain import plain
 from vorotool.types import fields as f
 from vorotool.types.fields import Record, record
 from vorotool.types.pixels import PixelGrid
@@ -177,7 +177,7 @@ def _ratio(a: Floats, b: Floats) -> Floats:
     return np.divide(a, b, out=np.zeros(np.broadcast(a, b).shape), where=b != 0)
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class ClearanceCourse:
     """Signs that decide where the clearance has its extremes; along an arc it is convex, or the same everywhere."""
 

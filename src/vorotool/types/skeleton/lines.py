@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, mask_of, owners
 from vorotool.numeric.curves.flatten import chained, cubic_polylines, curve_tolerances
 from vorotool.numeric.numbers import checked_flatten, difference, product
-from vorotool.plain import plain
 from vorotool.types import fields as f
 from vorotool.types.features import Lines, Rows, of_polygons
 from vorotool.types.fields import record
@@ -197,7 +197,7 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
     )
 
 
-@plain(eq=False, repr=False)
+@frozen(eq=False, repr=False)
 class ExtendedSkeleton(LedOn):
     """Skeleton with straight lines that extend its ends to the boundary; see `vorotool.extend_ends`.
 
@@ -240,7 +240,7 @@ def is_straight(a: Floats, b: Floats, c: Floats) -> NDArray[np.bool_]:
     return np.asarray((is_zero | is_level) & (ux * vx + uy * vy >= 0))
 
 
-@plain(eq=False, repr=False)
+@frozen(eq=False, repr=False)
 class Centerlines(LedOn):
     """Paths along a skeleton, at most one per polygon, with straight lines that extend them.
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import set_rows
-from vorotool.plain import plain
 
 LATTICE_LIMIT = 2**30 - 1
 """Largest magnitude of a coordinate: products of differences fit in 64 bits."""
@@ -27,7 +27,7 @@ _SHAPES = {
 }
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class SegmentVoronoiDiagram:
     """The Voronoi diagram of n points and m open segments, in lattice units."""
 

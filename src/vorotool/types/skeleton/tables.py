@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
+from vorotool.frozen import frozen
 from vorotool.numeric.arrays import mask_of
 from vorotool.numeric.checks import described, is_choice
 from vorotool.numeric.curves.flatten import chained
 from vorotool.numeric.numbers import distinct, shown_number
 from vorotool.numeric.parallel import in_chunks
-from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.features import Lines, Rows, of_polygons
 from vorotool.types.identity import names_of, part_table
@@ -400,7 +400,7 @@ def _with_valid_areas(polygons: PolygonSet, area: NDArray[np.float64]) -> NDArra
 BY = ("branch", "arc")
 
 
-@plain(eq=False)
+@frozen(eq=False)
 class SkeletonGraph:
     """Nodes and edges of a skeleton; several edges may join the same nodes, and one may join a node with itself."""
 

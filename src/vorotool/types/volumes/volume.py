@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
+from vorotool.frozen import frozen
 from vorotool.numeric.checks import whole_numbers
 from vorotool.numeric.length_units import unit_name
-from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.elements import Elements
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from vorotool.types.features import Rows
 
 
-@plain
+@frozen
 class VoxelFrame:
     """A box of voxels: voxel (0, 0, 0) of the volume has its center at (``x``, ``y``, ``z``).
 
@@ -88,7 +88,7 @@ class VoxelFrame:
 VolumeForm = Literal["tiff", "imagej", "ome", "zarr"]
 
 
-@plain
+@frozen
 class VoxelGrid:
     """The grid of the voxels of a volume, in units of the world.
 
@@ -139,7 +139,7 @@ def _size_text(value: Volume | LabelVolume, array: NDArray[Any]) -> str:
     return f"{width} x {height} x {depth}, {array.dtype}{size}"
 
 
-@plain(eq=False, repr=False)
+@frozen(eq=False, repr=False)
 class Volume(Value):
     """A volume of one channel.
 
@@ -190,7 +190,7 @@ CUBE = PixelSides((1, 1, 1))
 """Sides of 1."""
 
 
-@plain(eq=False, repr=False)
+@frozen(eq=False, repr=False)
 class LabelVolume(Value, Tabular, Graph, Elements):
     """Labels of the voxels of a frame.
 

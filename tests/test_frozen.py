@@ -6,7 +6,7 @@ from inspect import signature
 
 import pytest
 
-from vorotool.plain import plain
+from vorotool.frozen import frozen
 
 
 def definitions(decorate, decorate_by_identity):
@@ -41,7 +41,7 @@ def definitions(decorate, decorate_by_identity):
     return Place, Named, Alone
 
 
-OURS = definitions(plain, plain(eq=False))
+OURS = definitions(frozen, frozen(eq=False))
 THEIRS = definitions(dataclass(frozen=True), dataclass(frozen=True, eq=False))
 
 GIVEN = [
@@ -87,7 +87,7 @@ def test_equal_values_have_one_hash():
     with pytest.raises(AssertionError):
         assert one == other
     assert one == same
-    plain_place = plain(type("Pair", (), {"__doc__": "Two.", "__annotations__": {"a": "int", "b": "int"}}))
+    plain_place = frozen(type("Pair", (), {"__doc__": "Two.", "__annotations__": {"a": "int", "b": "int"}}))
     assert hash(plain_place(1, 2)) == hash(plain_place(1, 2))
     assert one != OURS[1](1.0)
     alone = OURS[2](1)
@@ -96,7 +96,7 @@ def test_equal_values_have_one_hash():
     assert repr(alone) == "alone"
 
 
-@plain
+@frozen
 class Kept:
     """What pickle finds by its name."""
 

@@ -1,15 +1,13 @@
 """Frozen data classes that compile nothing when their module is imported.
 
 `dataclasses.dataclass` writes methods as text and compiles them, for each class: a fifth of the time of a short job.
-What `plain` makes has the same fields, so that `replace`, `fields` and `asdict` take it; one function stands for the
+What `frozen` makes has the same fields, so that `replace`, `fields` and `asdict` take it; one function stands for the
 methods of all.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable
 from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, dataclass_transform, overload
 
@@ -20,20 +18,20 @@ T = TypeVar("T")
 
 
 @overload
-def plain(kind: type[T], /) -> type[T]: ...
+def frozen(kind: type[T], /) -> type[T]: ...
 
 
 @overload
-def plain(*, eq: bool = True, repr: bool = True) -> Callable[[type[T]], type[T]]: ...
+def frozen(*, eq: bool = True, repr: bool = True) -> Callable[[type[T]], type[T]]: ...
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
-def plain(kind: type[Any] | None = None, /, *, eq: bool = True, repr: bool = True) -> Any:
+def frozen(kind: type[Any] | None = None, /, *, eq: bool = True, repr: bool = True) -> Any:
     """Make a frozen data class; without `eq` each value equals itself alone, without `repr` it is shown as by its base.
 
     Examples
     --------
-    >>> @plain
+    >>> @frozen
     ... class Size:
     ...     "Of a page."
     ...
@@ -133,13 +131,3 @@ class _Signature:
             place = Parameter.KEYWORD_ONLY if each.kw_only else Parameter.POSITIONAL_OR_KEYWORD
             made.append(Parameter(each.name, place, default=usual, annotation=each.type))
         return Signature(made, return_annotation=None)
-
-
-@contextmanager
-def scoped(variable: ContextVar[T], value: T) -> Iterator[None]:
-    """Give a variable of the context a value for what runs within."""
-    token = variable.set(value)
-    try:
-        yield
-    finally:
-        variable.reset(token)
