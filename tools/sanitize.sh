@@ -17,6 +17,8 @@ left_out=(
     --deselect tests/render/pages/test_alpha_html.py::test_the_buttons_and_the_slider_move_r
     --deselect tests/render/pages/test_space_html.py::test_the_page_counts_what_the_library_does
     --deselect tests/render/pages/test_space_html.py::test_the_page_is_drawn
+    --deselect tests/render/pages/test_space_html.py::test_a_triangulation_is_shown
+    --deselect tests/render/pages/test_space_html.py::test_without_webgl_the_page_says_so
     --deselect tests/render/pages/test_space_html.py::test_keys_the_wheel_and_fingers_move_the_view
     # groff is C++ as well, and frees memory by another name than it was taken.
     --deselect tests/documents/test_blocks.py::test_the_manual_pages_are_read_without_warnings

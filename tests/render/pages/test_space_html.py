@@ -184,6 +184,14 @@ def test_the_page_is_drawn(page, tmp_path):
 
 
 @needs_browser
+def test_without_webgl_the_page_says_so(page):
+    _, path = page
+    document = browse("--disable-3d-apis", "--dump-dom", f"{path.as_uri()}#r=2")
+    assert "needs WebGL 2" in re.search('<p id="missing">([^<]*)<', document)[1]
+    assert int(shown(document, "surface")) == len(alpha_shape(CLOUD, r=2).surface)
+
+
+@needs_browser
 def test_keys_the_wheel_and_fingers_move_the_view(page, tmp_path):
     """The page is told to use them, and says what it shows then."""
     _, path = page

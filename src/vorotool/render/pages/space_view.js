@@ -15,7 +15,7 @@ const LAYERS = MEASURES.length ? [
   ["dots", "points", POINTS <= 1000],
 ];
 const SIZES = { surface: 3, faces: 3, singular: 2, edges: 2, interior: 2, isolated: 1, dots: 1 };
-const canvas = element("picture"), gl = canvas.getContext("webgl2", { alpha: false, antialias: true });
+const canvas = element("picture");
 const HOME = { around: Math.atan2(-3, 2), above: Math.asin(2 / Math.sqrt(17)), zoom: 1, x: 0, y: 0 };
 let eye = { ...HOME }, isWaiting = false;
 
@@ -71,8 +71,14 @@ function compiled([vertex, fragment]) {
 }
 
 const buffers = {}, programs = {}, drawn = {};
+let gl = canvas.getContext("webgl2", { alpha: false, antialias: true });
+try {
+  for (const name in gl && PROGRAMS) programs[name] = compiled(PROGRAMS[name]);
+} catch (error) {
+  console.error(error);
+  gl = null;
+}
 if (gl) {
-  for (const name in PROGRAMS) programs[name] = compiled(PROGRAMS[name]);
   for (const name of ["places", ...LAYERS.map(layer => layer[0])]) buffers[name] = gl.createBuffer();
   gl.bindBuffer(gl.ARRAY_BUFFER, buffers.places);
   gl.bufferData(gl.ARRAY_BUFFER, places, gl.STATIC_DRAW);
@@ -81,6 +87,7 @@ if (gl) {
 } else {
   element("missing").textContent = "The picture needs WebGL 2, which this browser lacks or has switched off. All numbers are right without it.";
   element("missing").hidden = false;
+  canvas.hidden = true;
 }
 
 // the corners of the simplices that are there from a rank on until another one is reached
@@ -259,6 +266,7 @@ canvas.addEventListener("keydown", event => {
   else return;
   event.preventDefault();
 });
+canvas.addEventListener("webglcontextlost", event => event.preventDefault());
 canvas.addEventListener("webglcontextrestored", () => location.reload());
 canvas.tabIndex = 0;
 canvas.style.cssText = "touch-action: none; cursor: grab";
