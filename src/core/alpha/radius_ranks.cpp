@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <mutex>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -20,16 +21,51 @@ namespace {
 
 constexpr std::size_t ranks_a_piece = std::size_t{1} << 16;  // items: about a millisecond of work
 
-// Bits of a non-negative double increase with it. Less the bits of the smallest value they are cut to the
-// leading 33; the item's number goes below, in the other 31. Values that agree in these bits are rare, and
-// compared afterwards. The highest 11 of the 33 choose a bucket; within it two passes of 11 bits sort.
-constexpr int item_bits = 31;
-constexpr int key_bits = 33;
-constexpr int bucket_bits = 11;
-constexpr int digit_bits = key_bits - bucket_bits;
-constexpr std::size_t buckets = std::size_t{1} << bucket_bits;
+// Bits of a non-negative double increase with it. Those of a sample of the values, cut to the leading 16 of their range,
+// choose buckets of about so many items, which stay in the cache while they are sorted, by the leading bits of the range
+// of each. Values that agree in these are rare, and compared afterwards.
+constexpr std::size_t items_a_bucket = std::size_t{1} << 13;
+constexpr std::size_t most_buckets = std::size_t{1} << 11;
+constexpr std::size_t most_samples = std::size_t{1} << 15;
+constexpr int sample_bits = 16, digit_bits = 22;
+constexpr int word_bits = 31;  // of positions; the key is above them
+constexpr std::uint16_t left_out = 0xffff;
 
 std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }  // -0 becomes 0
+
+// Bits of the range of keys beyond those given.
+int excess_bits(std::uint64_t least, std::uint64_t most, int bits) {
+  return std::max(0, static_cast<int>(std::bit_width(most - least)) - bits);
+}
+
+// Buckets of values, in their order.
+class Buckets {
+ public:
+  explicit Buckets(std::vector<std::uint64_t> sample, std::size_t items)
+      : count_(std::clamp<std::size_t>(items / items_a_bucket, 1, most_buckets)), bucket_(1) {
+    if (sample.empty()) return;
+    const auto [least, most] = std::minmax_element(sample.begin(), sample.end());
+    least_ = *least, most_ = *most;
+    shift_ = excess_bits(least_, most_, sample_bits);
+    std::vector<std::size_t> ends(place(most_) + 1);
+    for (const std::uint64_t bits : sample) ++ends[place(bits)];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    bucket_.resize(ends.size());
+    for (std::size_t i = 1; i < ends.size(); ++i)
+      bucket_[i] = static_cast<std::uint16_t>(ends[i - 1] * count_ / (sample.size() + 1));
+  }
+
+  std::size_t size() const { return count_; }
+  std::uint16_t of(std::uint64_t bits) const { return bucket_[place(std::clamp(bits, least_, most_))]; }
+
+ private:
+  std::size_t place(std::uint64_t bits) const { return (bits - least_) >> shift_; }
+
+  std::size_t count_;
+  std::uint64_t least_ = 0, most_ = 0;
+  int shift_ = 0;
+  std::vector<std::uint16_t> bucket_;
+};
 
 class Sorter {
  public:
@@ -40,63 +76,56 @@ class Sorter {
         compare_(compare),
         threads_(threads),
         monitor_(monitor),
+        buckets_(sample(), values.size()),
         counts_(base::piece_count(values.size(), ranks_a_piece)),
-        distinct_(buckets) {}
+        start_(buckets_.size() + 1),
+        distinct_(buckets_.size()),
+        bucket_(values.size()) {}
 
   RadiusRanks run() {
-    find_range();
     count();
-    LargeArray<std::uint64_t> words(start_[buckets]);
-    fill(words);
-    parallel_for(buckets, threads_, [&](std::size_t b) { sort_bucket(b, words); }, monitor_);
+    fill();
+    words_ = LargeArray<std::uint32_t>(start_.back());
+    for_buckets([&](std::size_t b) { sort_bucket(b); });
     settle_long_runs();
-    LargeArray<double> sorted(start_[buckets]);
-    parallel_for(buckets, threads_, [&](std::size_t b) { gather(b, words, sorted); }, monitor_);
-    return write(words, sorted);
+    for_buckets([&](std::size_t b) { gather(b); });
+    return write();
   }
 
  private:
-  // Calls visit(piece, item) for the items that take part.
-  template <class Visit>
-  void visit_items(std::size_t piece, Visit visit) const {
-    const std::size_t end = std::min(values_.size(), (piece + 1) * ranks_a_piece);
-    for (std::size_t i = piece * ranks_a_piece; i < end; ++i) {
-      if (!(values_[i] < 0)) visit(i);
-    }
+  using Words = std::span<std::uint32_t>;
+
+  // What counts of a value.
+  std::uint64_t key(double value) const {
+    return bits_of(open_bits_ == 0 ? value : rounded_by(open_bits_, value));
+  }
+  std::uint64_t key(std::uint32_t word) const { return key(sorted_[word]); }
+
+  template <class Body>
+  void for_buckets(const Body& body) {
+    parallel_for(buckets_.size(), threads_, body, monitor_);
   }
 
-  // What counts of the value of an item.
-  double value_of(std::size_t item) const {
-    return open_bits_ == 0 ? values_[item] : rounded_by(open_bits_, values_[item]);
-  }
-  std::uint64_t key(std::size_t item) const { return (bits_of(value_of(item)) - least_) >> shift_; }
-
-  void find_range() {
-    std::vector<std::uint64_t> least(counts_.size(), ~std::uint64_t{0}), most(counts_.size(), 0);
-    const auto find = [&](std::size_t piece) {
-      visit_items(piece, [&](std::size_t i) {
-        least[piece] = std::min(least[piece], bits_of(value_of(i)));
-        most[piece] = std::max(most[piece], bits_of(value_of(i)));
-      });
-    };
-    parallel_for(counts_.size(), threads_, find, monitor_);
-    std::uint64_t last = 0;
-    for (std::size_t piece = 0; piece < counts_.size(); ++piece) {
-      least_ = std::min(least_, least[piece]);
-      last = std::max(last, most[piece]);
+  std::vector<std::uint64_t> sample() const {
+    std::vector<std::uint64_t> bits;
+    for (std::size_t i = 0; i < values_.size(); i += 1 + values_.size() / most_samples) {
+      if (!(values_[i] < 0)) bits.push_back(key(values_[i]));
     }
-    if (last >= least_) shift_ = std::max(0, static_cast<int>(std::bit_width(last - least_)) - key_bits);
+    return bits;
   }
 
   // How many items of each piece go to each bucket, then where they go.
   void count() {
-    const auto count_piece = [&](std::size_t piece) {
-      counts_[piece].fill(0);
-      visit_items(piece, [&](std::size_t i) { ++counts_[piece][key(i) >> digit_bits]; });
-    };
-    parallel_for(counts_.size(), threads_, count_piece, monitor_);
+    base::for_pieces(values_.size(), ranks_a_piece, threads_, monitor_,
+                     [&](std::size_t piece, std::size_t begin, std::size_t end) {
+                       counts_[piece].resize(buckets_.size());
+                       for (std::size_t i = begin; i < end; ++i) {
+                         bucket_[i] = values_[i] < 0 ? left_out : buckets_.of(key(values_[i]));
+                         if (bucket_[i] != left_out) ++counts_[piece][bucket_[i]];
+                       }
+                     });
     std::size_t sum = 0;
-    for (std::size_t b = 0; b < buckets; ++b) {
+    for (std::size_t b = 0; b < buckets_.size(); ++b) {
       start_[b] = sum;
       for (auto& counts : counts_) {
         const std::size_t here = counts[b];
@@ -104,61 +133,77 @@ class Sorter {
         sum += here;
       }
     }
-    start_[buckets] = sum;
+    start_.back() = sum;
   }
 
-  void fill(LargeArray<std::uint64_t>& words) {
-    const auto fill_piece = [&](std::size_t piece) {
-      auto& places = counts_[piece];
-      visit_items(piece, [&](std::size_t i) {
-        const std::uint64_t k = key(i);
-        words[places[k >> digit_bits]++] = k << item_bits | i;
-      });
-    };
-    parallel_for(counts_.size(), threads_, fill_piece, monitor_);
-  }
-
-  static std::uint32_t item_of(std::uint64_t word) { return static_cast<std::uint32_t>(word & 0x7fffffff); }
-
-  // Puts the words of a bucket in the order of the exact values. What is left of them are the numbers of the
-  // items, marked where a value begins; long runs of equal doubles are left for settle_long_runs.
-  void sort_bucket(std::size_t bucket, LargeArray<std::uint64_t>& words) {
-    const std::span<std::uint64_t> place(words.data() + start_[bucket], words.data() + start_[bucket + 1]);
-    if (place.empty()) return;
-    std::vector<std::uint64_t> chosen(place.begin(), place.end());
-    base::radix_sort(chosen, item_bits, item_bits + digit_bits);
-    std::copy(chosen.begin(), chosen.end(), place.begin());
-    for (std::size_t i = 0; i < place.size();) {
-      std::size_t end = i + 1;
-      while (end < place.size() && place[end] >> item_bits == place[i] >> item_bits) ++end;
-      settle_key(place.subspan(i, end - i));
-      i = end;
+  // Calls visit(item, place) for the items that take part, in the order of their numbers in each bucket.
+  template <class Visit>
+  void visit_places(std::size_t begin, std::size_t end, const Visit& visit) const {
+    std::vector<std::uint32_t> places = counts_[begin / ranks_a_piece];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (bucket_[i] != left_out) visit(i, places[bucket_[i]]++);
     }
   }
 
-  double value(std::uint64_t word) const { return value_of(item_of(word)); }
+  void fill() {
+    sorted_ = LargeArray<double>(start_.back());
+    item_ = LargeArray<std::int32_t>(start_.back());
+    base::for_pieces(values_.size(), ranks_a_piece, threads_, monitor_,
+                     [&](std::size_t, std::size_t begin, std::size_t end) {
+                       visit_places(begin, end, [&](std::size_t i, std::uint32_t place) {
+                         sorted_[place] = values_[i];
+                         item_[place] = static_cast<std::int32_t>(i);
+                       });
+                     });
+  }
+
+  // Puts the places of a bucket in the order of their exact values, marked where a value begins; long runs of equal
+  // doubles are left for settle_long_runs.
+  void sort_bucket(std::size_t bucket) {
+    const std::size_t begin = start_[bucket], end = start_[bucket + 1];
+    std::uint64_t least = ~std::uint64_t{0}, most = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      least = std::min(least, key(sorted_[i]));
+      most = std::max(most, key(sorted_[i]));
+    }
+    if (begin == end) return;
+    const int shift = excess_bits(least, most, 64 - word_bits);
+    std::vector<std::uint64_t> keyed(end - begin);
+    for (std::size_t i = begin; i < end; ++i)
+      keyed[i - begin] = (key(sorted_[i]) - least) >> shift << word_bits | i;
+    const int high = word_bits + static_cast<int>(std::bit_width((most - least) >> shift));
+    const int low = std::max(word_bits, high - digit_bits);
+    base::radix_sort(keyed, low, high);
+    const Words words(words_.data() + begin, end - begin);
+    for (std::size_t i = 0; i < words.size(); ++i) words[i] = static_cast<std::uint32_t>(keyed[i]) & ~starts;
+    for (std::size_t i = 0; i < words.size();) {
+      std::size_t next = i + 1;
+      while (next < words.size() && keyed[next] >> low == keyed[i] >> low) ++next;
+      settle_key(words.subspan(i, next - i));
+      i = next;
+    }
+  }
 
   // Sorts words with one key by value, and runs of equal values exactly.
-  void settle_key(std::span<std::uint64_t> words) {
-    for (std::uint64_t& word : words) word = item_of(word);
+  void settle_key(Words words) {
     if (words.size() == 1) {  // nearly always
       words[0] |= starts;
       return;
     }
-    const auto comes_before = [&](std::uint64_t a, std::uint64_t b) {
-      return value(a) != value(b) ? value(a) < value(b) : a < b;
+    const auto comes_before = [&](std::uint32_t a, std::uint32_t b) {
+      return key(a) != key(b) ? key(a) < key(b) : a < b;
     };
     if (!std::is_sorted(words.begin(), words.end(), comes_before))
       std::sort(words.begin(), words.end(), comes_before);
     for (std::size_t i = 0; i < words.size();) {
       std::size_t end = i + 1;
-      while (end < words.size() && value(words[end]) == value(words[i])) ++end;
+      while (end < words.size() && key(words[end]) == key(words[i])) ++end;
       settle_equal(words.subspan(i, end - i));
       i = end;
     }
   }
 
-  void settle_equal(std::span<std::uint64_t> words) {
+  void settle_equal(Words words) {
     if (words.size() > long_run) {
       const std::lock_guard lock(mutex_);
       long_runs_.push_back(words);
@@ -180,7 +225,7 @@ class Sorter {
   void settle_long_runs() {
     std::vector<std::int8_t> signs;
     while (!long_runs_.empty()) {
-      const std::span<std::uint64_t> words = long_runs_.back();
+      const Words words = long_runs_.back();
       long_runs_.pop_back();
       std::swap(words[0], words[words.size() / 2]);
       signs.resize(words.size());
@@ -192,15 +237,15 @@ class Sorter {
     }
   }
 
-  std::int8_t compared(std::span<const std::uint64_t> words, std::size_t i) const {
-    return i == 0 ? std::int8_t{0} : static_cast<std::int8_t>(compare_(item_of(words[i]), item_of(words[0])));
+  std::int8_t compared(Words words, std::size_t i) const {
+    const auto item = [&](std::uint32_t word) { return static_cast<std::uint32_t>(item_[word]); };
+    return i == 0 ? std::int8_t{0} : static_cast<std::int8_t>(compare_(item(words[i]), item(words[0])));
   }
 
   // Words whose values are less than, equal to and greater than that of the first one, by the signs; the
   // first and the last part remain to be settled.
-  static std::pair<std::span<std::uint64_t>, std::span<std::uint64_t>> part(
-      std::span<std::uint64_t> words, const std::vector<std::int8_t>& signs) {
-    std::array<std::vector<std::uint64_t>, 3> parts;
+  static std::pair<Words, Words> part(Words words, const std::vector<std::int8_t>& signs) {
+    std::array<std::vector<std::uint32_t>, 3> parts;
     for (std::size_t i = 0; i < words.size(); ++i)
       parts[static_cast<std::size_t>(signs[i] + 1)].push_back(words[i]);
     parts[1][0] |= starts;
@@ -209,52 +254,71 @@ class Sorter {
     return {words.first(parts[0].size()), words.last(parts[2].size())};
   }
 
-  void gather(std::size_t bucket, const LargeArray<std::uint64_t>& words, LargeArray<double>& sorted) {
-    for (std::size_t i = start_[bucket]; i < start_[bucket + 1]; ++i) {
-      sorted[i] = values_[item_of(words[i])];
-      distinct_[bucket] += (words[i] & starts) != 0;
+  // What is left of a bucket: its values, each once, with an item of each, and the number of its own value among these
+  // for each place.
+  void gather(std::size_t bucket) {
+    const std::size_t begin = start_[bucket], end = start_[bucket + 1];
+    const std::vector<std::uint32_t> words(words_.data() + begin, words_.data() + end);
+    const std::vector<double> values(sorted_.data() + begin, sorted_.data() + end);
+    const std::vector<std::int32_t> items(item_.data() + begin, item_.data() + end);
+    std::size_t next = begin;
+    for (const std::uint32_t word : words) {
+      const std::size_t place = word & ~starts;
+      if ((word & starts) != 0) {
+        sorted_[next] = values[place - begin];
+        item_[next] = items[place - begin];
+        ++next;
+      }
+      words_[place] = static_cast<std::uint32_t>(next - 1 - begin);
     }
+    distinct_[bucket] = next - begin;
   }
 
-  RadiusRanks write(const LargeArray<std::uint64_t>& words, const LargeArray<double>& sorted) {
-    std::size_t sum = 0;
-    for (std::size_t& distinct : distinct_) sum += std::exchange(distinct, sum);
-    RadiusRanks out{LargeArray<double>(sum), LargeArray<std::int32_t>(sum),
-                    LargeArray<std::int32_t>(values_.size())};
-    base::for_items(values_.size(), ranks_a_piece, threads_, monitor_, [&](std::size_t i) {
-      if (values_[i] < 0) out.rank[i] = static_cast<std::int32_t>(sum);
-    });
-    const auto write_bucket = [&](std::size_t bucket) {
-      std::size_t next = distinct_[bucket];
-      for (std::size_t i = start_[bucket]; i < start_[bucket + 1]; ++i) {
-        const std::uint32_t item = item_of(words[i]);
-        if (words[i] & starts) {
-          out.value[next] = sorted[i];
-          out.witness[next] = static_cast<std::int32_t>(item);
-          ++next;
-        }
-        out.rank[item] = static_cast<std::int32_t>(next - 1);
-      }
-    };
-    parallel_for(buckets, threads_, write_bucket, monitor_);
+  RadiusRanks write() {
+    std::vector<std::size_t> first(buckets_.size() + 1);
+    std::partial_sum(distinct_.begin(), distinct_.end(), first.begin() + 1);
+    const std::size_t sum = first.back();
+    RadiusRanks out;
+    if (sum == start_.back()) {
+      out.value = std::move(sorted_), out.witness = std::move(item_);
+    } else {
+      out.value = LargeArray<double>(sum), out.witness = LargeArray<std::int32_t>(sum);
+      for_buckets([&](std::size_t b) {
+        std::copy_n(sorted_.data() + start_[b], distinct_[b], out.value.data() + first[b]);
+        std::copy_n(item_.data() + start_[b], distinct_[b], out.witness.data() + first[b]);
+      });
+      sorted_ = {}, item_ = {};
+    }
+    out.rank = LargeArray<std::int32_t>(values_.size());
+    base::for_pieces(values_.size(), ranks_a_piece, threads_, monitor_,
+                     [&](std::size_t, std::size_t begin, std::size_t end) {
+                       std::fill(out.rank.data() + begin, out.rank.data() + end,
+                                 static_cast<std::int32_t>(sum));
+                       visit_places(begin, end, [&](std::size_t i, std::uint32_t place) {
+                         out.rank[i] = static_cast<std::int32_t>(first[bucket_[i]] + words_[place]);
+                       });
+                     });
     return out;
   }
 
   static constexpr std::size_t long_run = std::size_t{1} << 12;  // some milliseconds of exact comparisons
-  static constexpr std::uint64_t starts = std::uint64_t{1} << item_bits;  // once sorted the key is not needed
+  static constexpr std::uint32_t starts = std::uint32_t{1} << word_bits;
 
   std::span<const double> values_;
   int open_bits_;
   const CompareItems& compare_;
   unsigned threads_;
   const Monitor& monitor_;
-  std::uint64_t least_ = ~std::uint64_t{0};
-  int shift_ = 0;
-  std::vector<std::array<std::uint32_t, buckets>> counts_;  // [pieces]
-  std::array<std::size_t, buckets + 1> start_{};
-  std::vector<std::span<std::uint64_t>> long_runs_;  // in any order
-  std::mutex mutex_;                                 // guards them
-  std::vector<std::size_t> distinct_;  // values of each bucket; once all are sorted, of those before it
+  Buckets buckets_;
+  std::vector<std::vector<std::uint32_t>> counts_;  // [pieces][buckets]
+  std::vector<std::size_t> start_;                  // [buckets + 1]
+  std::vector<std::size_t> distinct_;               // [buckets]
+  LargeArray<std::uint16_t> bucket_;                // [items]
+  LargeArray<double> sorted_;                       // by buckets; of each, in the end, its values
+  LargeArray<std::int32_t> item_;                   // of these
+  LargeArray<std::uint32_t> words_;                 // places of sorted_
+  std::vector<Words> long_runs_;                    // in any order
+  std::mutex mutex_;                                // guards them
 };
 
 }  // namespace
