@@ -132,6 +132,7 @@ else
 	$(RUN) tests/fuzz/run.py written --sets $(or $(SETS),10000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/run.py cells --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/run.py alphashape --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/run.py alphashape_space --cases $(or $(CASES),10000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/run.py digital --sets $(or $(SETS),500) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/run.py planar_graph --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/run.py features --cases $(or $(CASES),20000) --seed $(or $(SEED),1)

@@ -10,7 +10,15 @@ from support.families.skeleton_shapes import small
 from support.few import few
 
 CASES = {
-    **{"delaunay": 84, "cells": 42, "alphashape": 42, "planar_graph": 90, "digital": 6, "distances": 12},
+    **{
+        "delaunay": 84,
+        "cells": 42,
+        "alphashape": 42,
+        "alphashape_space": 30,
+        "planar_graph": 90,
+        "digital": 6,
+        "distances": 12,
+    },
     **{"ends": 9, "features": 36, "outlines": 12, "thickness": 2, "rotation": 4, "predicates": 4},
     **{"segment_voronoi": 100, "skeletons": 48, "voronoi": 40, "voronoi_cuts": 24, "tessellate": 4, "spacing": 4},
     **{"volumes": 4},

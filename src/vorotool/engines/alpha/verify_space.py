@@ -104,7 +104,7 @@ def at_most(points: Floats, corners: NDArray[np.int32], r: Radius) -> Booleans:
         rows = corners[begin : begin + (1 << 16)]
         square, doubt = _squares(points[rows])
         with np.errstate(all="ignore"):
-            clear = np.abs(square - rounded) > (doubt + _ROUNDING) * (square + rounded)
+            clear = (doubt < 1) & (np.abs(square - rounded) > (doubt + _ROUNDING) * (square + rounded))
         part = square < rounded
         for k in np.flatnonzero(~clear).tolist():
             part[k] = _squared_radius(points[rows[k]].tolist()) <= limit
@@ -136,7 +136,7 @@ def _squares(places: Floats) -> tuple[Floats, Floats]:
         determinant = _dot(b, cross(c, d))
         terms = _dot(np.abs(b), np.stack([np.abs(c[i - 2] * d[i - 1]) + np.abs(c[i - 1] * d[i - 2]) for i in range(3)]))
         spread = (value + squares) / (value - squares) + terms / np.abs(determinant)
-        is_doubted = ~(known & (terms > _SMALL**3) & (spread > 0))
+        is_doubted = ~(known & (terms > _SMALL**3) & (value > squares))
         return (value - squares) / (16 * determinant * determinant), np.where(is_doubted, inf, _ROUNDING * (4 + spread))
 
 
