@@ -120,12 +120,7 @@ def array_metadata(name: str, made: dict[str, Any]) -> ZarrMetadata:
 
 
 def _version_2(made: dict[str, Any]) -> ZarrMetadata:
-    shape, chunks = _sizes(made["shape"], 0), _sizes(made["chunks"], 1)
-    _check_axes(shape, chunks)
-    code = made["dtype"]
-    if not (isinstance(code, str) and _CODED_TYPE.fullmatch(code)):
-        raise InputError(f"it holds {code!r:.60}: an image of numbers is expected")
-    dtype = np.dtype(code)
+    shape, chunks, dtype = _layout(made["shape"], made["chunks"], made["dtype"], _CODED_TYPE)
     steps = [*(made.get("filters") or ()), *([made["compressor"]] if made.get("compressor") else ())]
     _check_count(steps)
     codecs = tuple(checked_bytes_codec(*_named(step, "id"), dtype) for step in steps)
@@ -146,12 +141,7 @@ def _version_3(made: dict[str, Any]) -> ZarrMetadata:
     grid, grid_options = _named(made["chunk_grid"], "name")
     if grid != "regular":
         raise InputError(f"its grid of chunks is {grid!r:.60}: expected regular")
-    shape, chunks = _sizes(made["shape"], 0), _sizes(grid_options["chunk_shape"], 1)
-    _check_axes(shape, chunks)
-    kind = made["data_type"]
-    if not (isinstance(kind, str) and _NAMED_TYPE.fullmatch(kind)):
-        raise InputError(f"it holds {kind!r:.60}: an image of numbers is expected")
-    dtype = np.dtype(kind)
+    shape, chunks, dtype = _layout(made["shape"], grid_options["chunk_shape"], made["data_type"], _NAMED_TYPE)
     encoding, key_options = _named(made["chunk_key_encoding"], "name")
     if encoding not in ("default", "v2"):
         raise InputError(f"its chunks are named by {encoding!r:.60}: expected default or v2")
@@ -224,9 +214,16 @@ def _check_count(steps: list[Any]) -> None:
         raise InputError(f"it has {len(steps)} codecs in sequence: at most {_MOST_CODECS} are supported")
 
 
-def _check_axes(shape: tuple[int, ...], chunks: tuple[int, ...]) -> None:
-    if len(shape) != len(chunks):
-        raise InputError(f"its shape is {shape}, but that of its chunks {chunks}")
+def _layout(
+    shape: Any, chunks: Any, kind: Any, known: re.Pattern[str]
+) -> tuple[tuple[int, ...], tuple[int, ...], np.dtype[Any]]:
+    """Check the shape of an array and of its chunks, and the name of its type."""
+    sizes, parts = _sizes(shape, 0), _sizes(chunks, 1)
+    if len(sizes) != len(parts):
+        raise InputError(f"its shape is {sizes}, but that of its chunks {parts}")
+    if not (isinstance(kind, str) and known.fullmatch(kind)):
+        raise InputError(f"it holds {kind!r:.60}: an image of numbers is expected")
+    return sizes, parts, np.dtype(kind)
 
 
 def _choice(options: dict[str, Any], key: str, choices: tuple[str, str]) -> str:
