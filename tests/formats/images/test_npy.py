@@ -5,7 +5,10 @@ import numpy as np
 import pytest
 
 from vorotool.errors import InputError, LimitError
-from vorotool.formats.io.arrays import npy_header, read_npy, write_npy
+from vorotool.formats.images.reader import read_image
+from vorotool.formats.io.arrays import npy_header, write_npy
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
 
 
 def saved(array: object, **options: object) -> SimpleNamespace:
@@ -37,16 +40,17 @@ def test_written_values_are_never_wrapped() -> None:
 @pytest.mark.parametrize("order", ["C", "F"])
 def test_read_gives_native_contiguous_values(dtype: str, order: str) -> None:
     values = np.asarray(np.arange(12).reshape(3, 4), dtype=dtype, order=order)
-    found = read_npy(saved(values), max_items=12, option="--max-pixels")
+    source = Source("a.npy", saved(values).data, "npy")
+    found = read_image(source, ReadOptions(max_pixels=12)).values
     np.testing.assert_array_equal(found, values)
     assert found.dtype.isnative
     assert found.flags.c_contiguous
 
 
 def test_header_of_many_rows_is_a_limit() -> None:
-    source = header_only("{'descr': '<f8', 'fortran_order': False, 'shape': (100000000000, 2), }")
-    with pytest.raises(LimitError, match=r"200000000000 items.*--max-sites 100"):
-        read_npy(source, max_items=100, option="--max-sites")
+    source = header_only("{'descr': '<f8', 'fortran_order': False, 'shape': (100000000000, 3), }")
+    with pytest.raises(LimitError, match=r"300000000000 pixels.*--max-pixels 100"):
+        read_image(Source("a.npy", source.data, "npy"), ReadOptions(max_pixels=100))
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from vorotool.formats.images import tiff_reader
 from vorotool.formats.images.image_grids import tiff_raster, world_grid
 from vorotool.formats.images.pictures import is_lossy, read_picture_file
 from vorotool.formats.images.png_writer import SIGNATURE
-from vorotool.formats.io.arrays import npy_header, read_npy
+from vorotool.formats.io.arrays import npy_header, npy_values
 from vorotool.formats.io.sources import Source, check_pixels, decoding
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.sniffing import GAP, PICTURES
@@ -54,21 +54,17 @@ def _check_page(source: Source, page: int | None) -> None:
         raise InputError(f"{source.name} has a single page: {option(f'--page {page}')} does not exist")
 
 
-def _npy_shape(source: Source) -> tuple[int, ...]:
-    """Shape of an NPY image: (H, W), or (H, W, C) with at most 4 channels."""
-    shape = npy_header(source).shape
+def _read_npy(source: Source, max_pixels: int) -> NDArray[Any]:
+    """Return (H, W) values, or (H, W, C) with at most 4 channels."""
+    header = npy_header(source)
+    shape = header.shape
     if len(shape) not in (2, 3) or (len(shape) == 3 and not 1 <= shape[2] <= 4):
         as_volume = f"; read it as a volume with {AS_VOLUME}" if len(shape) == 3 else ""
         raise InputError(
             f"{source.name} has the shape {shape}: an image is (H, W), or (H, W, C) with C from 1 to 4{as_volume}"
         )
-    return shape
-
-
-def _read_npy(source: Source, max_pixels: int) -> NDArray[Any]:
-    shape = _npy_shape(source)
     check_pixels(source.name, shape[1], shape[0], max_pixels)
-    return read_npy(source, max_items=4 * max_pixels, option="4 x " + option("--max-pixels"))
+    return npy_values(source, header).astype(header.dtype.newbyteorder("="), order="C", copy=False)
 
 
 def _plain(values: NDArray[Any]) -> NDArray[Any]:

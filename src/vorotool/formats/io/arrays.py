@@ -161,15 +161,6 @@ def stored(band: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
     return np.ascontiguousarray(band, dtype=dtype)
 
 
-def read_npy(source: Source, *, max_items: int, option: str) -> NDArray[Any]:
-    """Return the array of a source, as a view of its bytes where that is possible."""
-    header = npy_header(source)
-    items = prod(header.shape)
-    if items > max_items:
-        raise LimitError(f"{source.name} has {items} items, shape {header.shape}: more than {option} {max_items}")
-    return npy_values(source, header).astype(header.dtype.newbyteorder("="), order="C", copy=False)
-
-
 NPZ_MAGIC = b"PK\x03\x04"
 _SKELETON = frozenset({"arc_source", "vertex_r", "ring_starts"})
 _OFFSETS = frozenset({"piece_start_x", "shape_distance", "about"})

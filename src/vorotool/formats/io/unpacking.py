@@ -31,14 +31,14 @@ Unpacker = Callable[[Packed, int], Any]
 
 def unpack_zlib(data: Packed, limit: int) -> bytes:
     """Undo deflate with the header of zlib; what follows the stream is left."""
-    return _inflated(data, limit, zlib.MAX_WBITS)[0]
+    return _streamed(zlib.decompressobj(zlib.MAX_WBITS), data, limit)[0]
 
 
 def unpack_gzip(data: Packed, limit: int) -> bytes:
     """Undo gzip; several streams follow each other."""
     made = b""
     while data and len(made) <= limit:
-        piece, data = _inflated(data, limit - len(made), 16 + zlib.MAX_WBITS)
+        piece, data = _streamed(zlib.decompressobj(16 + zlib.MAX_WBITS), data, limit - len(made))
         made += piece
         data = data.lstrip(b"\0")  # which may fill the rest of a file
     return made
@@ -110,32 +110,17 @@ def _numcodecs(name: str) -> Any:
         raise UsageError(f"data packed with {name} need the numcodecs package: pip install 'vorotool[zarr]'") from None
 
 
-def _inflated(data: Packed, limit: int, window: int) -> tuple[bytes, bytes]:
-    """Undo one stream of deflate; what it gives, and what follows it."""
-    stream = zlib.decompressobj(window)
-    pieces: list[bytes] = []
-    size = 0
-    while not stream.eof and size <= limit:
-        piece = stream.decompress(data, min(PIECE, limit + 1 - size))
-        if not piece and not stream.eof and not stream.unconsumed_tail:
-            raise ValueError("its compressed data end too early")
-        if piece:
-            pieces.append(piece)
-        size += len(piece)
-        data = stream.unconsumed_tail
-    return b"".join(pieces), stream.unused_data
-
-
 def _streamed(stream: Any, data: Packed, limit: int) -> tuple[bytes, bytes]:
+    """Undo one stream; what it gives, and what follows it."""
     pieces: list[bytes] = []
     size = 0
     while not stream.eof and size <= limit:
-        if stream.needs_input and pieces:
-            raise ValueError("its compressed data end too early")
         piece = stream.decompress(data, min(PIECE, limit + 1 - size))
+        data = getattr(stream, "unconsumed_tail", b"")  # of deflate alone: others keep it themselves
+        if not piece and not data and not stream.eof and getattr(stream, "needs_input", True):
+            raise ValueError("its compressed data end too early")
         pieces.append(piece)
         size += len(piece)
-        data = b""
     return b"".join(pieces), stream.unused_data
 
 
