@@ -49,7 +49,7 @@ def test_read_gives_native_contiguous_values(dtype: str, order: str) -> None:
 
 def test_header_of_many_rows_is_a_limit() -> None:
     source = header_only("{'descr': '<f8', 'fortran_order': False, 'shape': (100000000000, 3), }")
-    with pytest.raises(LimitError, match=r"300000000000 pixels.*--max-pixels 100"):
+    with pytest.raises(LimitError, match=r"300000000000 pixels, more than"):
         read_image(Source("a.npy", source.data, "npy"), ReadOptions(max_pixels=100))
 
 
