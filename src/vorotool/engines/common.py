@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, VerificationError
+from vorotool.numeric.arrays import Floats, norms
 from vorotool.numeric.checks import as_array
 
 
@@ -49,13 +50,20 @@ def described(array: Any) -> str:
     return f"{array.dtype} of shape {array.shape}" if isinstance(array, np.ndarray) else f"a {type(array).__name__}"
 
 
-def off_segments(places: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def nearest_on_segments(places: Floats, a: Floats, b: Floats) -> Floats:
+    """(…, 2) the nearest place to each on a segment, which may have no length."""
+    way = b - a
+    square = (way * way).sum(axis=-1)
+    share = np.divide(((places - a) * way).sum(axis=-1), square, out=np.zeros_like(square), where=square > 0)
+    return a + np.clip(share, 0, 1)[..., None] * way
+
+
+def off_segments(places: Floats, a: Floats, b: Floats) -> Floats:
     """(n,) how far each place is from a segment, which may have no length."""
     way = b - a
     square = (way * way).sum(axis=1)
     share = np.divide(((places - a) * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
-    away = places - a - np.clip(share, 0, 1)[:, None] * way
-    return np.sqrt((away * away).sum(axis=1))
+    return norms(places - a - np.clip(share, 0, 1)[:, None] * way)
 
 
 def fail(message: str) -> None:

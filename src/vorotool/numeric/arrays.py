@@ -50,6 +50,11 @@ def divides(starts: NDArray[Any], count: int, least: int = 0) -> bool:
     return bool(len(starts) and starts[0] == 0 and starts[-1] == count and (np.diff(starts) >= least).all())
 
 
+def norms(ways: NDArray[Any]) -> Floats:
+    """Lengths of vectors, along the last axis."""
+    return np.sqrt((ways * ways).sum(axis=-1))
+
+
 def owners(lengths: Lengths, dtype: DTypeLike = np.int64) -> NDArray[Any]:
     """The row of each item."""
     return np.repeat(np.arange(np.size(lengths), dtype=dtype), lengths)

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.polygons import as_polygons
-from vorotool.engines.arrangement.repaired_polygons import flat_holes, with_flat_shells_as_lines
+from vorotool.engines.arrangement.repaired_polygons import flat_holes, given_shapes, with_flat_shells_as_lines
 from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError, warn
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import divides, owners, ranges, starts_of
+from vorotool.numeric.arrays import divides, norms, owners, ranges, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, Run
@@ -245,8 +245,7 @@ def _face_left_of_all(graph: PlanarGraph) -> int:
 
 def _source_fault(graph: PlanarGraph) -> str | None:
     """Check what the graph says of the input: each pair of a segment and an edge that it is said to be part of."""
-    given = graph.polygons
-    assert given is not None
+    given, _ = given_shapes(graph)
     vertices, origin, exponent, _ = _core.arrangement.place_on_lattice(given.xy, 0, None)
     if (origin, math.ldexp(1.0, exponent)) != (tuple(graph.origin), graph.scale):
         return "this is not the lattice of the input"
@@ -357,7 +356,7 @@ def _are_small(given: PolygonSet, steps: NDArray[np.float64]) -> NDArray[np.bool
     width = np.where(given.is_line, sides.max(axis=1), sides.min(axis=1))
     way = np.roll(xy, -1, axis=0) - xy
     way[begin + sizes - 1] = xy[begin] - xy[begin + sizes - 1]
-    length = np.sqrt((way * way).sum(axis=1))
+    length = norms(way)
     order = np.lexsort((length, own))[begin + sizes - 1]  # the longest edge of each
     across = way[order][:, ::-1] * (1, -1) / np.where(length[order] > 0, length[order], 1)[:, None]
     level = ((xy - xy[begin][own]) * across[own]).sum(axis=1)

@@ -11,12 +11,18 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
-from vorotool.numeric.checks import index_of_rows
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.skeleton import EDGE, VERTEX, SiteTable
 from vorotool.types.skeleton.tables import connected_roots
+
+
+def given_shapes(graph: PlanarGraph) -> tuple[PolygonSet, NDArray[np.int32]]:
+    """Return what a graph was made of, and where the lattice has the vertices."""
+    assert graph.polygons is not None
+    assert graph.vertices is not None
+    return graph.polygons, graph.vertices
 
 
 @frozen(eq=False)
@@ -32,11 +38,9 @@ class PlacedShapes:
 
 def placed_shapes(graph: PlanarGraph, *, is_repaired: NDArray[np.bool_] | None = None) -> PlacedShapes:
     """Give the rings as they were used."""
-    given = graph.polygons
-    assert given is not None
-    assert graph.vertices is not None
+    given, places = given_shapes(graph)
     vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_starts[:-1]]]).astype(np.int64)
-    moved = given.moved(graph.coordinates(graph.vertices)) if graph.largest_move > 0 else given
+    moved = given.moved(graph.coordinates(places)) if graph.largest_move > 0 else given
     if any(graph.repairs.values()):
         if is_repaired is None:
             return _of_borders(graph, given, vertex)
@@ -170,32 +174,17 @@ class _Rings:
 
 def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
     """Polygons as their planar graph has them: what a skeleton is made of, and refers to."""
-    assert graph.polygons is not None
-    assert graph.vertices is not None
-    given = graph.polygons
+    given, places = given_shapes(graph)
     borders, lines = _borders(graph), _lines(graph, given)
     rings = _merged(borders, lines, borders.source, lines.source)
-    holes = flat_holes(given, graph.vertices)  # what coincides on the lattice, too
+    holes = flat_holes(given, places)  # what coincides on the lattice, too
     if holes.any():
         rings = _with_flat_holes(graph, given, rings, holes)
     starts_polygon = rings.kind != HOLE
     source = rings.source[starts_polygon]
-    polygons = PolygonSet(
-        graph.coordinates_as_given[rings.point],
-        starts_of(rings.sizes),
-        rings.kind,
-        np.cumsum(starts_polygon) - 1,
-        None if given.ids is None else [given.ids[i] for i in source.tolist()],
-        given.feature[source],
-        {name: [values[i] for i in source.tolist()] for name, values in given.properties.items()},
-        given.y_axis,
-        given.crs,
-        unit=given.unit,
-        index=index_of_rows(given.index, source),
-        frame=given.frame,
-        page=given.page,
-        is_drawing=given.is_drawing,
-    )
+    counts = np.bincount(np.cumsum(starts_polygon) - 1)
+    made = RingArrays(graph.coordinates_as_given[rings.point], rings.sizes, rings.kind, counts)
+    polygons = made.polygons(given, source, connectivity=None)
     if graph.largest_move:
         polygons = polygons.moved(graph.coordinates()[rings.point])
     return RepairedPolygons(polygons, source.astype(np.int32), rings.point, rings.segment)
@@ -221,8 +210,7 @@ def _lines(graph: PlanarGraph, given: PolygonSet) -> _Rings:
     ring = np.searchsorted(given.ring_starts, edge, side="right") - 1
     on_line = given.ring_kind[ring] == LINE
     segment, edge, ring = segment[on_line], edge[on_line], ring[on_line]
-    assert graph.vertices is not None
-    vertices = graph.vertices.astype(np.int64)
+    vertices = given_shapes(graph)[1].astype(np.int64)
     along = vertices[edge + 1] - vertices[edge]
     ends = graph.segments[segment]
     pieces = graph.points[ends].astype(np.int64)

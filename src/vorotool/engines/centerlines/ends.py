@@ -38,7 +38,7 @@ from vorotool.engines.centerlines.twigs import (
 )
 from vorotool.engines.skeleton.parts import with_straight_arcs
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Booleans, Floats, Numbers, starts_of
+from vorotool.numeric.arrays import Booleans, Floats, Numbers, norms, starts_of
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton, ends_of_sites
 from vorotool.types.skeleton.tables import connected_roots
 
@@ -108,8 +108,7 @@ def _farthest_around(skeleton: Skeleton, twigs: Twigs, around: Numbers) -> Numbe
     chosen = chosen[np.lexsort((-skeleton.radius[twigs.node[chosen]], around[chosen]))]
     starts = np.flatnonzero(np.diff(around[chosen], prepend=-1))
     group = np.cumsum(np.isin(np.arange(len(chosen)), starts)) - 1
-    off = skeleton.vertices[twigs.leaf[chosen]] - skeleton.vertices[twigs.node[chosen[starts]]][group]
-    distance = np.sqrt((off * off).sum(axis=1))
+    distance = norms(skeleton.vertices[twigs.leaf[chosen]] - skeleton.vertices[twigs.node[chosen[starts]]][group])
     most = np.maximum.reduceat(distance, starts) if len(starts) else distance
     far = np.flatnonzero(distance >= most[group] * (1 - TIE))
     far = far[np.lexsort((*twigs.edges[chosen[far]].T[::-1], group[far]))]

@@ -9,11 +9,12 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.common import nearest_on_segments
 from vorotool.engines.from_skeleton.points_along import first_crossings, first_hits
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Booleans, Floats, Numbers, mask_of, owners, starts_of, within
+from vorotool.numeric.arrays import Booleans, Floats, Numbers, mask_of, norms, owners, starts_of, within
 from vorotool.numeric.parallel import Progress, Run
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.lines import ExtendedSkeleton, LedOn
@@ -298,12 +299,7 @@ def end_middles(skeleton: Skeleton, leaves: Numbers) -> Floats:
 # ---- outlines -------------------------------------------------------------------------------------
 def _touched(skeleton: Skeleton, sites: Numbers, origin: Floats) -> Floats:
     """(k, 2, 2) the places on both sites that are nearest to some places."""
-    a, b = skeleton._ends_of(sites).transpose(2, 0, 1, 3)
-    way = b - a
-    square = (way * way).sum(axis=-1)
-    along = ((origin[:, None] - a) * way).sum(axis=-1)
-    at = np.clip(np.divide(along, square, out=np.zeros_like(along), where=square > 0), 0, 1)
-    return a + at[..., None] * way
+    return nearest_on_segments(origin[:, None], *skeleton._ends_of(sites).transpose(2, 0, 1, 3))
 
 
 def _outlines(skeleton: Skeleton, sites: Numbers, origin: Floats) -> _Outlines:
@@ -385,7 +381,7 @@ def _square(ways: Floats) -> Floats:
 
 
 def _unit(ways: Floats) -> Floats:
-    size = np.sqrt((ways * ways).sum(axis=1))[:, None]
+    size = norms(ways)[:, None]
     return np.divide(ways, size, out=np.zeros_like(ways), where=size > 0)
 
 
@@ -450,8 +446,8 @@ class Walks:
         if not is_smooth:
             return np.asarray(straight)
         ways = -np.diff(self.back, axis=0)
-        size = np.sqrt((ways * ways).sum(axis=2))
-        is_long = (size > 0).all(axis=0)
+        size = norms(ways)
+        is_long: Booleans = np.logical_and.reduce(size > 0)
         last, before, far = ways / np.where(is_long, size, 1)[:, :, None]
         # at 0.09375, 0.15625 and 0.59375 radii: the smaller bend of both, none if they differ in sign
         bends = _cross(before, last) / 0.0625, _cross(far, last) / 0.5

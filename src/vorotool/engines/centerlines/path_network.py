@@ -13,6 +13,7 @@ from vorotool import _core
 from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.centerlines.extended_ends import TIP, Reaches
 from vorotool.engines.centerlines.twigs import TIE
+from vorotool.engines.common import nearest_on_segments
 from vorotool.engines.skeleton.parts import core_skeleton
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Booleans, Columns, Floats, owners, ranks_of, starts_of
@@ -178,10 +179,7 @@ def nearest_place(skeleton: Skeleton, place: tuple[float, float], arcs: NDArray[
 
 def _squares_to_pieces(points: Floats, p: Floats) -> Floats:
     """Squared distances from the piece that begins at each point; the last has none."""
-    way = np.diff(points, axis=0, append=points[-1:])
-    square = (way * way).sum(axis=1)
-    t = np.divide(((p - points) * way).sum(axis=1), square, out=np.zeros(len(points)), where=square > 0)
-    off = points + np.clip(t, 0, 1)[:, None] * way - p
+    off = nearest_on_segments(p, points, np.append(points[1:], points[-1:], axis=0)) - p
     return (off * off).sum(axis=1)
 
 

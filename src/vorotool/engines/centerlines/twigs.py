@@ -19,6 +19,7 @@ from vorotool.numeric.arrays import (
     Floats,
     Numbers,
     mask_of,
+    norms,
     owners,
     ranges,
     ranks_of,
@@ -380,8 +381,7 @@ def _led_on(skeleton: Skeleton, leaves: Numbers, arcs: Numbers, places: Floats, 
     """Straight arcs that end at other places."""
     vertices, radii, length = skeleton.vertices.copy(), skeleton.radius.copy(), skeleton.length.copy()
     vertices[leaves], radii[leaves] = places, radius
-    way = vertices[skeleton.arcs[arcs, 1]] - vertices[skeleton.arcs[arcs, 0]]
-    length[arcs] = np.sqrt((way * way).sum(axis=1))
+    length[arcs] = norms(vertices[skeleton.arcs[arcs, 1]] - vertices[skeleton.arcs[arcs, 0]])
     return replace(skeleton, vertices=vertices, radius=radii, length=length)
 
 
@@ -429,7 +429,7 @@ def convex_trees(chains: Chains, origins: Floats) -> Trees:
     """Find the trees of chains, in time O(n log n)."""
     sizes = np.diff(chains.start)
     way = chains.target - chains.source
-    length = np.sqrt((way * way).sum(axis=1))
+    length = norms(way)
     normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / length[:, None]
     offset = (normal * (chains.source - np.repeat(origins, sizes, axis=0))).sum(axis=1)
     lines = list(zip(*normal.T.tolist(), offset.tolist(), strict=True))

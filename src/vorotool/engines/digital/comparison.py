@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable
 from functools import cached_property
 from math import ceil
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ from vorotool.numeric.parallel import Progress
 from vorotool.types.images import LabelImage
 from vorotool.types.mesh.triangulation import DigitalComparison, DigitalTriangulation, Triangulation
 from vorotool.types.pixels import MAX_PIXELS, Frame
+from vorotool.types.skeleton.tables import connected_roots
 from vorotool.types.table import Table
 
 if TYPE_CHECKING:
@@ -327,7 +328,7 @@ class CocircularTies:
         apex = mesh.triangles[other].sum(axis=1, dtype=np.int64) - a - b
         quads = np.concatenate([mesh.triangles[one], apex[:, None]], axis=1)
         tie = _core.kernel.incircle(np.ascontiguousarray(mesh.points[quads])) == 0
-        polygon = _components(len(mesh), one[tie], other[tie])
+        polygon = connected_roots(np.stack([one[tie], other[tie]], axis=1), len(mesh))
         self.unique_triangles = np.bincount(polygon, minlength=len(mesh))[polygon] == 1
         diagonals = np.sort(np.stack([a, b], axis=1)[tie], axis=1)
         self._edges, self._triangles = (
@@ -350,20 +351,6 @@ class CocircularTies:
 
     def _shared(self, vertices: tuple[int, ...]) -> set[int]:
         return set.intersection(*(self._polygons.get(v, set()) for v in vertices))
-
-
-def _components(count: int, one: NDArray[Any], other: NDArray[Any]) -> NDArray[np.intp]:
-    """Number of the component of each vertex of a graph: its smallest vertex."""
-    number = np.arange(count)
-    while True:
-        least = np.minimum(number[one], number[other])
-        before = number.copy()
-        for end in (one, other):
-            np.minimum.at(number, number[end], least)
-            np.minimum.at(number, end, least)
-        number = number[number]
-        if np.array_equal(number, before):
-            return number
 
 
 def voronoi_lengths(

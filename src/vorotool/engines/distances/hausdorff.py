@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.convert.sites import as_sites
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
+from vorotool.engines.arrangement.repaired_polygons import given_shapes
 from vorotool.engines.common import fail
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import InputError, RepairWarning
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, ranges
+from vorotool.numeric.arrays import Floats, Indices, norms, ranges
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.curves.inverse_functions import hypotenuse
@@ -212,8 +213,7 @@ def _triples(diagram: SegmentVoronoiDiagram, chosen: Indices) -> tuple[Indices, 
 
 def _sites_as_given(graph: PlanarGraph, sites: Indices) -> tuple[Floats, Floats, NDArray[np.bool_]]:
     """Give one end of sites where the input has it, unit normals of segments, and which sites are points."""
-    given = graph.polygons
-    assert given is not None
+    given, _ = given_shapes(graph)
     count = len(graph.points)
     is_point = sites < count
     place = np.array(graph.origin) + graph.scale * graph.points
@@ -237,7 +237,7 @@ def _equally_far(about: Floats, radius: Floats, at: Floats, normal: Floats, is_p
     side = np.where(((p[:, None] - at) * normal).sum(axis=2) < 0, -1.0, 1.0)
     for _ in range(NEWTON_STEPS):
         away = p[:, None] - at
-        length = np.sqrt((away * away).sum(axis=2))
+        length = norms(away)
         with np.errstate(all="ignore"):
             slope = np.where(is_point[..., None], away / length[..., None], normal * side[..., None])
             value = np.where(is_point, length, (away * slope).sum(axis=2)) - r[:, None]
@@ -437,7 +437,7 @@ def _check_edges(name: str, distance: float, of: _Checked, other: _Checked, tole
             np.maximum(other.from_edge(at_t, s), other.from_edge(at_t, t)),
         )
         middle = (s + t) / 2
-        half = np.sqrt(np.square(t - s).sum(axis=1)) / 2
+        half = norms(t - s) / 2
         open_ = np.flatnonzero((bound > distance + tolerance) & (half > tolerance))
         reach = other.from_edge(other.nearest(middle[open_]), middle[open_])
         open_ = open_[~(other.contains(middle[open_]) & (reach > half[open_]))]

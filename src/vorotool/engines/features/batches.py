@@ -22,7 +22,12 @@ from vorotool.engines.arrangement.planar_graph import (
     report_repairs,
     report_small,
 )
-from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes, with_flat_shells_as_lines
+from vorotool.engines.arrangement.repaired_polygons import (
+    PlacedShapes,
+    given_shapes,
+    placed_shapes,
+    with_flat_shells_as_lines,
+)
 from vorotool.errors import LimitError, warn
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, mask_of, owners, ranges, starts_of
@@ -168,9 +173,7 @@ def together(polygons: PolygonSet, *, strict: bool = False, threads: int = 0, pr
 
 def are_apart(graph: PlanarGraph) -> bool:
     """Whether nothing in the graph of all features was repaired, and none touches another one or lies over it."""
-    given = graph.polygons
-    assert given is not None
-    assert graph.vertices is not None
+    given, vertices = given_shapes(graph)
     if any(graph.repairs.values()):
         return False
     face = owners(np.diff(graph.face_starts))
@@ -179,7 +182,7 @@ def are_apart(graph: PlanarGraph) -> bool:
         return False
     if given.is_line.any() and _has_lines_inside(graph, given):
         return False
-    return len(graph.points) == len(given.xy) or not len(touching_features(Features.of(given), graph.vertices))
+    return len(graph.points) == len(given.xy) or not len(touching_features(Features.of(given), vertices))
 
 
 def _has_lines_inside(graph: PlanarGraph, given: PolygonSet) -> bool:
@@ -274,14 +277,7 @@ def _batch(
     used: PolygonSet, arrays: RingArrays, placement: Placement, corners: NDArray[np.int32], polygons: Indices
 ) -> FeatureBatch:
     taken, rings, vertices = arrays.taken(polygons)
-    part = PolygonSet(
-        taken.xy,
-        starts_of(taken.sizes),
-        taken.kind,
-        owners(taken.rings),
-        feature=used.feature[polygons],
-        connectivity=used.connectivity,
-    )
+    part = taken.bare(feature=used.feature[polygons], connectivity=used.connectivity)
     places = placement.vertices[vertices]
     x, y = places.T
     is_known = [bool(((x == corner_x) & (y == corner_y)).any()) for corner_x, corner_y in corners.tolist()]

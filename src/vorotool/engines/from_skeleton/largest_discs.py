@@ -12,7 +12,7 @@ from vorotool.engines.skeleton.clearance import SitePlaces, clearance_course, is
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Columns, Floats, Numbers, mask_of, starts_of, within
+from vorotool.numeric.arrays import Columns, Floats, Numbers, mask_of, norms, starts_of, within
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import whole_number
 from vorotool.numeric.parallel import Progress
@@ -96,7 +96,7 @@ class DiscPlaces:
 def _excess(m: ArcMeasures, u: Floats, center: Floats, radius: Floats) -> tuple[Floats, Floats]:
     """By how much a disc at u is farther from the given one than touching, and its derivative."""
     away = m.place(u) - center
-    distance = np.sqrt((away * away).sum(axis=1))
+    distance = norms(away)
     control = m.control
     v = u[:, None]
     moving = 2 * ((1 - v) * (control - m.source) + v * (m.target - control))
@@ -281,7 +281,6 @@ def check_count(count: int | None) -> None:
 def discs_of_skeleton(skeleton: Skeleton, *, count: int | None = None, local: bool = False, threads: int = 0) -> Discs:
     """Give the largest discs whose centers are on a skeleton inside polygons; arguments as of `largest_discs`."""
     own = skeleton.polygons.feature
-    assert own is not None
     is_inside = skeleton.side == INTERIOR
     feature = np.where(is_inside, own[skeleton.polygon] if len(own) else -1, -1).astype(np.intp)
     axis = Axis(skeleton, feature, threads)
@@ -434,8 +433,7 @@ class _MoreDiscs:
 
     def _is_apart(self, some: Candidates, discs: Candidates, disc: Numbers) -> NDArray[np.bool_]:
         """Whether each is disjoint from the disc of its feature."""
-        way = some.xy - discs.xy[disc]
-        apart = np.sqrt((way * way).sum(axis=1)) - (some.radius + discs.radius[disc])
+        apart = norms(some.xy - discs.xy[disc]) - (some.radius + discs.radius[disc])
         return np.asarray(apart >= -self.axis.rounding)
 
     def _ends_of_touched(self, last: Candidates, at: Numbers) -> Candidates:
@@ -447,8 +445,7 @@ class _MoreDiscs:
         way = ends[1] - ends[0]
         away = last.xy[disc] - ends[0]
         share = np.clip((away * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), np.finfo(float).tiny), 0, 1)
-        rest = away - share[:, None] * way
-        apart = np.sqrt((rest * rest).sum(axis=1)) - (own.radius + last.radius[disc])
+        apart = norms(away - share[:, None] * way) - (own.radius + last.radius[disc])
         touched = (disc >= 0) & (apart < -axis.rounding)
         is_new = mask_of(self.whole[touched], len(axis.middles))
         self.whole = self.whole[~touched]

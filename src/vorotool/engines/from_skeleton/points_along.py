@@ -14,7 +14,7 @@ from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.engines.skeleton.parts import core_skeleton
 from vorotool.errors import LimitError, UsageError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Booleans, Floats, Indices, owners, ranges, starts_of, within
+from vorotool.numeric.arrays import Booleans, Floats, Indices, norms, owners, ranges, starts_of, within
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.numbers import finite_double
@@ -297,7 +297,7 @@ def _hits(
 
 def first_crossings(ray: NDArray[np.integer], a: Floats, b: Floats, way: Floats) -> tuple[Floats, NDArray[np.intp]]:
     """Find which of its edges each ray meets first."""
-    length = np.sqrt((way * way).sum(axis=1))[:, None]
+    length = norms(way)[:, None]
     way = np.divide(way, length, out=np.zeros(way.shape), where=length > 0)  # a ray that goes nowhere meets nothing
     (ax, ay), (bx, by) = a.T, b.T
     dx, dy = way[ray].T

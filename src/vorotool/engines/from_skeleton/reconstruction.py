@@ -19,14 +19,14 @@ from vorotool.engines.from_skeleton.contour_walk import (
 )
 from vorotool.errors import UsageError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, owners, starts_of
-from vorotool.numeric.checks import index_of_rows
+from vorotool.numeric.arrays import Floats, Indices, norms, owners, starts_of
 from vorotool.numeric.curves.flatten import chords_of, circle_tolerances, middles_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import Flatten, checked_flatten
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 
 _ULPS = 8
@@ -89,10 +89,6 @@ def rebuild(skeleton: Skeleton, *, flatten: Flatten = None) -> PolygonSet:
 def _turned(way: Floats) -> Floats:
     """By 90 degrees, counter-clockwise."""
     return np.stack([-way[:, 1], way[:, 0]], axis=1)
-
-
-def _norm(way: Floats) -> Floats:
-    return np.sqrt((way * way).sum(axis=-1))
 
 
 @frozen
@@ -174,7 +170,7 @@ def _outline(skeleton: Skeleton, contours: Contours, tolerance: float | None) ->
     noise = _noise(skeleton) * (1 + feet.last_factor + feet.first_factor[after])
     is_corner = r == 0
     between_edges = is_edge & is_edge[after]
-    is_same = ~is_corner & (contours.is_joined | (between_edges & (_norm(end - start) <= noise)))
+    is_same = ~is_corner & (contours.is_joined | (between_edges & (norms(end - start) <= noise)))
     is_cap = ~is_corner & ~is_same
     better = (feet.last_factor <= feet.first_factor[after])[:, None]
     single = np.where(is_corner[:, None], center, np.where(better, start, end))
@@ -301,23 +297,13 @@ def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
     part, polygon = (np.array([getattr(ring, name) for ring in rings], dtype=np.int64) for name in ("part", "polygon"))
     order = np.lexsort((is_hole, part, polygon))
     rings, is_hole = [rings[k] for k in order.tolist()], is_hole[order]
-    own = polygon[order[~is_hole]].tolist()
-    given = skeleton.polygons
-    return PolygonSet(
+    made = RingArrays(
         np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]),
-        starts_of([len(ring.xy) for ring in rings]),
+        np.array([len(ring.xy) for ring in rings], dtype=np.int64),
         np.where(is_hole, HOLE, SHELL),
-        np.cumsum(~is_hole) - 1,
-        None if given.ids is None else [given.ids[p] for p in own],
-        given.feature[own],
-        {name: [values[p] for p in own] for name, values in given.properties.items()},
-        y_axis=given.y_axis,
-        unit=given.unit,
-        page=given.page,
-        is_drawing=given.is_drawing,
-        crs=given.crs,
-        index=index_of_rows(given.index, polygon[order[~is_hole]]),
+        np.bincount(np.cumsum(~is_hole) - 1),
     )
+    return made.polygons(skeleton.polygons, polygon[order[~is_hole]], frame=None, connectivity=None)
 
 
 _QUARTERS = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])

@@ -12,7 +12,7 @@ from vorotool import _core
 from vorotool.engines.common import fail
 from vorotool.engines.skeleton.parts import core_skeleton, with_arcs
 from vorotool.errors import InputError, UsageError
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, norms
 from vorotool.numeric.checks import as_array, checked_threads, described
 from vorotool.numeric.numbers import pair_of_doubles, shown_number, whole_number
 from vorotool.numeric.parallel import Progress, report
@@ -189,7 +189,7 @@ class _Discs:
         near = np.flatnonzero(_squared(place, self._columns) <= np.square(self.reach + abs(rim)))
         largest = 0.0
         for end, radius in ((self.source, self.radius[:, 0]), (self.target, self.radius[:, 1])):
-            distance = np.sqrt(np.square(place - end[near]).sum(axis=1))
+            distance = norms(place - end[near])
             largest = max(largest, radius[near][distance <= radius[near] + rim].max(initial=0.0))
         u, of_root = self._roots(place, near)
         radii = self._radius_at(u, of_root)
@@ -216,7 +216,7 @@ class _Discs:
     def _radius_at(self, u: Floats, arc: NDArray[np.int64]) -> Floats:
         center = self.source[arc] + u[:, None] * (self.way[arc] + u[:, None] * self.bend[arc])
         source, target = self.radius[arc].T
-        from_focus = np.sqrt(np.square(center - self.focus[arc]).sum(axis=1))
+        from_focus = norms(center - self.focus[arc])
         return np.asarray(np.where(self.is_linear[arc], source + u * (target - source), from_focus))
 
     def distance(self, place: Floats) -> float:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
-from vorotool.numeric.arrays import Floats, mask_of
+from vorotool.numeric.arrays import Floats, mask_of, norms
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress, report
 from vorotool.types.arguments import check_value
@@ -81,8 +81,7 @@ def _check_feet(discs: Discs, tolerance: float) -> None:
     disc = np.repeat(np.arange(len(discs)), counts)
     if (at := first_wrong(counts < (2 if discs.within is None else 1))) is not None:
         fail(f"disc {at} has {counts[at]} feet")
-    way = discs.feet - discs.xy[disc]
-    away = np.abs(np.sqrt((way * way).sum(axis=1)) - discs.radius[disc])
+    away = np.abs(norms(discs.feet - discs.xy[disc]) - discs.radius[disc])
     if (at := first_wrong(~(away <= tolerance))) is not None:
         fail(f"a foot of disc {disc[at]} is {away[at]} off its circle")
     from vorotool.types.skeleton.skeleton import ends_of_sites
@@ -102,7 +101,7 @@ def _check_order(discs: Discs, chosen: NDArray[np.intp], tolerance: float) -> No
         return
     for k in range(1, len(chosen)):
         way = discs.xy[chosen[:k]] - discs.xy[chosen[k]]
-        if (at := first_wrong(np.sqrt((way * way).sum(axis=1)) < radius[:k] + radius[k] - tolerance)) is not None:
+        if (at := first_wrong(norms(way) < radius[:k] + radius[k] - tolerance)) is not None:
             fail(f"discs {chosen[at]} and {chosen[k]} overlap")
 
 

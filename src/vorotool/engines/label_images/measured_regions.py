@@ -15,6 +15,7 @@ from vorotool import _core
 from vorotool.engines.common import label_array, refuse_negative
 from vorotool.errors import InputError
 from vorotool.frozen import frozen
+from vorotool.numeric.arrays import norms
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.types.pixels import CELL, Frame, PixelSides
@@ -160,13 +161,12 @@ class Regions:
         """Tabulate the neighboring regions: see `neighbor_table`."""
         measures, position = self.measures, self.sites[self.rows]
         a, b = measures.borders.T
-        way = position[a] - position[b]
         return Table(
             {
                 "label_a": measures.labels[a].astype(np.int64),
                 "label_b": measures.labels[b].astype(np.int64),
                 _MEASURES[len(self.steps)][2]: self._borders(measures.border_faces),
-                "centroid_distance": self._lengths(np.sqrt((way * way).sum(axis=1))),
+                "centroid_distance": self._lengths(norms(position[a] - position[b])),
             }
         )
 

@@ -200,7 +200,7 @@ def _polygons(
     corners = ranges(rings.start[order], sizes[order])
     kind = np.where(is_hole, HOLE, SHELL).astype(np.int8)
     made = RingArrays(rings.xy[corners], sizes[order], kind[order], np.bincount(piece, minlength=len(source)))
-    return replace(made.polygons(given, source), feature=np.arange(len(source), dtype=np.int32), connectivity=None)
+    return made.polygons(given, source, feature=np.arange(len(source), dtype=np.int32), connectivity=None)
 
 
 @frozen(eq=False)

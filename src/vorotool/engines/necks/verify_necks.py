@@ -13,7 +13,7 @@ from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.errors import silent
-from vorotool.numeric.arrays import Floats, owners, ranks_of
+from vorotool.numeric.arrays import Floats, norms, owners, ranks_of
 from vorotool.numeric.parallel import Progress, Run, report, running
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.planar_graph import PlanarGraph, moved_feet, places_as_given
@@ -63,10 +63,10 @@ def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -
         if (at := first_wrong(~(off <= places.tolerance))) is not None:
             fail(f"neck {at}: its foot {necks.feet[at, foot].tolist()} is {off[at]} from site {necks.sites[at, foot]}")
     a, b = necks.feet.swapaxes(0, 1)
-    apart = _norm(b - a)
+    apart = norms(b - a)
     if (at := first_wrong(~(np.abs(apart - necks.width) <= places.tolerance))) is not None:
         fail(f"neck {at}: its feet are {apart[at]} from each other, but its width is {necks.width[at]}")
-    if (at := first_wrong(~(_norm((a + b) / 2 - necks.xy) <= places.tolerance))) is not None:
+    if (at := first_wrong(~(norms((a + b) / 2 - necks.xy) <= places.tolerance))) is not None:
         fail(f"neck {at} at {necks.xy[at].tolist()} is not in the middle of its cut")
     least, most = necks.beside.T
     if (at := first_wrong(~(necks.width / 2 <= least + places.tolerance) | ~(least <= most))) is not None:
@@ -134,10 +134,6 @@ def _placed_parts(parts: Parts) -> Parts:
 
 
 # ---- distances -----------------------------------------------------------------------------------
-def _norm(way: Floats) -> Floats:
-    return np.sqrt((way * way).sum(axis=-1))
-
-
 def _clearances(skeleton: Skeleton, polygon: NDArray[np.int32], places: Floats, reach: Floats, threads: int) -> Floats:
     """Of places, from the boundary of the feature that each is in; infinite beyond reach."""
     polygons = skeleton.polygons
@@ -265,7 +261,7 @@ def _check_area(parts: Parts, polygons: NDArray[np.integer], graph: PlanarGraph)
     area = float(((x * v - u * y) * (left - right)).sum()) / 2 * (graph.scale * graph.scale)
     summed = float(parts.area[np.isin(parts.source, polygons)].sum())
     extent = float(np.ptp(graph.points, axis=0).max()) * graph.scale if len(graph.points) else 0.0
-    around = _norm((graph.points[graph.segments[:, 0]] - graph.points[graph.segments[:, 1]]).astype(float)).sum()
+    around = norms((graph.points[graph.segments[:, 0]] - graph.points[graph.segments[:, 1]]).astype(float)).sum()
     allowed = _AREA_ERROR * area + 8 * np.spacing(max(extent, np.abs(graph.origin).max())) * around * graph.scale
     if not abs(area - summed) <= allowed:
         first, last = polygons.min(initial=0), polygons.max(initial=0)

@@ -18,7 +18,7 @@ from vorotool.engines.offsets.offsets import listed_distances
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, verify_segment_voronoi
 from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
 from vorotool.errors import VorotoolWarning
-from vorotool.numeric.arrays import Floats, following, ranges, ranks_of, starts_of
+from vorotool.numeric.arrays import Floats, following, norms, ranges, ranks_of, starts_of
 from vorotool.numeric.curves.flatten import middles_of
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, finite_double
@@ -188,7 +188,7 @@ def _check_nothing_nearer(offsets: Offsets, tolerance: float, graph: PlanarGraph
 def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, run: Run) -> Floats:
     """Distances from the nearest site where it is not beyond the reach, else infinity."""
     if not len(graph):  # a lattice of single points may have no step
-        apart = np.sqrt(np.square(places[:, None] - graph.coordinates()[None]).sum(axis=2))
+        apart = norms(places[:, None] - graph.coordinates()[None])
         return np.asarray(apart.min(axis=1, initial=np.inf))
     lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
     found = _core.spatial.clearances(graph.points, graph.segments, lattice, reach / graph.scale, **run)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.skeleton.parts import PER_ARC, core_skeleton
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, ranges, ranks_of
+from vorotool.numeric.arrays import Floats, Indices, norms, ranges, ranks_of
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
@@ -144,8 +144,7 @@ class _Cuts:
         old = branches.ends[end]
         branch = np.flatnonzero((place[old] != old) & ~vanishes)
         old, new = old[branch], place[old[branch]]
-        way = skeleton.vertices[new] - skeleton.vertices[old]
-        moved = np.sqrt((way * way).sum(axis=1))
+        moved = norms(skeleton.vertices[new] - skeleton.vertices[old])
         room = (skeleton.radius[new] + skeleton.radius[old] - moved) / 2
         taken = np.minimum(np.minimum(moved, room), branches.length[branch] / 3)
         first, last = branches.first[branch], branches.last[branch]
@@ -235,8 +234,7 @@ def _spokes(
     skeleton: Skeleton, cut: _Cuts, columns: dict[str, NDArray[Any]], node: Indices, place: Indices
 ) -> dict[str, NDArray[Any]]:
     """Straight arcs between cuts and junctions, in the direction of their branches."""
-    way = columns["vertices"][cut.junction] - columns["vertices"][node]
-    length = np.sqrt((way * way).sum(axis=1))
+    length = norms(columns["vertices"][cut.junction] - columns["vertices"][node])
     bound = np.zeros(len(place))
     for end in (0, 1):
         np.maximum.at(bound, skeleton.arcs[:, end], skeleton.error_bound)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
-from vorotool.numeric.arrays import Floats, mask_of, owners, ranges
+from vorotool.numeric.arrays import Floats, mask_of, norms, owners, ranges
 from vorotool.numeric.lazy import shapely
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.arc_measures import ArcMeasures
@@ -92,8 +92,7 @@ def _is_part(pruned: Skeleton, own: NDArray[np.intp], skeleton: Skeleton, other:
     right: NDArray[np.bool_] = skeleton.is_parabola[other] | ~pruned.is_parabola[own]
     for t in _INSIDE:
         on_part, on_whole = np.full(len(own), t), u0 + t * (u1 - u0)
-        way = part.place(on_part) - whole.place(on_whole)
-        right &= np.sqrt((way * way).sum(axis=1)) <= tolerance
+        right &= norms(part.place(on_part) - whole.place(on_whole)) <= tolerance
         right &= np.abs(part.radius(on_part) - whole.radius(on_whole)) <= tolerance
     # chords give the length of a part to a fraction that does not matter for whether it is the right one
     chord = np.sqrt(np.square(part.place(np.ones(len(own))) - part.place(np.zeros(len(own)))).sum(axis=1))
@@ -197,8 +196,7 @@ def _check_arcs(joined: Skeleton, skeleton: Skeleton) -> None:
     on_part |= np.array([node in any_node for node in _rows(joined)], dtype=bool)
     a, b = joined.arcs.T
     leads = (is_junction[a] & on_part[b]) | (is_junction[b] & on_part[a])
-    way = joined.vertices[b] - joined.vertices[a]
-    length = np.sqrt((way * way).sum(axis=1))
+    length = norms(joined.vertices[b] - joined.vertices[a])
     tolerance = PRECISION * float(
         np.abs(joined.vertices).max(initial=0.0) + np.abs(skeleton.polygons.xy).max(initial=0.0)
     )

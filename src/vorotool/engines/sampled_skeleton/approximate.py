@@ -22,7 +22,7 @@ from vorotool.engines.skeleton.exact import (
 from vorotool.engines.skeleton.parts import without_equal_nodes
 from vorotool.errors import LimitError, UsageError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import owners
+from vorotool.numeric.arrays import norms, owners
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress
@@ -85,8 +85,7 @@ class BoundarySamples:
         inner = np.ones(len(after), dtype=bool)
         inner[last] = False
         after[inner], after[last] = self.seeds[points:], self.seeds[segments[:, 1]]
-        way = after - before
-        lengths = self.graph.scale * np.sqrt((way * way).sum(axis=1))
+        lengths = self.graph.scale * norms(after - before)
         return lengths, owners(count + 1, dtype=np.int32)
 
 
@@ -272,18 +271,9 @@ def skeleton_of_samples(shapes: SampledShapes, wanted: Wanted, tolerance: float 
     """Do what `approximate_skeleton` does, without a word about anything."""
     graph, placed, side = shapes.graph, shapes.placed, wanted.side
     clip = None if side == "interior" else (wanted.frame or default_frame(placed.polygons))
-    made: dict[str, Any] = shapes.diagram.skeleton(
-        face_groups(placed, side),
-        None if clip is None else (len(placed.polygons), on_lattice(clip, graph)),
-        False,
-        wanted.complete,
-        tolerance / graph.scale,
-        joined_groups(placed),
-        *graph.origin,
-        graph.scale,
-        wanted.threads,
-        wanted.progress,
-    )
+    clipped = None if clip is None else (len(placed.polygons), on_lattice(clip, graph))
+    how = False, wanted.complete, tolerance / graph.scale, joined_groups(placed)
+    made = _arrays(shapes, face_groups(placed, side), clipped, how, wanted)
     seeds, parts, open_corners = made.pop("seeds"), made.pop("parts"), made.pop("open_corners")
     largest = np.abs(graph.origin).max() + graph.scale * 2.0**30
     bound = made["error_bound"] + ROUNDING_ULPS * np.spacing(largest)
@@ -292,23 +282,22 @@ def skeleton_of_samples(shapes: SampledShapes, wanted: Wanted, tolerance: float 
     return ApproximateSkeleton(skeleton, seeds, shapes, open_corners, parts)
 
 
+def _arrays(
+    shapes: SampledShapes, groups: NDArray[np.int32], clipped: Any, how: tuple[Any, ...], wanted: Wanted
+) -> dict[str, Any]:
+    """Take the arcs in some faces out of a diagram: all or those of the skeleton, complete, within bounds, joined."""
+    place = *shapes.graph.origin, shapes.graph.scale
+    made: dict[str, Any] = shapes.diagram.skeleton(groups, clipped, *how, *place, wanted.threads, wanted.progress)
+    return made
+
+
 def whole_sampled_diagram(shapes: SampledShapes, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:
     """Give all edges of the Voronoi diagram of samples as arcs, cut by a frame; they have no side and no bounds."""
     check_skeleton_options("both", 0, frame)
     graph, placed = shapes.graph, shapes.placed
     clip = frame or default_frame(placed.polygons)
-    made: dict[str, Any] = shapes.diagram.skeleton(
-        np.zeros(graph.faces, dtype=np.int32),
-        (0, on_lattice(clip, graph)),
-        True,
-        False,
-        0.0,
-        (0, 0),
-        *graph.origin,
-        graph.scale,
-        checked_threads(threads),
-        None,
-    )
+    groups, wanted = np.zeros(graph.faces, dtype=np.int32), Wanted(threads=checked_threads(threads))
+    made = _arrays(shapes, groups, (0, on_lattice(clip, graph)), (True, False, 0.0, (0, 0)), wanted)
     for name in ("seeds", "parts", "open_corners"):
         made.pop(name)
     made["group"][:] = len(placed.polygons)

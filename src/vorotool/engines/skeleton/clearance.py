@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, norms
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.types.skeleton.arc_measures import ClearanceCourse
@@ -53,8 +53,7 @@ class SitePlaces:
 
     def distances(self, site: NDArray[np.int32], place: Floats) -> Floats:
         """How far each place is from its closed site."""
-        way = place - self.feet(site, place)
-        return np.asarray(np.sqrt((way * way).sum(axis=1)))
+        return norms(place - self.feet(site, place))
 
 
 def clearance_course(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ClearanceCourse:

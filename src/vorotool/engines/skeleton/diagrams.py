@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.planar_graph import arranged, graph_for_skeletons, placed_vertices
-from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_shapes
+from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, given_shapes, placed_shapes
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, are_apart, in_batches, together
 from vorotool.engines.features.order import InputOrder, Places, stacked
 from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_voronoi
@@ -321,11 +321,11 @@ def sides_of(
     if side == "exterior" or _are_alone(diagram):
         return replace(_skeleton_of(diagram, side=side, **wanted), features="separate")
     gap, of_shapes = (0.0, diagram.graph) if isinstance(diagram, ShapeDiagram) else (diagram.gap, diagram.shapes)
-    assert of_shapes.polygons is not None
+    polygons, _ = given_shapes(of_shapes)
     with silent():  # repairs were told where all were put together
-        inside = skeleton_of_features(of_shapes.polygons, gap, complete=complete, **run).skeleton
+        inside = skeleton_of_features(polygons, gap, complete=complete, **run).skeleton
     if not len(inside):
-        warn_empty(of_shapes.polygons, side)
+        warn_empty(polygons, side)
     graph = arranged(inside.polygons, placed_vertices(inside.polygons, **run), progress=run.get("progress")).graph
     placed = placed_shapes(graph)
     # outlines of pixels are cut where only neighbors meet, and stay outlines of pixels
@@ -343,9 +343,7 @@ def _are_alone(diagram: AnyDiagram) -> bool:
     """Whether each feature is as if there were no others."""
     if isinstance(diagram, ShapeDiagram):
         return are_apart(diagram.graph)
-    polygons = diagram.shapes.polygons
-    assert polygons is not None
-    return len(distinct(polygons.feature)) < 2
+    return len(distinct(given_shapes(diagram.shapes)[0].feature)) < 2
 
 
 def joined_sides(inside: Skeleton, outside: Skeleton, placed: PlacedShapes, graph: PlanarGraph) -> Skeleton:

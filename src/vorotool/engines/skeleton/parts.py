@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Indices, mask_of, ranks_of
+from vorotool.numeric.arrays import Indices, mask_of, norms, ranks_of
 from vorotool.numeric.parallel import Progress
 from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
@@ -74,7 +74,6 @@ def with_straight_arcs(
     """Add nodes, and inside polygons straight arcs behind all others: a branch each, like another arc elsewise."""
     count = len(ends)
     vertices = np.concatenate([skeleton.vertices, places])
-    way = vertices[ends[:, 1]] - vertices[ends[:, 0]]
     return replace(
         skeleton,
         vertices=vertices,
@@ -85,7 +84,7 @@ def with_straight_arcs(
         polygon=np.concatenate([skeleton.polygon, skeleton.polygon[like]]),
         side=np.concatenate([skeleton.side, np.full(count, INTERIOR, dtype=np.int8)]),
         branch=np.concatenate([skeleton.branch, skeleton.branch.max(initial=-1) + 1 + np.arange(count)]),
-        length=np.concatenate([skeleton.length, np.sqrt((way * way).sum(axis=1))]),
+        length=np.concatenate([skeleton.length, norms(vertices[ends[:, 1]] - vertices[ends[:, 0]])]),
         error_bound=np.concatenate([skeleton.error_bound, skeleton.error_bound[like]]),
     )
 

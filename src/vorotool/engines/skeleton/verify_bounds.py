@@ -13,7 +13,7 @@ from vorotool.engines.skeleton.diagrams import batch_diagram
 from vorotool.engines.skeleton.exact import diagram_of_graph, interior_skeleton, skeleton_of
 from vorotool.engines.skeleton.parts import outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.verify_regions import border_components, with_corners_apart
-from vorotool.numeric.arrays import mask_of, owners
+from vorotool.numeric.arrays import mask_of, norms, owners
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Run
 from vorotool.types.box import widened
@@ -215,6 +215,5 @@ def _from_parabola(x: Places, source: Places, control: Places, target: Places) -
             if np.array_equal(moved, t):
                 break
             t = moved
-        distance = away(t)
-        best = np.minimum(best, np.sqrt((distance * distance).sum(axis=1)))
+        best = np.minimum(best, norms(away(t)))
     return best

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.engines.skeleton.shortened_edges import corner_sectors
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, norms
 from vorotool.numeric.numbers import distinct, is_among
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
@@ -268,7 +268,7 @@ def areas_beside(skeleton: Skeleton, sites: SitePlaces) -> Floats:
 def face_measures(graph: PlanarGraph) -> tuple[Floats, Floats]:
     """Areas and perimeters of faces; the unbounded one's means nothing."""
     way = graph.coordinates()[graph.segments]
-    length = np.sqrt(np.square(way[:, 1] - way[:, 0]).sum(axis=1))
+    length = norms(way[:, 1] - way[:, 0])
     ends = graph.points[graph.segments].astype(np.float64)
     # relative to a corner of each face, so that products stay small
     first = np.full(graph.faces, len(graph), dtype=np.int64)

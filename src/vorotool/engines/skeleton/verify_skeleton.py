@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.common import fail, first_wrong
+from vorotool.engines.common import fail, first_wrong, nearest_on_segments
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.engines.skeleton.exact import ShapeDiagram, kept_edges
@@ -26,7 +26,7 @@ from vorotool.engines.skeleton.verify_regions import (
     with_corners_apart,
 )
 from vorotool.errors import silent
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, norms
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, Run, running
@@ -99,16 +99,9 @@ def _areas_at_border(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph) 
     ends = np.concatenate([places[left.segments], np.repeat(places[lone][:, None], 2, axis=1)])
     tree = shapely.STRtree(shapes)
     _, near = tree.query_nearest(shapely.points((a + b) / 2), all_matches=False)
-    feet = [_feet(ends[near], place) for place in (a, b)]
+    feet = [nearest_on_segments(place, *ends[near].swapaxes(0, 1)) for place in (a, b)]
     one, other = feet[1] - a, feet[0] - b  # diagonals
     return polygon, np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]) / 2
-
-
-def _feet(ends: Floats, place: Floats) -> Floats:
-    way = ends[:, 1] - ends[:, 0]
-    square = (way * way).sum(axis=1)
-    t = np.divide(((place - ends[:, 0]) * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
-    return ends[:, 0] + np.clip(t, 0, 1)[:, None] * way
 
 
 def _stretches(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph) -> Floats:
@@ -177,8 +170,7 @@ def check_equal_distances(skeleton: Skeleton, sites: SitePlaces) -> None:
 def _looseness(skeleton: Skeleton, sites: SitePlaces) -> Floats:
     """How much more than at nodes distances may differ inside an arc: a far control point is rounded in its own ulp."""
     source = skeleton.vertices[skeleton.arcs[:, 0]]
-    way = np.where(skeleton.is_parabola[:, None], skeleton.control - source, 0)
-    return 1 + np.sqrt((way * way).sum(axis=1)) / sites.largest
+    return 1 + norms(np.where(skeleton.is_parabola[:, None], skeleton.control - source, 0)) / sites.largest
 
 
 def check_nothing_nearer(skeleton: Skeleton, sites: SitePlaces, graph: PlanarGraph, run: Run) -> None:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of, within
+from vorotool.numeric.arrays import Floats, Indices, norms, owners, ranges, starts_of, within
 from vorotool.numeric.curves.flatten import chained, polylines
 from vorotool.numeric.numbers import checked_tolerance
 from vorotool.numeric.parallel import Progress, report
@@ -75,7 +75,7 @@ def _parted(points: Floats, off: Floats, start: Indices, is_closed: NDArray[np.b
     points, off, line = points[kept], off[kept], line[kept]
     start = np.searchsorted(line, np.arange(len(is_closed) + 1))
     way = np.diff(points, axis=0, append=points[-1:])
-    size = np.sqrt((way * way).sum(axis=1))
+    size = norms(way)
     size[start[1:] - 1] = 0.0
     whole = np.add.reduceat(size, start[:-1]) if len(is_closed) else size
     most = np.repeat(np.where(np.diff(start) > 2, whole / LEAST_PIECES, whole), np.diff(start))

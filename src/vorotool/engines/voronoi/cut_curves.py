@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices
+from vorotool.numeric.arrays import Floats, Indices, norms
 from vorotool.types.polygons.planar_graph import PlanarGraph
 
 FAR = 2.0**34
@@ -80,7 +80,7 @@ class CutCurves:
         place = self.place(t)
         offset = place - self.origin
         of_line = np.abs((place * self.line[:, :2]).sum(axis=1) - self.line[:, 2])
-        straight = np.where(np.isnan(self.origin[:, 0]), of_line, np.sqrt((offset * offset).sum(axis=1)))
+        straight = np.where(np.isnan(self.origin[:, 0]), of_line, norms(offset))
         return np.where(self.height > 0, (t * t + h * h) / (2 * h), straight)
 
     def control(self, t0: Floats, t1: Floats) -> Floats:
@@ -97,7 +97,7 @@ class CutCurves:
         cosine = (1 + t0 * t1) / np.sqrt((1 + t0 * t0) * (1 + t1 * t1))
         control = self.control(t0, t1)
         bend = np.nan_to_num(self.place(t0) - 2 * control + self.place(t1))
-        return np.where(self.round > 0, self.round * (1 - cosine), np.sqrt((bend * bend).sum(axis=1)) / 4)
+        return np.where(self.round > 0, self.round * (1 - cosine), norms(bend) / 4)
 
     def hull(self, t0: Floats, t1: Floats) -> Floats:
         """(k, 5, 2) closed rings of tangents and a chord around circular arcs."""
@@ -135,8 +135,7 @@ class CutCurves:
     def between(self, least: Floats, most: Floats) -> tuple[Floats, Floats]:
         """(k,) parameters between which each may be in a box, the larger one first where it is in none."""
         low, high = np.minimum(self.first, self.last), np.maximum(self.first, self.last)
-        corner = np.maximum(np.abs(least - self.base), np.abs(most - self.base))
-        reach = np.sqrt((corner * corner).sum(axis=1))  # of the farthest corner
+        reach = norms(np.maximum(np.abs(least - self.base), np.abs(most - self.base)))  # of the farthest corner
         is_bent = self.height > 0
         square = self.height * (2 * reach - self.height)
         side = np.sqrt(np.maximum(square, 0))
@@ -164,7 +163,7 @@ class CutCurves:
         t = np.where(is_bent, along, along / squared)
         miss = np.where(is_bent, of_bent, np.abs(beside) / np.sqrt(squared))
         is_round = np.flatnonzero(self.round > 0)
-        size = np.sqrt((offset[is_round] * offset[is_round]).sum(axis=1))
+        size = norms(offset[is_round])
         ahead = size + along[is_round]
         t[is_round] = np.where(ahead > 0, beside[is_round] / np.where(ahead > 0, ahead, 1), np.inf)
         miss[is_round] = np.abs(size - self.round[is_round])
@@ -188,7 +187,7 @@ class CutEdges:
         self.ends, self.regions, self.is_enclosure = ends, regions, is_enclosure
         self.lines = points[ends]  # (m, 2, 2)
         way = self.lines[:, 1] - self.lines[:, 0]
-        self.length = np.sqrt((way * way).sum(axis=1))
+        self.length = norms(way)
         self.forward = way / np.where(self.length > 0, self.length, 1)[:, None]  # beyond all borders both ends are one
         self.normal = np.stack([-self.forward[:, 1], self.forward[:, 0]], axis=1)
         # what coordinates are rounded by: of a side of a frame the one that it is at tells
@@ -272,7 +271,7 @@ def _take_parabolas(borders: Borders, graph: PlanarGraph, pieces: Indices, curve
     above = double != 0
     chosen, focus = mixed[above], focus[above].astype(np.float64)
     along = np.where(double[:, None] < 0, -along, along)[above].astype(np.float64)
-    length = np.sqrt((along * along).sum(axis=1))
+    length = norms(along)
     along, high = along / length[:, None], np.abs(double[above]).astype(np.float64) / length
     base[chosen], way[chosen], height[chosen] = focus, along, high
     for end, where in zip(borders.ends[pieces[chosen]].T, (first, last), strict=True):
@@ -292,8 +291,8 @@ def _take_circles(borders: Borders, pieces: Indices, curves: tuple[Floats, ...])
     chord = b - a
     is_short = ((a * b).sum(axis=1) > 0)[:, None]
     middle = np.where(is_short, a + b, np.stack([chord[:, 1], -chord[:, 0]], axis=1))
-    middle /= np.sqrt((middle * middle).sum(axis=1))[:, None]
-    size = np.sqrt((a * a).sum(axis=1))
+    middle /= norms(middle)[:, None]
+    size = norms(a)
     base[chosen], way[chosen], radius[chosen] = center, middle, size
     for place, where in ((a, first), (b, last)):
         beside = middle[:, 0] * place[:, 1] - middle[:, 1] * place[:, 0]
@@ -331,6 +330,6 @@ def _measured_from(graph: PlanarGraph, elements: Indices) -> tuple[Floats, Float
     apart = np.flatnonzero(~is_point & (left != right))
     one, other = _ends(graph, left[apart])
     way = points[other] - points[one]
-    normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / np.sqrt((way * way).sum(axis=1))[:, None]
+    normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / norms(way)[:, None]
     line[apart] = np.column_stack([normal, (normal * points[one]).sum(axis=1)])
     return origin, line

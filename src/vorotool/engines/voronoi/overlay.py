@@ -11,7 +11,7 @@ from vorotool.engines.voronoi.crossings import Crossings, Drawn, crossings_betwe
 from vorotool.engines.voronoi.cut_curves import NO_REGION, SLACK, CutEdges, controls_of, cut_curves
 from vorotool.engines.voronoi.regions import LocalDiagrams, faces_of_sides
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, mask_of, owners, ranges
+from vorotool.numeric.arrays import Floats, Indices, mask_of, norms, owners, ranges
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import rows_of
 from vorotool.types.box import Extent, corners_of
@@ -285,13 +285,13 @@ class RegionOverlay(Overlay):
         curves, bent = self.found.curves[pieces.row], slice(pieces.whole, None)
         t = np.where(np.isfinite(pieces.t), pieces.t, 0)
         middle[bent] = curves.place(t.mean(axis=1))
-        length[bent] = _norm(curves.place(t[:, 1]) - curves.place(t[:, 0]))
+        length[bent] = norms(curves.place(t[:, 1]) - curves.place(t[:, 0]))
         plain = np.flatnonzero((pieces.ends[: pieces.whole] >= 0).all(axis=1))
         a, b = (places[node] for node in pieces.ends[plain].T)
         control = self.control[pieces.piece[plain]]
         control = np.where(np.isnan(control), (a + b) / 2, control)
         middle[plain] = (a + 2 * control + b) / 4
-        length[plain] = _norm(b - a)
+        length[plain] = norms(b - a)
         return middle, length
 
 
@@ -301,10 +301,6 @@ def _rows_of(pairs: Indices, wanted: Indices) -> Indices:
     low, high = np.sort(number.reshape(-1, 2), axis=1).T
     key = low * len(values) + high
     return rows_of(key[: len(pairs)], key[len(pairs) :])
-
-
-def _norm(way: Floats) -> Floats:
-    return np.sqrt((way * way).sum(axis=1))
 
 
 SIDES = 4

@@ -12,7 +12,7 @@ from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay, RegionOverlay
 from vorotool.engines.voronoi.regions import NearestElements
 from vorotool.errors import VerificationError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, following, mask_of, ranges, ranks_of, starts_of
+from vorotool.numeric.arrays import Floats, Indices, following, mask_of, norms, ranges, ranks_of, starts_of
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.lazy import shapely
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
@@ -148,17 +148,13 @@ def moved_vertices(arcs: Arcs, rings: Rings) -> Floats:
 def _lengths(arcs: Arcs) -> Floats:
     """(a,) at least the lengths of arcs."""
     source, target = (arcs.vertices.take(end, axis=0) for end in arcs.ends.T)
-    length = _norm(target - source)
+    length = norms(target - source)
     bent = np.flatnonzero(~np.isnan(arcs.control[:, 0]))
     control = arcs.control[bent]
-    length[bent] = _norm(control - source[bent]) + _norm(target[bent] - control)
+    length[bent] = norms(control - source[bent]) + norms(target[bent] - control)
     round_ = np.flatnonzero(~np.isnan(arcs.center[:, 0]))
-    length[round_] = 4 * _norm(source[round_] - arcs.center[round_])  # at most half a circle
+    length[round_] = 4 * norms(source[round_] - arcs.center[round_])  # at most half a circle
     return length
-
-
-def _norm(way: Floats) -> Floats:
-    return np.sqrt(np.square(way).sum(axis=1))
 
 
 def shells_of(rings: Rings, arcs: Arcs) -> Indices:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import Placement, arranged
+from vorotool.engines.arrangement.repaired_polygons import given_shapes
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi_of_groups
 from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.cut_curves import NO_REGION, CutEdges
@@ -140,9 +141,7 @@ def _run_together(joint: JointGraph, segments: Indices) -> NDArray[np.bool_]:
 
     Others cross, and are led through one more place of the lattice together.
     """
-    graph = joint.graph
-    vertices = graph.vertices
-    assert vertices is not None
+    graph, (_, vertices) = joint.graph, given_shapes(joint.graph)
     sizes = graph.source_count[segments].astype(np.int64)
     row, source = owners(sizes), ranges(graph.source_starts[segments], sizes)
     own = np.flatnonzero(is_of(joint.of_enclosures, joint.source_polygon[source]))
@@ -188,11 +187,10 @@ def _meetings_of_points(
     joint: JointGraph, site: NDArray[np.int32], face: Indices, is_line: NDArray[np.bool_]
 ) -> Indices:
     """(k, 2) the same of sites that are places, unless an enclosure runs through these."""
-    graph, given = joint.graph, joint.polygons
-    assert graph.vertices is not None
-    lone = rings_at_one_place(graph, given)
+    graph, (given, vertices) = joint.graph, given_shapes(joint.graph)
+    lone = rings_at_one_place(graph)
     lone = lone[given.ring_polygon[lone] < len(site)]
-    places = graph.vertices[given.ring_starts[lone]]
+    places = vertices[given.ring_starts[lone]]
     is_free = ~is_among(packed(places), distinct(packed(graph.points[graph.segments[is_line].ravel()])))
     lone, places = lone[is_free], places[is_free].astype(np.float64)
     if not lone.size:
@@ -259,8 +257,7 @@ def local_diagrams(
     progress: Progress = None,
 ) -> LocalDiagrams:
     """Make the diagram of each region."""
-    given = sites.polygons
-    assert given is not None
+    given, _ = given_shapes(sites)
     level = np.inf if limit is None else limit / sites.scale
     if regions.count == 1 and len(regions.site) == count:
         owned = owners_of(sites, site)
@@ -280,9 +277,7 @@ def local_diagrams(
 
 
 def _graphs_of_regions(sites: PlanarGraph, site: Sites, count: int, regions: Regions) -> Iterator[OwnedGraph]:
-    given = sites.polygons
-    assert given is not None
-    assert sites.vertices is not None
+    given, vertices = given_shapes(sites)
     order = np.argsort(site, kind="stable")
     start = np.searchsorted(site[order], np.arange(count + 1))
     above, below = sites.scale.as_integer_ratio()  # a power of two
@@ -290,7 +285,7 @@ def _graphs_of_regions(sites: PlanarGraph, site: Sites, count: int, regions: Reg
         own = regions.sites_of(region)
         polygon = np.sort(order[ranges(start[own], np.diff(start)[own])])
         part, _, taken = RingArrays.of(given).taken(polygon)
-        placement = Placement(sites.vertices[taken], sites.origin, above.bit_length() - below.bit_length(), 0.0)
+        placement = Placement(vertices[taken], sites.origin, above.bit_length() - below.bit_length(), 0.0)
         yield owners_of(arranged(part.bare(), placement).graph, site[polygon])
 
 

@@ -19,7 +19,7 @@ from vorotool.engines.arrangement.planar_graph import (
     report_repairs,
     report_small,
 )
-from vorotool.engines.arrangement.repaired_polygons import flat_holes, with_flat_shells_as_lines
+from vorotool.engines.arrangement.repaired_polygons import flat_holes, given_shapes, with_flat_shells_as_lines
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import InputError, LimitError
 from vorotool.frozen import frozen
@@ -61,19 +61,16 @@ def owned_graph(polygons: PolygonSet, site: Sites, *, threads: int = 0, progress
 
 def owners_of(graph: PlanarGraph, site: Sites) -> OwnedGraph:
     """Tell whose the elements of a graph are."""
-    given = graph.polygons
-    assert given is not None
-    return OwnedGraph(graph, _element_owners(graph, given, site), _face_owners(graph, site))
+    return OwnedGraph(graph, _element_owners(graph, site), _face_owners(graph, site))
 
 
 def shared_elements(owned: OwnedGraph, site: Sites) -> tuple[int, int, int]:
     """Count the points, segments and faces that several sites have, of which the smallest was given each."""
-    graph, given = owned.graph, owned.graph.polygons
-    assert given is not None
-    points = [_lone_places(graph, given)]
+    graph = owned.graph
+    points = [_lone_places(graph)]
     segments = faces = 0
     if len(graph):
-        is_part, polygon = _bounding_sources(graph, given)
+        is_part, polygon = _bounding_sources(graph)
         segment = np.repeat(np.arange(len(graph)), graph.source_count)[is_part]
         segments = _with_several(segment, site[polygon[is_part]], len(graph))
         points += [(graph.segments[segment, end], polygon[is_part]) for end in (0, 1)]
@@ -97,8 +94,8 @@ def graph_of_sites(given: PolygonSet, placement: Placement, *, progress: Progres
     found = {name: each if name in _FAULTS else (0, -1, -1) for name, each in made.found.items()}
     is_empty = ~given.is_line
     is_empty[made.graph.face_polygon] = False
-    found["idle_segments"] = _with_hidden_spikes(found["idle_segments"], made.graph, given, is_empty)
-    report_repairs(given, found, is_empty | _lacking(made.graph, given), made.graph.scale, strict=False)
+    found["idle_segments"] = _with_hidden_spikes(found["idle_segments"], made.graph, is_empty)
+    report_repairs(given, found, is_empty | _lacking(made.graph), made.graph.scale, strict=False)
     report_small(given, placement, strict=False)
     if is_empty.any():
         given, taken = _as_lines(given, is_empty)
@@ -107,12 +104,12 @@ def graph_of_sites(given: PolygonSet, placement: Placement, *, progress: Progres
 
 
 def _with_hidden_spikes(
-    found: tuple[int, int, int], graph: PlanarGraph, given: PolygonSet, is_empty: NDArray[np.bool_]
+    found: tuple[int, int, int], graph: PlanarGraph, is_empty: NDArray[np.bool_]
 ) -> tuple[int, int, int]:
     """Count segments that bound nothing of their polygon among those that are there, since others lie on them, too."""
     if not len(graph):
         return found
-    is_part, polygon = _bounding_sources(graph, given)
+    is_part, polygon = _bounding_sources(graph)
     hidden = np.flatnonzero(~is_part & ~is_empty[polygon])
     if not hidden.size:
         return found
@@ -120,10 +117,10 @@ def _with_hidden_spikes(
     return (count + hidden.size, int(graph.source_edge[hidden].min()) if count == 0 else edge, other)
 
 
-def _lacking(graph: PlanarGraph, given: PolygonSet) -> NDArray[np.bool_]:
+def _lacking(graph: PlanarGraph) -> NDArray[np.bool_]:
     """(p,) whether a polygon has an edge that is not, or not as a whole, a part of what bounds it, or a point."""
-    assert graph.vertices is not None
-    places = graph.vertices.astype(np.int64)
+    given, vertices = given_shapes(graph)
+    places = vertices.astype(np.int64)
     whole = np.abs(places[given.following] - places).sum(axis=1)
     own = owners(np.diff(given.ring_starts))
     of_vertex, is_line = given.ring_polygon[own], np.equal(given.ring_kind[own], LINE)
@@ -131,7 +128,7 @@ def _lacking(graph: PlanarGraph, given: PolygonSet) -> NDArray[np.bool_]:
     ends_line[given.ring_starts[1:] - 1] = is_line[given.ring_starts[1:] - 1]
     there = np.zeros(len(own), dtype=np.int64)
     if len(graph):
-        is_part, _ = _bounding_sources(graph, given)
+        is_part, _ = _bounding_sources(graph)
         ends = graph.points[graph.segments].astype(np.int64)
         length = np.repeat(np.abs(ends[:, 1] - ends[:, 0]).sum(axis=1), graph.source_count)
         np.add.at(there, graph.source_edge[is_part], length[is_part])  # along an edge both coordinates are monotone
@@ -162,29 +159,29 @@ def _face_owners(graph: PlanarGraph, site: Sites) -> Sites:
     return owner
 
 
-def _element_owners(graph: PlanarGraph, given: PolygonSet, site: Sites) -> Sites:
+def _element_owners(graph: PlanarGraph, site: Sites) -> Sites:
     count = len(graph.points)
     owner = np.full(count + len(graph), NOBODY, dtype=np.int32)
     if len(graph):
-        is_part, polygon = _bounding_sources(graph, given)
+        is_part, polygon = _bounding_sources(graph)
         least = np.where(is_part, site[polygon], NOBODY)
         owner[count:] = np.minimum.reduceat(least, graph.source_starts[:-1])
         owner[:count], _ = _core.voronoi.owners_at_points(graph.segments, owner[count:], count)
-    point, of_polygon = _lone_places(graph, given)
+    point, of_polygon = _lone_places(graph)
     np.minimum.at(owner, point, site[of_polygon])
     return owner
 
 
-def _bounding_sources(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np.bool_], NDArray[np.int32]]:
+def _bounding_sources(graph: PlanarGraph) -> tuple[NDArray[np.bool_], NDArray[np.int32]]:
     """Of each source edge of a segment, whether its polygon is bounded there, and the polygon."""
+    given, vertices = given_shapes(graph)
     ring = owners(np.diff(given.ring_starts))[graph.source_edge]
     polygon = given.ring_polygon[ring]
     is_part = np.ones(len(ring), dtype=bool)
     several = graph.source_count > 1
     doubtful = np.flatnonzero(np.repeat(several, graph.source_count))
     if doubtful.size:
-        assert graph.vertices is not None
-        is_thin = np.equal(given.ring_kind, LINE) | flat_holes(given, graph.vertices)
+        is_thin = np.equal(given.ring_kind, LINE) | flat_holes(given, vertices)
         doubtful = doubtful[~is_thin[ring[doubtful]]]
         segment = np.repeat(np.arange(len(graph)), graph.source_count)[doubtful]
         polygons = max(len(given), 1)
@@ -194,20 +191,20 @@ def _bounding_sources(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np
     return is_part, polygon
 
 
-def _lone_places(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+def _lone_places(graph: PlanarGraph) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
     """Points that are a whole line or hole, and the polygons that these are of."""
-    ring = rings_at_one_place(graph, given)
+    given, vertices = given_shapes(graph)
+    ring = rings_at_one_place(graph)
     ring = ring[given.ring_kind[ring] == LINE]
-    assert graph.vertices is not None
-    point = np.concatenate([graph.points_at(graph.vertices[given.ring_starts[ring]]), graph.point_holes[:, 0]])
+    point = np.concatenate([graph.points_at(vertices[given.ring_starts[ring]]), graph.point_holes[:, 0]])
     return point, np.concatenate([given.ring_polygon[ring], graph.point_holes[:, 2]])
 
 
-def rings_at_one_place(graph: PlanarGraph, given: PolygonSet) -> Indices:
+def rings_at_one_place(graph: PlanarGraph) -> Indices:
     """Find the rings of which all vertices are at one place of the lattice."""
-    assert graph.vertices is not None
+    given, vertices = given_shapes(graph)
     sizes = np.diff(given.ring_starts)
-    is_other = (graph.vertices != np.repeat(graph.vertices[given.ring_starts[:-1]], sizes, axis=0)).any(axis=1)
+    is_other = (vertices != np.repeat(vertices[given.ring_starts[:-1]], sizes, axis=0)).any(axis=1)
     return np.flatnonzero(np.bincount(owners(sizes)[is_other], minlength=len(sizes)) == 0)
 
 
@@ -315,8 +312,7 @@ def _as_closed_lines(enclosures: PolygonSet) -> RingArrays:
 
 def _noded(given: PolygonSet, graph: PlanarGraph) -> tuple[PolygonSet, NDArray[np.int32]]:
     """Polygons with a vertex wherever a graph cuts their edges, and all vertices on its lattice."""
-    assert graph.vertices is not None
-    vertices, count = graph.vertices, len(given.xy)
+    (_, vertices), count = given_shapes(graph), len(given.xy)
     segment = owners(graph.source_count)
     of_sites = graph.source_edge < count
     edge = np.repeat(graph.source_edge[of_sites].astype(np.int64), 2)

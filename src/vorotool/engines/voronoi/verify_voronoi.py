@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Floats, Indices, following, owners
+from vorotool.numeric.arrays import Floats, Indices, following, norms, owners
 from vorotool.numeric.curves.inverse_functions import PI, angle_of
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import shown_number, whole_number
@@ -210,8 +210,7 @@ def _check_borders(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Gene
             fail(f"vertex {k} at {place} is {least[at]} from its sites, but its radius is {cells.radius[k]}")
     source, target = cells.vertices[cells.arcs[border, 0]], cells.vertices[cells.arcs[border, 1]]
     control = np.where(cells.is_parabola[border, None], cells.control[border], (source + target) / 2)
-    far = control - source
-    slack = sites.tolerance + ROUNDING * np.sqrt((far * far).sum(axis=1))
+    slack = sites.tolerance + ROUNDING * norms(control - source)
     for t in _ALONG:
         place = (1 - t) * (1 - t) * source + 2 * t * (1 - t) * control + t * t * target
         least = sites.least(place)

@@ -173,23 +173,26 @@ class RingArrays:
         made = RingArrays(self.xy[vertices], self.sizes[rings], self.kind[rings], self.rings[chosen])
         return made, rings, vertices
 
-    def bare(self) -> PolygonSet:
-        """Make a set of polygons without a description."""
-        return PolygonSet(self.xy, starts_of(self.sizes), self.kind, owners(self.rings, np.int32))
+    def bare(self, **known: Any) -> PolygonSet:
+        """Make a set of polygons of which no more is known than this."""
+        return PolygonSet(self.xy, starts_of(self.sizes), self.kind, owners(self.rings, np.int32), **known)
 
-    def polygons(self, given: PolygonSet, source: NDArray[Any]) -> PolygonSet:
+    def polygons(self, given: PolygonSet, source: NDArray[Any], **others: Any) -> PolygonSet:
         """Make a set of polygons that are described as those of another set: ids, features, properties and index."""
         own = source.tolist()
+        known: dict[str, Any] = {
+            "ids": None if given.ids is None else [given.ids[k] for k in own],
+            "feature": given.feature[source],
+            "properties": {name: [values[k] for k in own] for name, values in given.properties.items()},
+            "index": index_of_rows(given.index, source),
+        }
         return replace(
             given,
             xy=self.xy,
             ring_starts=starts_of(self.sizes),
             ring_kind=self.kind,
             ring_polygon=owners(self.rings),
-            ids=None if given.ids is None else [given.ids[k] for k in own],
-            feature=given.feature[source],
-            properties={name: [values[k] for k in own] for name, values in given.properties.items()},
-            index=index_of_rows(given.index, source),
+            **(known | others),
         )
 
 
