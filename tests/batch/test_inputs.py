@@ -8,6 +8,7 @@ import sys
 
 import pytest
 
+from support.refusals import refused
 from vorotool import InputError, UsageError
 from vorotool.batch.inputs import Input, expand_inputs, read_names
 from vorotool.jobs.inputs import is_several
@@ -74,8 +75,7 @@ def test_a_link_that_is_named_is_followed(linked):
 
 def test_a_pattern_for_folders_matches_links_on_request(linked):
     notes = []
-    with pytest.raises(InputError, match="3 links to folders"):
-        expanded("a/*/b/*.csv", note=notes.append)
+    refused(InputError, "3 links to folders", expanded, "a/*/b/*.csv", note=notes.append)
     assert expanded("a/*/b/*.csv", follow=True) == LINKED[1:]
 
 
@@ -160,11 +160,8 @@ def test_what_stands_for_several(folder):
 def test_nothing_is_said_in_words(folder):
     (folder / "empty").mkdir()
     for name, words in (("empty", "empty holds no file in a supported format (csv)"), ("x*", "no file matches x*")):
-        with pytest.raises(InputError) as caught:
-            expanded(name)
-        assert words in str(caught.value)
-    with pytest.raises(UsageError, match="standard input"):
-        expanded("a", "-")
+        refused(InputError, words, expanded, name)
+    refused(UsageError, "standard input", expanded, "a", "-")
 
 
 def test_what_is_no_file_is_left_out_and_said(folder):
@@ -178,8 +175,7 @@ def test_what_is_no_file_is_left_out_and_said(folder):
         assert expanded(name, note=notes.append) == [("a/1.csv", "1.csv")]
         assert notes[:3] == words
     for name in ("a/0.csv", "/dev/stdin"):
-        with pytest.raises(UsageError, match=name):
-            expanded(name, "b")
+        refused(UsageError, name, expanded, name, "b")
 
 
 def test_a_list_that_comes_through_a_pipe(folder):
@@ -197,8 +193,7 @@ def test_a_folder_without_permission(folder, monkeypatch):
         raise PermissionError(13, "Permission denied", path)
 
     monkeypatch.setattr("os.listdir", listdir)
-    with pytest.raises(InputError, match="the folder a cannot be read: Permission denied"):
-        expanded("a")
+    refused(InputError, "the folder a cannot be read: Permission denied", expanded, "a")
 
 
 def test_lists_of_names(folder, monkeypatch):
@@ -208,8 +203,6 @@ def test_lists_of_names(folder, monkeypatch):
     assert read_names("list0", null=True) == ["two\nlines", "\udcff.csv"]
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"z.csv\n")))
     assert read_names("-") == ["z.csv"]
-    with pytest.raises(InputError, match="the list missing cannot be read"):
-        read_names("missing")
-    with pytest.raises(InputError, match="give -0"):
-        read_names("list0")
+    refused(InputError, "the list missing cannot be read", read_names, "missing")
+    refused(InputError, "give -0", read_names, "list0")
     assert expand_inputs(["z.csv"], extensions=[]) == [Input("z.csv", "z.csv")]

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from support.refusals import refused
 from vorotool import OutputError
 from vorotool.batch.manifest import Manifest, digest_of_values, read_history
 from vorotool.batch.tasks import Outcome, Task, carry_out, digest_of
@@ -121,8 +122,7 @@ def test_a_full_disk_is_not_passed_over(manifest, monkeypatch):
         monkeypatch.setattr(
             manifest, "_file", SimpleNamespace(write=lambda line: len(line) - 3, close=manifest._file.close)
         )
-        with pytest.raises(OutputError, match="No space left on device"):
-            manifest.add(Task("a", ()), DONE)
+        refused(OutputError, "No space left on device", manifest.add, Task("a", ()), DONE)
 
 
 def test_options_have_one_digest():

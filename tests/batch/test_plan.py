@@ -4,6 +4,7 @@ import os
 
 import pytest
 
+from support.refusals import refused
 from vorotool import OutputError, UsageError
 from vorotool.batch.inputs import Input
 from vorotool.batch.plan import check_outputs, output_paths, share
@@ -20,19 +21,16 @@ def test_names_of_outputs():
 
 def test_two_inputs_with_one_output(tmp_path):
     tasks = [Task("x/a.png", (f"{tmp_path}/a.csv",)), Task("y/a.tif", (f"{tmp_path}/a.csv",))]
-    with pytest.raises(UsageError, match=r"x/a\.png"):
-        check_outputs(tasks, tmp_path, {}, {})
+    refused(UsageError, r"x/a\.png", check_outputs, tasks, tmp_path, {}, {})
     check_outputs(tasks[:1], tmp_path, {"--stats": "-"}, {})
-    with pytest.raises(UsageError, match=r"x/a\.png"):
-        check_outputs(tasks[:1], tmp_path, {"--table": f"{tmp_path}/b/../a.csv"}, {})
+    refused(UsageError, r"x/a\.png", check_outputs, tasks[:1], tmp_path, {"--table": f"{tmp_path}/b/../a.csv"}, {})
 
 
 def test_capitals_are_no_difference_on_macos(tmp_path, monkeypatch):
     tasks = [Task("a.png", (f"{tmp_path}/a.csv",)), Task("A.tif", (f"{tmp_path}/A.csv",))]
     check_outputs(tasks, tmp_path, {}, {})
     monkeypatch.setattr("sys.platform", "darwin")
-    with pytest.raises(UsageError, match="both"):
-        check_outputs(tasks, tmp_path, {}, {})
+    refused(UsageError, "both", check_outputs, tasks, tmp_path, {}, {})
 
 
 @pytest.mark.parametrize("link", [os.link, os.symlink])
@@ -40,8 +38,7 @@ def test_an_output_that_is_an_input(tmp_path, link):
     (tmp_path / "a.csv").write_text("x")
     link(tmp_path / "a.csv", tmp_path / "b.csv")
     task = Task(str(tmp_path / "a.csv"), (str(tmp_path / "b.csv"),))
-    with pytest.raises(UsageError, match=r"b\.csv"):
-        check_outputs([task], tmp_path, {}, {})
+    refused(UsageError, r"b\.csv", check_outputs, [task], tmp_path, {}, {})
     with pytest.raises(UsageError, match=r"--stats"):
         check_outputs([Task(task.source, ())], tmp_path, {"--stats": str(tmp_path / "b.csv")}, {})
 

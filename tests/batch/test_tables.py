@@ -1,12 +1,11 @@
 """The table of all inputs holds the rows of each."""
 
-import io
 import json
 
 import numpy as np
 import pytest
 
-from support.readers.written import rows_of
+from support.readers.written import bytes_of, rows_of
 from vorotool.batch.tables import join_tables
 from vorotool.formats.text.tables import write_table
 from vorotool.types.table import Table
@@ -23,9 +22,7 @@ def joined(folder, tables, fmt, names="abcdef"):
         with path.open("wb") as out:
             write_table(out, table, fmt)
         parts.append((name, str(path)))
-    out = io.BytesIO()
-    join_tables(out, dict(parts), fmt)
-    return out.getvalue(), [(folder / f"{name}.{fmt}").read_bytes() for name, _ in parts]
+    return bytes_of(join_tables, dict(parts), fmt), [(folder / f"{name}.{fmt}").read_bytes() for name, _ in parts]
 
 
 def test_rows_are_the_same_bytes(tmp_path):
@@ -84,9 +81,7 @@ def test_no_rows(tmp_path, fmt):
 def test_names_that_are_no_text(tmp_path):
     path = tmp_path / "a.csv"
     path.write_bytes(b"label\n1\n")
-    out = io.BytesIO()
-    join_tables(out, {"\udcff,b": str(path)}, "csv")
-    assert out.getvalue() == b'input,label\n"\xff,b",1\n'
+    assert bytes_of(join_tables, {"\udcff,b": str(path)}, "csv") == b'input,label\n"\xff,b",1\n'
 
 
 def test_long_fields(tmp_path):

@@ -5,7 +5,6 @@ import os
 import pytest
 
 from support.processes.ended import ended_python
-from vorotool.errors import Kind, Message
 
 
 def test_quiet_wins(run, folder):
@@ -28,31 +27,20 @@ def test_an_input_of_a_batch_whose_name_is_in_the_warning_is_named_all_the_same(
     assert [line.split(" of 2 seeds lie ")[0] for line in said] == ["warning: other: 1", "warning: seeds: 1"]
 
 
-def test_a_message_keeps_what_it_is_about_on_its_way_from_another_process():
-    import pickle
-
-    said = pickle.loads(pickle.dumps(Message("a: b", Kind.DEGREES, source="a")))
-    assert (said, said.kind, said.source) == ("a: b", Kind.DEGREES, "a")
-
-
 def test_advice_names_the_option_of_the_output(run, folder):
     """``-o`` is no help where the statistics or the table could not be written."""
-    (folder / "have.json").write_text("{}")
-    (folder / "have.csv").write_text("a")
-    run("delaunay dots.csv -o a.csv --stats have.json --no-clobber", code=4, says="--stats")
+    for name in ("have.json", "have.csv"):
+        (folder / name).write_text("{}")
     (folder / "more.csv").write_bytes((folder / "dots.csv").read_bytes())
+    run("delaunay dots.csv -o a.csv --stats have.json --no-clobber", code=4, says="--stats")
     run("delaunay dots.csv more.csv --table have.csv --no-clobber", code=4, says="--table")
-    done = run("delaunay dots.csv -o a.csv --stats /proc/s.json", code=4)
-    words = "error: /proc/s.json cannot be written: no file can be created in /proc; write elsewhere with --stats\n"
-    assert done.err == words
-
-
-@pytest.mark.parametrize("name", ["/dev/fd/foo", "/proc/x.csv"])
-def test_a_folder_of_the_system_that_holds_no_files(run, folder, name):
-    done = run(f"delaunay dots.csv -f csv -o {name}", code=4)
-    place = name.rpartition("/")[0]
-    words = f"error: {name} cannot be written: no file can be created in {place}; write elsewhere with -o\n"
-    assert done.err == words
+    for options, option, name in (
+        ("-o a.csv --stats /proc/s.json", "--stats", "/proc/s.json"),
+        ("-f csv -o /dev/fd/foo", "-o", "/dev/fd/foo"),
+    ):
+        place = name.rpartition("/")[0]
+        words = f"error: {name} cannot be written: no file can be created in {place}; write elsewhere with {option}\n"
+        assert run(f"delaunay dots.csv {options}", code=4).err == words
 
 
 def test_arrays_of_a_skeleton_are_no_points(run, folder):

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from support.refusals import refused
 from vorotool.errors import UsageError
 from vorotool.jobs.options import Options
 from vorotool.jobs.refusals import check_options
@@ -60,16 +61,14 @@ def test_what_excludes_each_other(rule):
     for command in rule.commands.split():
         for one in filter(lambda each: is_known(command, each), rule.these.split()):
             for other in filter(lambda each: is_known(command, each), rule.others.split()):
-                with pytest.raises(UsageError, match="cannot be combined with"):
-                    check(command, one, other)
+                refused(UsageError, "cannot be combined with", check, command, one, other)
 
 
 @pytest.mark.parametrize("rule", NEEDING, ids=lambda rule: f"{rule.these} {rule.others}"[:60])
 def test_what_needs_another(rule):
     for command in rule.commands.split():
         for one in filter(lambda each: is_known(command, each), rule.these.split()):
-            with pytest.raises(UsageError, match=" needs "):
-                check(command, one)
+            refused(UsageError, " needs ", check, command, one)
 
 
 @pytest.mark.parametrize("command", PRODUCTS)
@@ -86,5 +85,4 @@ def test_options_of_some_results_are_refused_with_others(command):
 
 def test_layers_and_their_colors_are_those_of_the_picture():
     for values in ({"layers": ("roads",)}, {"colors": (("roads", "red"),)}, {"line_widths": (("roads", 2.0),)}):
-        with pytest.raises(UsageError, match="roads"):
-            check("delaunay", "edges.svg", **values)
+        refused(UsageError, "roads", check, "delaunay", "edges.svg", **values)

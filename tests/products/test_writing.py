@@ -4,6 +4,7 @@ import pytest
 
 import vorotool
 from support.readers.written import streamed, written
+from support.refusals import refused
 from vorotool.errors import OutputError, UsageError
 from vorotool.products.registry import parts_of, public_types
 from vorotool.products.writing import chosen_part
@@ -110,22 +111,19 @@ def test_the_part_that_a_format_is_for(name, fmt, what):
     ],
 )
 def test_what_there_is_not(name, fmt, what, message):
-    with pytest.raises(UsageError, match=message):
-        chosen_part(VALUES[name], fmt, what)
+    refused(UsageError, message, chosen_part, VALUES[name], fmt, what)
 
 
 def test_what_is_no_result():
     with pytest.raises(UsageError, match=r"a list cannot be written: give a LabelImage, Table, Triangulation, .* or "):
         vorotool.write([[0, 0]], "a.csv")
-    with pytest.raises(UsageError, match="PointSet"):
-        vorotool.to_geojson(vorotool.PointSet(POINTS))
+    refused(UsageError, "PointSet", vorotool.to_geojson, vorotool.PointSet(POINTS))
 
 
 def test_a_mistyped_result_or_layer_is_told(tmp_path):
     mesh = vorotool.delaunay(POINTS)
-    with pytest.raises(UsageError, match=r"what='edge' is not a result of a Triangulation: .*; did you mean edges\?$"):
-        vorotool.write(mesh, tmp_path / "a.csv", what="edge")
-    with pytest.raises(UsageError, match=r"the layer 'edgs' does not exist: .*; did you mean edges\?$"):
-        vorotool.write(mesh, tmp_path / "a.svg", layers=["edgs"])
-    with pytest.raises(UsageError, match=r"or table$"):
-        vorotool.write(mesh, tmp_path / "a.csv", what="x")
+    words = r"what='edge' is not a result of a Triangulation: .*; did you mean edges\?$"
+    refused(UsageError, words, vorotool.write, mesh, tmp_path / "a.csv", what="edge")
+    words = r"the layer 'edgs' does not exist: .*; did you mean edges\?$"
+    refused(UsageError, words, vorotool.write, mesh, tmp_path / "a.svg", layers=["edgs"])
+    refused(UsageError, r"or table$", vorotool.write, mesh, tmp_path / "a.csv", what="x")

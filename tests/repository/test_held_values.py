@@ -13,6 +13,7 @@ import zarr
 from numpy.random import default_rng
 
 import vorotool as v
+from support.refusals import refused
 from vorotool import InputError, UsageError
 
 XY = default_rng(7).permutation(np.stack(np.meshgrid(np.arange(3, 40, 6), np.arange(2, 30, 7)), axis=-1).reshape(-1, 2))
@@ -99,8 +100,7 @@ NO_POINTS = {
 )
 def test_what_are_no_points(function, form):
     call, name, _ = POINT_FUNCTIONS[function]
-    with pytest.raises(InputError, match=f"^invalid {name}: "):
-        call(NO_POINTS[form])
+    refused(InputError, f"^invalid {name}: ", call, NO_POINTS[form])
 
 
 # ---- polygons ----------------------------------------------------------------------------------------
@@ -139,8 +139,7 @@ def test_what_are_no_polygons(function, form):
     call, name, _ = POLYGON_FUNCTIONS[function]
     if (function, form) == ("clip", "None"):
         return  # that is the default
-    with pytest.raises(InputError, match=f"^invalid {name}: "):
-        call(NO_POLYGONS[form])
+    refused(InputError, f"^invalid {name}: ", call, NO_POLYGONS[form])
 
 
 @pytest.mark.parametrize("function", POLYGON_FUNCTIONS)
@@ -242,16 +241,14 @@ def test_what_is_no_image(function, form):
     call, name, _ = IMAGE_FUNCTIONS[function]
     if form == "stack" and function in VOLUME_FUNCTIONS:
         return  # it is a volume
-    with pytest.raises(InputError, match=f"^invalid {name}: "):
-        call(NO_IMAGES[form])
+    refused(InputError, f"^invalid {name}: ", call, NO_IMAGES[form])
 
 
 @pytest.mark.parametrize("function", sorted(IMAGE_FUNCTIONS.keys() - {"outlines", "seeds_from_raster"}))
 def test_grey_values_and_colors_name_the_threshold(function):
     call, name, _ = IMAGE_FUNCTIONS[function]
     for source in (LABELS / 2, np.zeros((9, 9, 3), np.uint8)):
-        with pytest.raises(InputError, match=f"^invalid {name}: .*threshold="):
-            call(source)
+        refused(InputError, f"^invalid {name}: .*threshold=", call, source)
 
 
 def _shown(made):
@@ -268,8 +265,7 @@ def test_narrow_arrays_of_integers_are_points_unless_they_are_said_to_be_images(
     as_given, as_points = function(narrow[[0, 2]]), function(narrow[[0, 2]].astype(float), image=False)
     for made, same in ((as_image, as_raster), (as_given, as_points)):
         assert _shown(made) == _shown(same)
-    with pytest.raises(UsageError, match="invalid image 2: expected True, False or None"):
-        function(narrow, image=2)
+    refused(UsageError, "invalid image 2: expected True, False or None", function, narrow, image=2)
 
 
 # ---- frames, index, imports ---------------------------------------------------------------------------
@@ -287,8 +283,7 @@ def test_frames(call):
     for frame in (v.Box(-5, -4, 55, 46), [-5, -4, 60, 50], np.array([-5, -4, 60, 50]), iter((-5.0, -4, 60, 50))):
         assert np.array_equal(call(frame), expected)
     for wrong in (5, "frame", (1, 2, 3), (0, 0, 1, "a"), (0, 0, 1, np.nan)):
-        with pytest.raises((InputError, UsageError), match=r"^invalid frame .*: expected a Box or four finite numbers"):
-            call(wrong)
+        refused((InputError, UsageError), r"^invalid frame .*: expected a Box or four finite numbers", call, wrong)
 
 
 def test_the_index_comes_back():
@@ -308,5 +303,4 @@ def test_places_of_centerlines():
     expected = v.centerline(skeleton, start=(2, 1), end=(11, 7)).length
     start, end = shapely.Point(2, 1), {"type": "Point", "coordinates": [11, 7]}
     assert v.centerline(skeleton, start=start, end=end).length == expected
-    with pytest.raises(InputError, match=r"^invalid end: point 1 is a Polygon"):
-        v.centerline(skeleton, start=start, end=HOUSE)
+    refused(InputError, r"^invalid end: point 1 is a Polygon", v.centerline, skeleton, start=start, end=HOUSE)

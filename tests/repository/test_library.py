@@ -5,6 +5,7 @@ import pytest
 import shapely
 
 import vorotool
+from support.refusals import refused
 from vorotool.errors import InputError, UsageError
 
 POINTS = [[1, 1], [5, 3]]
@@ -36,8 +37,7 @@ def test_out(method, out):
     ],
 )
 def test_options(options, message):
-    with pytest.raises(UsageError, match=message):
-        vorotool.tessellate(POINTS, **{"shape": SHAPE, **options})
+    refused(UsageError, message, vorotool.tessellate, POINTS, **{"shape": SHAPE, **options})
 
 
 def test_empty_points_are_left_out_with_a_warning():
@@ -57,8 +57,7 @@ def test_empty_points_are_left_out_with_a_warning():
     ],
 )
 def test_geometry_that_is_no_point(geometry, message):
-    with pytest.raises(InputError, match=message):
-        vorotool.tessellate(geometry, shape=SHAPE)
+    refused(InputError, message, vorotool.tessellate, geometry, shape=SHAPE)
 
 
 def test_arrays_are_taken_for_images():
@@ -69,16 +68,12 @@ def test_arrays_are_taken_for_images():
     assert vorotool.neighbor_table(image).rows == 0
     assert vorotool.color_regions(image).tolist() == [0, 1]
     for function in (vorotool.region_table, vorotool.neighbor_table, vorotool.color_regions):
-        with pytest.raises(InputError, match=r"^invalid image: expected truth values or integers"):
-            function(np.ones((2, 2)))
-    with pytest.raises(InputError, match=r"^invalid raster: expected an image"):
-        vorotool.seeds_from_raster([["a", "b"]])
+        refused(InputError, r"^invalid image: expected truth values or integers", function, np.ones((2, 2)))
+    refused(InputError, r"^invalid raster: expected an image", vorotool.seeds_from_raster, [["a", "b"]])
     with pytest.raises(InputError, match=r"^invalid image: expected a LabelImage of vorotool\.tessellate"):
         vorotool.verify_tessellation(image)
-    with pytest.raises(UsageError, match="no seeds"):
-        vorotool.verify_tessellation(vorotool.LabelImage(np.array(image)))
-    with pytest.raises(InputError, match="is a list"):
-        vorotool.voronoi_diagram(image, out=[[0] * 3] * 2)
+    refused(UsageError, "no seeds", vorotool.verify_tessellation, vorotool.LabelImage(np.array(image)))
+    refused(InputError, "is a list", vorotool.voronoi_diagram, image, out=[[0] * 3] * 2)
 
 
 @pytest.mark.parametrize(
@@ -98,28 +93,23 @@ def test_arrays_are_taken_for_images():
     ],
 )
 def test_seeds_that_are_no_integers(x, labels, message):
-    with pytest.raises(InputError, match=message):
-        vorotool.SeedSet(x, [1, 2], labels)
+    refused(InputError, message, vorotool.SeedSet, x, [1, 2], labels)
 
 
 def test_points_that_are_none():
-    with pytest.raises(InputError, match="array of numbers"):
-        vorotool.PointSet([["a", "b"]])
-    with pytest.raises(InputError, match=r"label of point 1 is 1\.5"):
-        vorotool.PointSet(POINTS, labels=[1.5, 2])
+    refused(InputError, "array of numbers", vorotool.PointSet, [["a", "b"]])
+    refused(InputError, r"label of point 1 is 1\.5", vorotool.PointSet, POINTS, labels=[1.5, 2])
 
 
 @pytest.mark.parametrize("path", [5, None, b"data/dots.csv", [[0, 0], [1, 1]]])
 def test_paths_that_are_none(path):
-    with pytest.raises(InputError, match="is not a path: give the name of a file"):
-        vorotool.read(path)
+    refused(InputError, "is not a path: give the name of a file", vorotool.read, path)
 
 
 def test_reading_and_writing(tmp_path):
     (tmp_path / "a.csv").write_text("1,2\n")
     for threads in (-1, None):
-        with pytest.raises(UsageError, match="threads is"):
-            vorotool.read(tmp_path / "a.csv", threads=threads)
+        refused(UsageError, "threads is", vorotool.read, tmp_path / "a.csv", threads=threads)
     image = vorotool.tessellate(POINTS, shape=SHAPE)
     for target in ({"path": tmp_path / "a.svg"}, {"path": tmp_path / "b", "fmt": "svg"}):
         vorotool.write(image, **target)

@@ -1,12 +1,12 @@
 """What counts from 0 and what from 1, as the reference of the library states it."""
 
 import io
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import vorotool
+from support.readers.written import bytes_of
 from vorotool.products.registry import parts_of
 from vorotool.products.writing import write_product
 
@@ -17,9 +17,7 @@ SHAPE = vorotool.alpha_shape(MESH.points, r=3)
 
 
 def written(value, what, fmt):
-    out = io.BytesIO()
-    write_product(out, value, parts_of(value)[what], fmt)
-    return out.getvalue()
+    return bytes_of(write_product, value, parts_of(value)[what], fmt)
 
 
 def test_index_arrays_of_values_count_from_0():
@@ -62,22 +60,3 @@ def test_columns_of_labels_count_from_1_and_all_others_from_0(table):
 def test_npz_has_the_columns_of_the_tables(what, expected):
     with np.load(io.BytesIO(written(MESH, what, "npz"))) as arrays:
         assert np.array_equal(np.stack([arrays[name] for name in arrays if name.startswith("label")], axis=1), expected)
-
-
-def test_npz_of_a_skeleton_has_its_index_arrays():
-    with np.load(io.BytesIO(written(SKELETON, "skeleton", "npz"))) as arrays:
-        assert np.array_equal(np.stack([arrays["arc_source"], arrays["arc_target"]], axis=1), SKELETON.arcs)
-        assert np.array_equal(np.stack([arrays["arc_site_a"], arrays["arc_site_b"]], axis=1), SKELETON.sites)
-
-
-def test_formats_of_others_number_from_1():
-    rows = [line.split() for line in written(MESH, "triangles", "ele").decode().splitlines()[1:]]
-    assert np.array_equal(np.array(rows, int)[:, 1:], MESH.triangles + 1)
-    assert [row[0] for row in rows] == ["1", "2"]
-    faces = [line.split()[1:] for line in written(MESH, "triangles", "obj").decode().splitlines() if line[0] == "f"]
-    assert np.array_equal(np.array(faces, int), MESH.triangles + 1)
-
-
-def test_the_reference_states_it():
-    page = (Path(__file__).parents[2] / "docs" / "reference" / "python" / "index.md").read_text(encoding="utf-8")
-    assert "\n## Numbering\n" in page

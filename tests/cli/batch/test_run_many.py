@@ -141,14 +141,8 @@ def test_failures_are_told(run, inputs):
 def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
     shared = ("delaunay", "points", "--table", "all.csv", "--stats", "stats.json")
     for part in (1, 2):
-        run(
-            *shared,
-            "--out-dir",
-            "parts",
-            "--shard",
-            f"{part}/2",
-            says=[f"all.{part}-of-2.csv", f"stats.{part}-of-2.json"],
-        )
+        told = [f"all.{part}-of-2.csv", f"stats.{part}-of-2.json"]
+        run(*shared, "--out-dir", "parts", "--shard", f"{part}/2", says=told)
     assert not (inputs / "all.csv").exists()
     tables = [(inputs / f"all.{part}-of-2.csv").read_text().splitlines() for part in (1, 2)]
     counts = [json.loads((inputs / f"stats.{part}-of-2.json").read_text())["inputs"] for part in (1, 2)]

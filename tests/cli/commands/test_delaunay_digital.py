@@ -11,7 +11,7 @@ from vorotool.engines.digital import triangulation as engine
 
 DATA = Path(__file__).parents[3] / "data"
 DOTS = DATA / "dots.csv"
-FRAME = ("--size", "512x512")
+FRAME = "--size 512x512"
 
 
 def pairs(text):
@@ -32,9 +32,7 @@ def test_regions_of_images_are_linked(run, folder):
 @pytest.mark.parametrize("what", ["edges", "triangles", "table", "cells"])
 def test_the_repair_gives_the_exact_result(run, what):
     exact = run(f"delaunay {DOTS} --what {what}")
-    done = run(
-        f"delaunay {DOTS}", *FRAME, "--method", "digital-valid", "--what", what, "--verify", "--stats", "stats.json"
-    )
+    done = run(f"delaunay {DOTS} {FRAME} --method digital-valid --what {what} --verify --stats stats.json")
     assert done.err == ""
     assert done.out == exact.out
     repair = json.loads(Path("stats.json").read_text())["repair"]
@@ -64,7 +62,7 @@ def test_objects_cannot_be_repaired(run):
 
 def test_a_failed_certificate_is_said(run, monkeypatch):
     monkeypatch.setattr(engine._core.delaunay, "find_fault", lambda *_, **__: "a side is wrong")
-    done = run(f"delaunay {DOTS}", *FRAME, "--method", "digital-valid", "--stats", "stats.json")
+    done = run(f"delaunay {DOTS} {FRAME} --method digital-valid --stats stats.json")
     assert done.err.startswith("warning: the digital triangulation could not be repaired")
     assert done.out == run(f"delaunay {DOTS}").out
     stats = json.loads(Path("stats.json").read_text())
@@ -73,7 +71,7 @@ def test_a_failed_certificate_is_said(run, monkeypatch):
 
 
 def test_compare(run):
-    done = run(f"delaunay {DOTS}", *FRAME, "--what", "compare", "--stats", "stats.json")
+    done = run(f"delaunay {DOTS} {FRAME} --what compare --stats stats.json")
     table = done.rows
     assert list(table[0]) == ["kind", "difference", "label_a", "label_b", "label_c", "cause", "voronoi_length"]
     comparison = vorotool.compare_digital(vorotool.read(DOTS), shape=(512, 512))
@@ -84,14 +82,13 @@ def test_compare(run):
     assert stats["edge_recall"] == comparison.edge_recall
     assert stats["suggestion"] in done.err
     for fmt in ("json", "npz"):
-        assert run(f"delaunay {DOTS}", *FRAME, "--what", "compare", "-q", "-o", f"a.{fmt}").err == ""
+        assert run(f"delaunay {DOTS} {FRAME} --what compare -q -o a.{fmt}").err == ""
     assert len(json.loads(Path("a.json").read_text())) == 30
 
 
 def test_limits_and_bad_input(run, folder):
-    run(f"delaunay {DOTS}", *FRAME, "--method", "digital-valid", "--max-pixels", "1000", code=5)
-    run(f"delaunay {DOTS}", *FRAME, "--what", "compare", "--max-pixels", "1000", code=5)
-    run(f"delaunay {DOTS}", *FRAME, "--method", "digital", "--max-pixels", "1000")  # streamed
+    for options, code in (("--what compare", 5), ("--method digital-valid", 5), ("--method digital", 0)):
+        run(f"delaunay {DOTS} {FRAME} {options} --max-pixels 1000", code=code)  # the last is streamed
     (folder / "low.csv").write_text("x,y\n-3,2\n5,2\n")
     run("delaunay low.csv --method digital", code=3, says="--window")
     run("delaunay low.csv --method digital --window -5,0,20,9")

@@ -18,9 +18,8 @@ def test_persistence_is_that_of_the_library(run, folder):
     assert [row["into"] for row in done.rows] == [str(k + 1) if k >= 0 else "" for k in found.into.tolist()]
     assert run(f"alphashape {DOTS} --what persistence -o p.svg -q").err == ""
     assert (folder / "p.svg").read_text().count("<rect") == min(len(found), 40) + 1
-    scaled = run(
-        f"alphashape {DOTS} --what persistence --pixel-size 2mm", says=f"apart below r = {2 * found.apart_until!r}"
-    )
+    words = f"apart below r = {2 * found.apart_until!r}"
+    scaled = run(f"alphashape {DOTS} --what persistence --pixel-size 2mm", says=words)
     assert [float(row["birth"]) for row in scaled.rows] == (2 * found.birth).tolist()
 
 

@@ -52,17 +52,8 @@ def test_a_batch_of_fields_with_few_objects_goes_on(run, fields):
     ],
 )
 def test_every_output_of_an_empty_shape_is_written(run, fields, name, reason, options):
-    run(
-        f"alphashape {name}",
-        *options,
-        "-o",
-        "shape",
-        "--verify",
-        "--stats",
-        "stats.json",
-        *(() if "-f" in options else ("-f", "geojson" if "hull" in options else "csv")),
-        says=reason,
-    )
+    fmt = () if "-f" in options else ("-f", "geojson" if "hull" in options else "csv")
+    run(f"alphashape {name} --verify --stats stats.json -o shape", *options, *fmt, says=reason)
     stats = json.loads((fields / "stats.json").read_text())
     assert (stats["r"], stats["alpha"], stats["boundary_edges"], stats["singular_edges"]) == (None, None, 0, 0)
     assert (fields / "shape").stat().st_size > 0 or "wkt" in options  # which has nothing to say

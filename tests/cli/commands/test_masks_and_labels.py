@@ -54,11 +54,8 @@ def test_a_batch_of_fields_goes_on_without_foreground(run, fields):
 
 @pytest.mark.parametrize("what", ["distance", "distance2", "labels,distance"])
 def test_distances_to_nothing_do_not_exist(run, fields, what):
-    run(
-        f"tessellate empty.npy --what {what} --out-dir out -f npy",
-        code=3,
-        says="error: empty.npy: the image has no foreground",
-    )
+    words = "error: empty.npy: the image has no foreground"
+    run(f"tessellate empty.npy --what {what} --out-dir out -f npy", code=3, says=words)
     assert not list(fields.rglob("out/*.npy"))
 
 

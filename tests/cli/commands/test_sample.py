@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from support.refusals import refused
 from vorotool import UsageError
 from vorotool.formats import read, sample
 from vorotool.products.samples import SAMPLES
@@ -55,8 +56,7 @@ def test_what_cannot_be_written(run, words, code, named):
 
 def test_the_library_refuses_other_names():
     for name in ("", "dot", "DOTS", "nuclei.ome.", "samples/dots.csv"):
-        with pytest.raises(UsageError, match="sample"):
-            sample(name)
+        refused(UsageError, "sample", sample, name)
 
 
 @pytest.mark.parametrize("folder", [None, "new/folder"])

@@ -5,19 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from support.readers.written import rows_of
-
 DATA = Path(__file__).parents[3] / "data"
 SHAPES = str(DATA / "two-shapes.json")
-
-
-def test_a_step_and_its_bound(run, folder):
-    done = run(f"skeleton-approx {SHAPES} --step 2 -o a.csv --verify --stats a.json")
-    assert done.err == ""
-    rows = rows_of((folder / "a.csv").read_text())
-    assert {row["kind"] for row in rows} == {"line"}
-    assert len(rows) > 100
-    assert json.loads((folder / "a.json").read_text())["arcs"] == len(rows)
 
 
 @pytest.mark.parametrize("options", [[], ["--stats", "a.json", "--what", "elements"]])

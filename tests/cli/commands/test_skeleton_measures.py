@@ -10,7 +10,7 @@ import shapely
 import vorotool
 
 DATA = Path(__file__).parents[3] / "data"
-SHAPES, CELLS = DATA / "two-shapes.json", DATA / "cells.png"
+SHAPES = DATA / "two-shapes.json"
 COMMANDS = {"skeleton-exact": [], "skeleton-approx": ["--tolerance", "0.1"]}
 
 

@@ -4,47 +4,11 @@ import io
 import json
 
 import numpy as np
-import pytest
-from PIL import Image
 
 from support.oracles.oracles import nearest_labels, nearest_squares
-from vorotool.jobs.options import Options
-from vorotool.jobs.targets import plan_targets
 
 X, Y = [2, 7, 1], [1, 5, 6]
 LABELS = nearest_labels(X, Y, [1, 2, 3], (0, 0, 8, 7))
-
-
-def read_image(path):
-    if path.suffix == ".npy":
-        return np.load(path)
-    if path.suffix == ".txt":
-        return np.loadtxt(path, dtype=int)
-    if path.suffix == ".tif":
-        import tifffile
-
-        return tifffile.imread(path)
-    return np.asarray(Image.open(path))
-
-
-@pytest.mark.parametrize("extension", ["png", "tif", "npy", "txt"])
-def test_labels(run, folder, extension):
-    done = run(f"tessellate dots.csv -o labels.{extension} --verify")
-    assert done.out == ""
-    found = read_image(folder / f"labels.{extension}")
-    np.testing.assert_array_equal(found, LABELS)
-    if extension != "txt":
-        assert found.dtype in (np.uint16, np.int32)
-
-
-@pytest.mark.parametrize("extension", ["tif", "npy"])
-def test_distances(run, folder, extension):
-    squares = nearest_squares(X, Y, (0, 0, 8, 7))
-    run(f"tessellate dots.csv --what distance,distance2 -o d.{extension}")
-    np.testing.assert_array_equal(read_image(folder / f"d.distance2.{extension}"), squares)
-    found = read_image(folder / f"d.distance.{extension}")
-    assert found.dtype == np.float32
-    np.testing.assert_array_equal(found, np.sqrt(squares).astype(np.float32))
 
 
 def test_table_has_the_columns_of_the_input(run, folder):
@@ -114,19 +78,3 @@ def test_window_and_distance(run, folder):
     done = run("tessellate dots.csv --window -2,-1,9,5 --max-distance 2.5 -f text")
     right = nearest_labels(X, Y, [1, 2, 3], (-2, -1, 9, 5), most_squared=6.25)
     np.testing.assert_array_equal(np.loadtxt(io.StringIO(done.out), dtype=int), right)
-
-
-@pytest.mark.parametrize(
-    ("what", "options", "expected"),
-    [
-        (["labels"], {"output": "a.tif"}, [("a.tif", "tiff")]),
-        (["labels"], {"output": "a", "fmt": "npy"}, [("a", "npy")]),
-        (["labels"], {"fmt": "txt"}, [("-", "text")]),
-        (["table"], {}, [("-", "csv")]),
-        (["labels", "table"], {"out_dir": "d"}, [("d/in.labels.png", "png"), ("d/in.table.csv", "csv")]),
-    ],
-)
-def test_targets(what, options, expected):
-    given = {"format" if name == "fmt" else name: value for name, value in options.items()}
-    found = plan_targets(Options("tessellate", what=tuple(what), **given), "x/in.csv")
-    assert [(target.path, target.fmt) for target in found] == expected

@@ -11,7 +11,7 @@ from PIL import Image
 import vorotool
 
 DATA = Path(__file__).parents[3] / "data"
-BLOBS, CELLS, SHAPES = DATA / "blobs.png", DATA / "cells.png", DATA / "two-shapes.json"
+BLOBS = DATA / "blobs.png"
 
 
 @pytest.fixture(scope="module")

@@ -261,13 +261,9 @@ def test_lengths_in_degrees_are_refused(run, tmp_path):
         collection([{"type": "Polygon", "coordinates": [[[7, 47], [7.1, 47], [7, 47.1], [7, 47]]]}],
                    crs="urn:ogc:def:crs:OGC:1.3:CRS84")
     )  # fmt: skip
-    run(
-        "skeleton-exact in.geojson --what points --every 200m -f csv",
-        code=2,
-        says=["--every 200m", "in degrees (OGC:CRS84)", "--crs EPSG:32632"],
-    )
-    points = ["--what", "points", "--every", "200m", "-f", "csv"]
-    assert run("skeleton-exact in.geojson --crs EPSG:32632", *points).rows
+    line = "skeleton-exact in.geojson --what points --every 200m -f csv"
+    run(line, code=2, says=["--every 200m", "in degrees (OGC:CRS84)", "--crs EPSG:32632"])
+    assert run(f"{line} --crs EPSG:32632").rows
 
 
 # ---- what is told of units -----------------------------------------------------------------------

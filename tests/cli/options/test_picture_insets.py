@@ -42,11 +42,6 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-def read(path, mode="RGB"):
-    with Image.open(path) as image:
-        return np.asarray(image.convert(mode))
-
-
 def groups(text):
     return {group.get("id"): group for group in ET.fromstring(text).iter(f"{NS}g")}
 
@@ -131,9 +126,8 @@ def test_rounded_lengths():
 
 
 def test_longitude_and_latitude_have_no_bar_and_an_aspect(run, folder):
-    done = run(
-        "delaunay world.csv -f svg --scale-bar", says="no scale bar is drawn: the length of a degree of longitude"
-    )
+    words = "no scale bar is drawn: the length of a degree of longitude"
+    done = run("delaunay world.csv -f svg --scale-bar", says=words)
     assert "scale-bar" not in groups(done.out)
     root = ET.fromstring(done.out)
     aspect = 1 / math.cos(math.radians(62))

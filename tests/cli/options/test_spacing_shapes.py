@@ -83,11 +83,5 @@ def test_places_are_in_the_unit(run, masks):
         run(*args, "2,1.7875", "--to", "5,1.7875").out
         == "LINESTRING (2 1.7875, 2.725 1.7875, 4.275 1.7875, 5 1.7875)\n"
     )
-    run(
-        *args,
-        "2,2",
-        "--to",
-        "14,5",
-        code=3,
-        says=["leads from (80, 80) to (560, 200)", "(coordinates in steps of 1/40 um)"],
-    )
+    words = ["leads from (80, 80) to (560, 200)", "(coordinates in steps of 1/40 um)"]
+    run(*args, "2,2", "--to", "14,5", code=3, says=words)

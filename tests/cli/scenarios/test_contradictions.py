@@ -54,10 +54,8 @@ def test_volumes(run, tmp_path):
 def test_vectors(run, tmp_path):
     page = '<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm"><path d="M1 1h9v20z"/></svg>'
     (tmp_path / "in.svg").write_text(page)
-    run(
-        "skeleton-exact in.svg --pixel-size 1cm --what table -f csv",
-        says="--pixel-size 1cm contradicts in.svg, which has coordinates in mm",
-    )
+    words = "--pixel-size 1cm contradicts in.svg, which has coordinates in mm"
+    run("skeleton-exact in.svg --pixel-size 1cm --what table -f csv", says=words)
     run("skeleton-exact in.svg --pixel-size 1cm --what table --strict", code=3)
     assert "contradicts" not in run("skeleton-exact in.svg --pixel-size 0.1cm --what table").err
 

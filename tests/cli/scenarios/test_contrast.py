@@ -31,28 +31,27 @@ def test_edges_are_white_but_for_light_colors():
 @pytest.mark.parametrize(
     ("command", "color", "edge"),
     [
-        *((("tessellate", "--what", "color"), "white", "#222222"), (("delaunay",), "black", "#ffffff")),
-        (("voronoi",), "yellow", "#222222"),
+        ("tessellate --what color", "white", "#222222"),
+        ("delaunay", "black", "#ffffff"),
+        ("voronoi", "yellow", "#222222"),
     ],
 )
 def test_names_have_an_edge_of_another_lightness(run, tmp_path, mask, command, color, edge):
-    run(*command, mask, "--layers", "labels", "--color", f"labels={color}", "-o", "made.svg", "--background", "black")
-    labels = group(tmp_path / "made.svg", "labels")
-    assert labels.get("stroke") == edge
+    run(f"{command} {mask} --layers labels --color labels={color} -o made.svg --background black")
+    assert group(tmp_path / "made.svg", "labels").get("stroke") == edge
 
 
 @pytest.mark.parametrize(
     ("options", "color"),
     [
-        ((), "#222222"),
-        (("--background", "black"), "#ffffff"),
-        (("--color", "scale-bar=red"), "#ff0000"),
-        (("--color", "scale-bar=white", "--overlay", "mask.png"), "#ffffff"),
+        ("", "#222222"),
+        ("--background black", "#ffffff"),
+        ("--color scale-bar=red", "#ff0000"),
+        ("--color scale-bar=white --overlay mask.png", "#ffffff"),
     ],
 )
-@pytest.mark.parametrize("command", [("tessellate", "--what", "color")])
-def test_scale_bars_have_a_color(run, tmp_path, mask, command, options, color):
-    run(*command, mask, "--scale-bar", "--pixel-size", "0.5um", *options, "-o", "made.svg")
+def test_scale_bars_have_a_color(run, tmp_path, mask, options, color):
+    run(f"tessellate {mask} --what color --scale-bar --pixel-size 0.5um -o made.svg {options}")
     assert group(tmp_path / "made.svg", "scale-bar").get("stroke") == color
     assert group(tmp_path / "made.svg", "scale-bar-length").get("fill") == color
     assert group(tmp_path / "made.svg", "scale-bar-length").get("stroke") != color

@@ -2,8 +2,6 @@
 
 import gzip
 import os
-import subprocess
-import sys
 import threading
 from pathlib import Path
 
@@ -60,23 +58,6 @@ def test_from_a_logo_to_the_way_of_a_bit(run, folder):
 
 def test_notes(run, folder):
     (folder / "a.svg").write_text(NOISY)
-    done = run("draw a.svg -f svg")
-    for words in (
-        "1 closed line without a fill",
-        "1 hidden element",
-        "1 shape without fill and stroke",
-    ):
-        assert f"note: a.svg: {words}" in done.err
+    notes = ("1 closed line without a fill", "1 hidden element", "1 shape without fill and stroke")
+    run("draw a.svg -f svg", says=[f"note: a.svg: {words}" for words in notes])
     assert run("draw a.svg -f svg -q").err == ""
-
-
-@pytest.mark.parametrize(("arguments", "package"), [(["a.json", "-o", "a.dxf"], "ezdxf")])
-def test_without_the_extra(folder, arguments, package):
-    (folder / "a.json").write_text("[[0, 0], [4, 0], [0, 3]]")
-    script = f"import sys\nsys.modules[{package!r}] = None\nfrom vorotool.cli.main import main\n"
-    script += "main(['skeleton-exact', *sys.argv[1:]])"
-    command = [sys.executable, "-c", script, *arguments]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stderr.splitlines()[-1].endswith(f"need the package {package}: pip install 'vorotool[cad]'")
-    assert not (folder / "a.dxf").exists()

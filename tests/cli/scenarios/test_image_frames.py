@@ -37,12 +37,10 @@ def test_territories_of_an_image_fill_it(run, mask, command):
     assert sum(cell.area for cell in cells) == pytest.approx(WIDTH * HEIGHT, rel=1e-12)
 
 
-@pytest.mark.parametrize("command", [("skeleton-approx", "--step", "0.25")])
-def test_exteriors_end_at_the_image(run, mask, command):
-    done = run(*command, mask, "--side", "exterior", "-f", "geojson")
-    assert shapely.union_all(shapes(done.out)).bounds == PIXELS.bounds
-    done = run(*command, mask, "--side", "exterior", "-f", "json")
-    assert json.loads(done.out)["frame"] == [-0.5, -0.5, WIDTH, HEIGHT]
+def test_exteriors_end_at_the_image(run, mask):
+    line = f"skeleton-approx --step 0.25 {mask} --side exterior -f"
+    assert shapely.union_all(shapes(run(f"{line} geojson").out)).bounds == PIXELS.bounds
+    assert json.loads(run(f"{line} json").out)["frame"] == [-0.5, -0.5, WIDTH, HEIGHT]
 
 
 @pytest.mark.parametrize("command", ["voronoi", "delaunay"])

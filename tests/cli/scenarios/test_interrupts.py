@@ -13,6 +13,7 @@ import pytest
 
 from support.few import few
 from support.processes.leftovers import leftovers
+from support.refusals import refused
 from vorotool import signals
 
 HERE = "import os; import vorotool.__main__ as entry; os.write(1, b'.'); entry.main()"
@@ -126,8 +127,7 @@ def test_an_end_that_was_swallowed_does_not_come_after_the_run(monkeypatch):
         assert signals.settled(3) == 3
         time.sleep(50 * signals.MOMENT)
         sys.unraisablehook(SimpleNamespace(exc_value=SystemExit(143)))
-        with pytest.raises(SystemExit, match="143"):
-            time.sleep(50 * signals.MOMENT)
+        refused(SystemExit, "143", time.sleep, 50 * signals.MOMENT)
     finally:
         signals.settled(0)
         signal.signal(signal.SIGALRM, before)

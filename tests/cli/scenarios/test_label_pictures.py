@@ -10,6 +10,7 @@ from skimage.draw import disk
 from skimage.segmentation import find_boundaries
 
 import vorotool
+from support.refusals import refused
 from vorotool.render.canvas.styles import SEED
 
 NS = "{http://www.w3.org/2000/svg}"
@@ -93,8 +94,7 @@ def test_one_path_an_object(run, nuclei):
 )
 def test_the_library_refuses(tmp_path, looks, message):
     image = vorotool.tessellate([[1, 1], [5, 3]], shape=(50, 60))
-    with pytest.raises(vorotool.UsageError, match=message):
-        vorotool.write(image, tmp_path / "out.svg", **looks)
+    refused(vorotool.UsageError, message, vorotool.write, image, tmp_path / "out.svg", **looks)
     with pytest.raises(vorotool.UsageError, match=r"background applies to pictures: use fmt='svg'"):
         vorotool.write(image, tmp_path / "out.npy", background="red")
     assert not list(tmp_path.iterdir())

@@ -2,11 +2,11 @@
 
 import sqlite3
 
-import pytest
 import shapely
 
 import vorotool
 from support.families.vector_files import frame, load
+from support.refusals import refused
 from vorotool.errors import OutputError
 
 DOTS = "x,y\n0,0\n9,0\n0,9\n9,9\n4,5\n"
@@ -21,8 +21,7 @@ def test_other_layers_are_named_and_kept(run, tmp_path):
     run("delaunay dots.csv --what cells -o map.gpkg", code=4, says=["lakes, rivers", "--overwrite"])
     assert path.read_bytes() == before
     cells = vorotool.voronoi_cells([[0, 0], [9, 0], [0, 9]])
-    with pytest.raises(OutputError, match=r"lakes, rivers.*overwrite=True"):
-        vorotool.write(cells, path)
+    refused(OutputError, r"lakes, rivers.*overwrite=True", vorotool.write, cells, path)
     assert path.read_bytes() == before
     vorotool.write(cells, path, overwrite=True)
     assert len(load(path)) == 3
@@ -46,8 +45,7 @@ def test_a_file_that_another_program_writes(tmp_path):
     database.commit()
     before = path.read_bytes()
     for overwrite in (False, True):
-        with pytest.raises(OutputError, match=r"a\.gpkg-wal"):
-            vorotool.write(mesh, path, what="triangles", overwrite=overwrite)
+        refused(OutputError, r"a\.gpkg-wal", vorotool.write, mesh, path, what="triangles", overwrite=overwrite)
     assert path.read_bytes() == before
     database.close()
 

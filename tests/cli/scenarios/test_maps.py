@@ -2,8 +2,6 @@
 
 import json
 import os
-import subprocess
-import sys
 import threading
 
 import geopandas
@@ -11,6 +9,7 @@ import pytest
 import shapely
 
 from support.families.vector_files import DRIVERS, frame, load, save
+from support.processes.ended import ended_python
 
 FORMATS = list(DRIVERS)
 LAKES = [shapely.box(8.0, 47.0, 8.3, 47.1), shapely.box(8.5, 47.2, 8.55, 47.5)]
@@ -51,44 +50,51 @@ def test_points_and_what_they_are_clipped_to_are_brought_into_one_system(run, fo
     assert cells["n"].tolist() == [1, 2, 3, 4]
 
 
-@pytest.mark.parametrize("fmt", ["gpkg"])
-def test_streams_on_both_sides(run, process, lakes, fmt):
-    data = (lakes / f"lakes.{fmt}").read_bytes()
-    os.mkfifo(lakes / f"pipe.{fmt}")
-    feeder = threading.Thread(target=(lakes / f"pipe.{fmt}").write_bytes, args=(data,))
+def test_streams_on_both_sides(run, process, lakes):
+    data = (lakes / "lakes.gpkg").read_bytes()
+    os.mkfifo(lakes / "pipe.gpkg")
+    feeder = threading.Thread(target=(lakes / "pipe.gpkg").write_bytes, args=(data,))
     feeder.start()
-    started = process("skeleton-exact", f"pipe.{fmt}", "-q", "--with", "name", "-f", fmt, "-o", "/dev/stdout")
+    started = process("skeleton-exact", "pipe.gpkg", "-q", "--with", "name", "-f", "gpkg", "-o", "/dev/stdout")
     out, err = started.communicate(timeout=120)
     feeder.join()
     assert (started.returncode, err) == (0, b"")
-    (lakes / f"made.{fmt}").write_bytes(out)
-    assert set(load(lakes / f"made.{fmt}")["name"]) == {"Zugersee", "Aegerisee"}
-    run(f"skeleton-exact - -q --with name -o again.{fmt}", data=data)
-    assert (lakes / f"again.{fmt}").read_bytes() == out
+    (lakes / "made.gpkg").write_bytes(out)
+    assert set(load(lakes / "made.gpkg")["name"]) == {"Zugersee", "Aegerisee"}
+    run("skeleton-exact - -q --with name -o again.gpkg", data=data)
+    assert (lakes / "again.gpkg").read_bytes() == out
 
 
-WITHOUT = "import sys; sys.modules.update({name: None for name in %r}); from vorotool.cli.main import main; main(%r)"
+WITHOUT = """
+import sys
+from vorotool.cli.main import main
+for line, name in %r:
+    sys.modules.update({f"{name}{part}": None for part in ("", ".raw", ".parquet", f".{name}")})
+    try:
+        main(line.split())
+    except SystemExit as end:
+        print(end.code)
+"""
 
 
-@pytest.mark.parametrize(
-    ("arguments", "lacking", "message"),
-    [
-        (["skeleton-exact", "lakes.shp"], "pyogrio", "Shapefile files need the package pyogrio"),
+def test_what_lacks_is_named_with_the_way_to_get_it(lakes):
+    (lakes / "logo.svg").write_text("<svg/>")
+    cases = [
         (
-            ["delaunay", "dots.csv", "--input-crs", "EPSG:4326", "--crs", "EPSG:3857"],
+            "delaunay dots.csv --input-crs EPSG:4326 --crs EPSG:3857",
             "pyproj",
-            "other coordinate reference systems need the package pyproj",
+            "other coordinate reference systems",
+            "gis",
         ),
-    ],
-)
-def test_what_lacks_is_named_with_the_way_to_get_it(lakes, arguments, lacking, message):
-    names = [lacking, *(f"{lacking}.{part}" for part in ("raw", "parquet"))]
-    done = subprocess.run(
-        [sys.executable, "-c", WITHOUT % (names, arguments)], cwd=lakes, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 2
-    assert done.stderr.splitlines()[-1].startswith(f"error: {message}")
-    assert done.stderr.endswith(": pip install 'vorotool[gis]'\n")
+        ("skeleton-exact lakes.shp", "pyogrio", "Shapefile files", "gis"),
+        ("voronoi dots.csv -o a.dxf", "ezdxf", "DXF drawings", "cad"),
+        ("draw logo.svg -o a.svg", "svgelements", "SVG drawings", "cad"),
+    ]
+    done = ended_python("-c", WITHOUT % [case[:2] for case in cases], cwd=lakes)
+    assert done.stdout.split() == ["2"] * len(cases)
+    assert [line for line in done.stderr.splitlines() if line.startswith("error")] == [
+        f"error: {what} need the package {name}: pip install 'vorotool[{extra}]'" for _, name, what, extra in cases
+    ]
     assert not list(lakes.glob("a.*"))
 
 

@@ -50,19 +50,15 @@ COMMANDS = [
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_cleaned_scan_is_the_clean_mask(run, scans, command):
-    options = ["--threshold", "otsu", "--invert"]
-    source, options = ("specks.tif", []) if "contour" in command else ("scan.jpg", options)
-    cleaning = ["--min-area", "5", "--fill-holes"]
-    run(command, source, *options, *cleaning, "-q", "-o", "made.out")
-    run(command, "clean.tif", "-q", "-o", "clean.out")
+    source = "specks.tif" if "contour" in command else "scan.jpg --threshold otsu --invert"
+    run(f"{command} {source} --min-area 5 --fill-holes -q -o made.out")
+    run(f"{command} clean.tif -q -o clean.out")
     assert (scans / "made.out").read_bytes() == (scans / "clean.out").read_bytes()
 
 
 def test_what_is_left_out_is_told(run, scans):
-    run(
-        "tessellate specks.tif -o a.png --min-area 5 --stats s.json",
-        says="note: 3 of 5 objects have fewer than 5 pixels: dropped",
-    )
+    words = "note: 3 of 5 objects have fewer than 5 pixels: dropped"
+    run("tessellate specks.tif -o a.png --min-area 5 --stats s.json", says=words)
     assert json.loads((scans / "s.json").read_text())["small_objects"] == 3
     run("tessellate specks.tif -o a.png --fill-holes --stats s.json")
     assert json.loads((scans / "s.json").read_text())["filled_pixels"] == 49
@@ -75,10 +71,8 @@ def test_the_note_has_whole_pixels(run, scans):
 
 
 def test_images_beyond_memory_are_refused_with_a_way_out(run, scans, monkeypatch):
-    import vorotool.jobs.tessellation as streamed
-
-    monkeypatch.setattr(streamed, "LARGE", 100)
-    run("tessellate specks.tif -o a.tif --fill-holes --max-pixels 500", code=5, says=["--fill-holes", "--fill-holes"])
+    monkeypatch.setattr("vorotool.jobs.tessellation.LARGE", 100)
+    run("tessellate specks.tif -o a.tif --fill-holes --max-pixels 500", code=5, says="--fill-holes")
 
 
 @pytest.mark.parametrize(
@@ -97,21 +91,11 @@ def test_holes_of_at_most_an_area(run, scans, command, typed):
 
 
 def test_contours_of_grey_values_go_around_what_stays(run, scans):
-    options = ["skeleton-exact", "dark.png", "--threshold", "90", "--outline", "contour", "-f", "json"]
-    run(
-        *options,
-        "--min-area",
-        "5",
-        "--fill-holes",
-        "--stats",
-        "s.json",
-        "-o",
-        "a.json",
-        says="objects have fewer than 5 pixels: dropped",
-    )
+    line = "skeleton-exact dark.png --threshold 90 --outline contour -f json"
+    run(f"{line} --min-area 5 --fill-holes --stats s.json -o a.json", says="have fewer than 5 pixels: dropped")
     stats = json.loads((scans / "s.json").read_text())
     assert (stats["filled_pixels"], stats["small_objects"]) == (49, 2)
-    run(*options, "-o", "b.json")
+    run(f"{line} -o b.json")
     before, after = (json.loads((scans / name).read_text()) for name in ("b.json", "a.json"))
     shells = [{str(polygon["shell"]) for polygon in each["polygons"]} for each in (before, after)]
     assert shells[1] < shells[0]

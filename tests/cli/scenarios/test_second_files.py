@@ -56,10 +56,9 @@ def test_a_file_in_another_unit(run, tmp_path, first, second, option):
     assert sum(expected) == pytest.approx(40 * 50 if option == "--clip" else 150 * 150)
 
 
-@pytest.mark.parametrize("unit", ["in"])
-def test_drawings_state_theirs(run, tmp_path, unit):
+def test_drawings_state_theirs(run, tmp_path):
     (tmp_path / "in.geojson").write_text(text(SITES, "mm"))
-    dxf(tmp_path / "clip.dxf", scaled(CLIP, METERS["mm"] / METERS[unit]), unit)
+    dxf(tmp_path / "clip.dxf", scaled(CLIP, METERS["mm"] / METERS["in"]), "in")
     done = run("voronoi in.geojson --clip clip.dxf --what table -f csv")
     assert sum(areas(done)) == pytest.approx(40 * 50)
     points = [shapely.Point(xy) for xy in [(1, 2), (20, 30), (5, 40)]]
@@ -119,12 +118,11 @@ def test_a_unit_that_cannot_be_converted(run, tmp_path):
 
 
 # ---- distances -----------------------------------------------------------------------------------
-@pytest.mark.parametrize("second", ["in"])
-def test_distances_of_two_files(run, tmp_path, second):
+def test_distances_of_two_files(run, tmp_path):
     """3 mm apart, in whatever unit the second is."""
     (tmp_path / "a.geojson").write_text(text([shapely.box(0, 0, 4, 4)], "mm"))
-    b = scaled(shapely.box(7, 0, 9, 4), METERS["mm"] / METERS[second])
-    (tmp_path / "b.geojson").write_text(text([b], second))
+    b = scaled(shapely.box(7, 0, 9, 4), METERS["mm"] / METERS["in"])
+    (tmp_path / "b.geojson").write_text(text([b], "in"))
     done = run("distance a.geojson b.geojson --what smallest -f csv")
     assert float(done.rows[0]["distance"]) == pytest.approx(3, rel=1e-12)
     run("distance a.geojson b.geojson -o o.geojson -q")

@@ -5,6 +5,7 @@ import itertools
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import ezdxf
 import numpy as np
@@ -13,10 +14,10 @@ import shapely
 
 import vorotool
 from support.few import few
-from vorotool.errors import UsageError
+from support.readers.written import bytes_of
+from vorotool.convert.polygons import as_polygons
 from vorotool.products.registry import PRODUCTS, parts_of
 from vorotool.products.writing import write_product
-from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import to_shapely
 
 SHELL = [[0, 0], [40, 0], [40, 30], [22, 30], [20, 12], [18, 30], [0, 30]]
@@ -25,17 +26,11 @@ SHAPE = [{"shell": SHELL, "holes": [[[4, 4], [9, 4], [4, 9]]]}]
 
 def up(shapes):
     """Polygons with y upwards."""
-    from dataclasses import replace
-
-    from vorotool.convert.polygons import as_polygons
-
     return replace(as_polygons(shapes), y_axis="up")
 
 
 def written(value, what):
-    out = io.BytesIO()
-    write_product(out, value, parts_of(value)[what], "dxf")
-    return out.getvalue()
+    return bytes_of(write_product, value, parts_of(value)[what], "dxf")
 
 
 def opened(data):
@@ -133,13 +128,6 @@ def test_points_are_as_deep_as_they_are_far_from_the_border():
 
 
 # ---- what has no curves ----------------------------------------------------------------------------
-def test_shapes_return(tmp_path):
-    shapes = up(SHAPE)
-    vorotool.write(shapes, tmp_path / "a.dxf")
-    again = vorotool.read(tmp_path / "a.dxf")
-    assert isinstance(again, PolygonSet)
-    assert again.y_axis == "up"
-    assert shapely.equals(to_shapely(again)[0], to_shapely(shapes)[0])
 
 
 def test_layers_and_units_return(tmp_path):
@@ -156,27 +144,27 @@ def test_layers_and_units_return(tmp_path):
 
 
 def test_only_what_has_places_is_written():
-    def of(command):
-        return " ".join(what for what, each in PRODUCTS[command].items() if "dxf" in each.written)
-
     along = "skeleton diagram centerline offset shape discs points transects"
-    assert of("skeleton-exact") == f"{along} necks parts"
-    assert of("skeleton-approx") == along.replace("offset ", "").replace("discs ", "")
-    assert of("distance") == "distances hausdorff smallest"
-    assert of("delaunay") == "edges triangles cells"
-    assert of("alphashape") == "edges polygons complex general hull"
-    assert of("tessellate") == of("draw") == ""
+    for command, expected in {
+        "skeleton-exact": f"{along} necks parts",
+        "skeleton-approx": along.replace("offset ", "").replace("discs ", ""),
+        "distance": "distances hausdorff smallest",
+        "delaunay": "edges triangles cells",
+        "alphashape": "edges polygons complex general hull",
+        "tessellate": "",
+        "draw": "",
+    }.items():
+        assert " ".join(what for what, each in PRODUCTS[command].items() if "dxf" in each.written) == expected
 
 
 @pytest.mark.parametrize("name", few(["a<b>c", "", "\x07", "Ü", "x" * 400, "0", "Defpoints"], 3))
 def test_names_of_layers(name, tmp_path):
-    from dataclasses import replace
-
     shapes = replace(up([[[0, 0], [4, 0], [0, 3]]]), properties={"layer": [name]})
-    drawing = opened(written(shapes, "shape"))
-    assert len(drawing.modelspace()) == 1
-    (tmp_path / "a.dxf").write_bytes(written(shapes, "shape"))
-    assert len(vorotool.read(tmp_path / "a.dxf")) == 1
+    assert len(opened(written(shapes, "shape")).modelspace()) == 1
+    vorotool.write(shapes, tmp_path / "a.dxf")
+    again = vorotool.read(tmp_path / "a.dxf")
+    assert again.y_axis == "up"
+    assert shapely.equals(to_shapely(again)[0], to_shapely(shapes)[0])
 
 
 # ---- bytes -----------------------------------------------------------------------------------------
@@ -202,11 +190,3 @@ def test_the_same_bytes_each_time(tmp_path):
     assert len(set(made)) == 1
     assert ezdxf.__version__.encode() not in made[0]
     assert ezdxf.options.write_fixed_meta_data_for_testing is False
-
-
-def test_without_the_library(monkeypatch, tmp_path):
-    skeleton = vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]])
-    monkeypatch.setitem(sys.modules, "ezdxf", None)
-    with pytest.raises(UsageError, match=r"DXF drawings need the package ezdxf: pip install 'vorotool\[cad\]'"):
-        vorotool.write(skeleton, tmp_path / "a.dxf")
-    assert not (tmp_path / "a.dxf").exists()

@@ -5,6 +5,7 @@ import pytest
 import shapely
 
 from support.few import few
+from support.refusals import refused
 from vorotool.errors import LimitError
 from vorotool.formats.drawing import fill_rules
 from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
@@ -67,5 +68,4 @@ def test_the_sign_of_a_side_is_exact():
 def test_rings_that_touch_without_end_are_refused(monkeypatch):
     monkeypatch.setattr(fill_rules, "MOST_MEETINGS", 1000)
     rings = [square(0, 1 + k) for k in range(400)]  # all along the same two lines
-    with pytest.raises(LimitError, match="1000"):
-        filled_polygons(rings, "evenodd")
+    refused(LimitError, "1000", filled_polygons, rings, "evenodd")

@@ -11,6 +11,7 @@ import svgelements
 
 from support.few import few
 from support.readers.svg_reading import read, shape_of, svg
+from support.refusals import refused
 from vorotool.errors import InputError
 from vorotool.formats.drawing.fill_rules import filled_polygons
 from vorotool.types.polygons.shapely_geometry import to_shapely
@@ -236,8 +237,7 @@ def test_the_outermost_element_has_a_style_too():
         assert shapes.is_line.tolist() == [True, False, False]
     assert len(svg(icon, 'display="none"')[0]) == 0
     assert svg('<path d="M0 0h4v3z"/>', 'transform="scale(2)"')[0].xy.max() == 8
-    with pytest.raises(InputError, match="line 1"):
-        svg(icon, 'clip-path="url(#a)"')
+    refused(InputError, "line 1", svg, icon, 'clip-path="url(#a)"')
 
 
 def test_ids_and_uses():

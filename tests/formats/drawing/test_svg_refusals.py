@@ -8,6 +8,7 @@ import pytest
 
 import vorotool
 from support.readers.svg_reading import read, svg
+from support.refusals import refused
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.drawing import svg_document
 
@@ -44,8 +45,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("body", "message"), REFUSED)
 def test_what_is_refused(body, message):
-    with pytest.raises(InputError, match=f"line 1, .*{message}"):
-        svg(body)
+    refused(InputError, f"line 1, .*{message}", svg, body)
 
 
 @pytest.mark.parametrize("tag", ["text", "image", "foreignObject"])
@@ -62,7 +62,6 @@ def test_what_is_no_shape_is_skipped_with_a_note(tag):
     [
         ("<svg", "line 1"),
         ("", "well-formed"),
-        ("<svg><g></svg>", "mismatched tag"),
         ("<html/>", "is not an SVG file: it begins with <html>"),
         ('<!DOCTYPE svg [<!ENTITY a "b">]><svg>&a;</svg>', r"declares an entity \(a\), and entities are not expanded"),
         ('<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///etc/passwd">]><svg>&a;</svg>', "entities are not expanded"),
@@ -75,8 +74,7 @@ def test_what_is_no_shape_is_skipped_with_a_note(tag):
     ],
 )
 def test_damaged_files(text, message):
-    with pytest.raises(InputError, match=message):
-        read(text)
+    refused(InputError, message, read, text)
 
 
 def test_a_doctype_without_entities_is_read():
@@ -92,25 +90,20 @@ def test_encodings(encoding):
 
 
 def test_long_chains_of_uses_are_refused():
-    chain = "".join(f'<g id="g{k + 1}"><use href="#g{k}"/></g>' for k in range(5000))
-    with pytest.raises(InputError, match="nested more than 250 deep by what they use"):
-        svg(f'<g id="g0"/>{chain}')
-    backwards = "".join(f'<g id="g{k + 1}"><use href="#g{k}"/></g>' for k in reversed(range(5000)))
-    with pytest.raises(InputError, match="nested more than 250 deep by what they use"):
-        svg(f'{backwards}<g id="g0"/>')
+    chain = [f'<g id="g{k + 1}"><use href="#g{k}"/></g>' for k in range(5000)]
+    for body in ('<g id="g0"/>' + "".join(chain), "".join(chain[::-1]) + '<g id="g0"/>'):
+        refused(InputError, "nested more than 250 deep by what they use", svg, body)
 
 
 def test_a_bomb_is_not_unpacked():
     bomb = gzip.compress(b"<svg>" + b" " * 2**28, 1)
     assert len(bomb) < 2**21
-    with pytest.raises(LimitError, match="unpacks to more than 134217728 bytes: split the drawing"):
-        read(bomb)
+    refused(LimitError, "unpacks to more than 134217728 bytes: split the drawing", read, bomb)
 
 
 def test_many_elements_are_refused(monkeypatch):
     monkeypatch.setattr(svg_document, "MOST_ELEMENTS", 100)
-    with pytest.raises(LimitError, match="100"):
-        svg("<g/>" * 100)
+    refused(LimitError, "100", svg, "<g/>" * 100)
     monkeypatch.setattr(svg_document, "MOST_REPEATED", 10)
     assert len(svg('<rect width="1" height="1"/>' * 12)[0]) == 12  # which are in the file
     with pytest.raises(LimitError, match="more than 14 elements are drawn"):
@@ -118,8 +111,7 @@ def test_many_elements_are_refused(monkeypatch):
 
 
 def test_vertices_are_counted():
-    with pytest.raises(LimitError, match="vertices, more than the limit of 10"):
-        svg('<circle r="1"/>', max_sites=10)
+    refused(LimitError, "vertices, more than the limit of 10", svg, '<circle r="1"/>', max_sites=10)
 
 
 @pytest.mark.parametrize("text", ["1", "1.5", "1.2 ", "(", " ", "1e", ",", "-"])
@@ -132,8 +124,7 @@ def test_hostile_attributes_take_no_longer(text):
         f'<rect width="{text}x" height="1"/>',
         f'<svg viewBox="{text}x"/>',
     ):
-        with pytest.raises(InputError):
-            svg(body)
+        refused(InputError, "", svg, body)
 
 
 # ---- through the front door ----------------------------------------------------------------------
@@ -151,10 +142,8 @@ def test_files_and_contents(tmp_path, name, geometry):
     assert shapes.xy.tolist() == [[0, 0], [20, 0], [20, 10], [0, 10]]
     assert shapes.unit == "mm"
     assert len(vorotool.read(path, input_format="svg", flatten=0.5)) == 1
-    with pytest.raises(InputError, match=r"is a drawing .*, but points or an image"):
-        vorotool.read(path, geometry="points")
-    with pytest.raises(UsageError, match="the tolerance is 0"):
-        vorotool.read(path, flatten=0)
+    refused(InputError, r"is a drawing .*, but points or an image", vorotool.read, path, geometry="points")
+    refused(UsageError, "the tolerance is 0", vorotool.read, path, flatten=0)
 
 
 def test_nothing_is_loaded_or_fetched(tmp_path):

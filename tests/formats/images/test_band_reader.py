@@ -11,6 +11,7 @@ from PIL import Image
 import vorotool
 from support.few import few
 from support.readers.sources import bands_of
+from support.refusals import refused
 from vorotool.errors import InputError, LimitError, UsageError
 
 zarr = pytest.importorskip("zarr")
@@ -101,19 +102,14 @@ def test_bad_stores(tmp_path):
         "complex.zarr": "holds complex64: an image of numbers",
         "none.zarr": "needs at least 1 x 1",
     }.items():
-        with pytest.raises(InputError, match=words):
-            vorotool.read(tmp_path / name)
+        refused(InputError, words, vorotool.read, tmp_path / name)
 
 
 def test_limits_and_options(tmp_path, monkeypatch):
     path = make(tmp_path / "a.zarr")
-    with pytest.raises(LimitError, match="50 x 70 = 3500 pixels"):
-        vorotool.read(path, max_pixels=3499)
-    with pytest.raises(InputError, match="page=1 does not exist"):
-        vorotool.read(path, page=1)
+    refused(LimitError, "50 x 70 = 3500 pixels", vorotool.read, path, max_pixels=3499)
+    refused(InputError, "page=1 does not exist", vorotool.read, path, page=1)
     (tmp_path / "file.zarr").write_text("")
-    with pytest.raises(InputError, match="a Zarr store is a folder"):
-        vorotool.read(tmp_path / "file.zarr", input_format="zarr")
+    refused(InputError, "a Zarr store is a folder", vorotool.read, tmp_path / "file.zarr", input_format="zarr")
     monkeypatch.setitem(sys.modules, "numcodecs.zstd", None)
-    with pytest.raises(UsageError, match="packed with zstd need the numcodecs package: pip install"):
-        vorotool.read(path)
+    refused(UsageError, "packed with zstd need the numcodecs package: pip install", vorotool.read, path)

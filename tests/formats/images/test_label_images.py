@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from support.readers.sources import labels_of
+from support.readers.written import bytes_of
+from support.refusals import refused
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.formats.images.label_images import write_label_image
+from vorotool.formats.images.label_images import write_label_image, write_label_text
 
 
 def written(values: np.ndarray, fmt: str, **options: object) -> bytes:
@@ -15,26 +17,13 @@ def written(values: np.ndarray, fmt: str, **options: object) -> bytes:
     return out.getvalue()
 
 
-@pytest.mark.parametrize("fmt", ["png", "tiff", "npy"])
-@pytest.mark.parametrize("dtype", ["u1", "u2", "u4", "i4"])
-def test_round_trip(fmt: str, dtype: str) -> None:
-    labels = np.random.default_rng(1).integers(0, 200, (17, 13)).astype(dtype)
-    np.testing.assert_array_equal(labels_of(written(labels, fmt)), labels)
-
-
-def test_diagram_round_trip() -> None:
-    mask = np.random.default_rng(1).integers(0, 2, (17, 13)).astype(bool)
-    for fmt, options in (("png", {"bit_depth": 1}), ("tiff", {}), ("npy", {})):
-        data = written(mask, fmt, **options)
-        np.testing.assert_array_equal(labels_of(data), mask)
-
-
-def test_palette_indices_round_trip() -> None:
-    palette = np.arange(30, dtype=np.uint8).reshape(10, 3)
-    labels = np.random.default_rng(1).integers(0, 10, (17, 13)).astype(np.uint8)
-    for fmt in ("png", "tiff"):
-        data = written(labels, fmt, palette=palette)
-        np.testing.assert_array_equal(labels_of(data), labels)
+@pytest.mark.parametrize("dtype", ["u1", "u2", "u4", "i4", "?"])
+def test_round_trip(dtype: str) -> None:
+    labels = np.random.default_rng(1).integers(0, 10, (17, 13)).astype(dtype)
+    palette = {"palette": np.arange(30, dtype=np.uint8).reshape(10, 3)} if dtype == "u1" else {}
+    depth = {"bit_depth": 1} if dtype == "?" else {}
+    for fmt, options in (("png", palette | depth), ("tiff", palette), ("npy", {}), ("png", depth)):
+        np.testing.assert_array_equal(labels_of(written(labels, fmt, **options)), labels)
 
 
 def test_labels_above_16_bits_are_no_png() -> None:
@@ -66,7 +55,14 @@ def test_unknown_format() -> None:
     ],
 )
 def test_values_that_are_no_labels(values: np.ndarray, message: str) -> None:
-    out = io.BytesIO()
-    np.save(out, values)
-    with pytest.raises(InputError, match=message):
-        labels_of(out.getvalue())
+    refused(InputError, message, labels_of, bytes_of(np.save, values))
+
+
+def test_text_is_aligned_and_large_images_are_refused() -> None:
+    labels = np.random.default_rng(1).integers(0, 120, (20, 30))
+    text = bytes_of(write_label_text, [labels[:7], labels[7:]], (20, 30), largest_label=119).decode()
+    assert {len(line) for line in text.splitlines()} == {30 * 4 - 1}
+    np.testing.assert_array_equal(np.loadtxt(io.StringIO(text), dtype=int), labels)
+    for shape in ((1, 4097), (1001, 1000)):
+        words = r"use the path labels.png, labels.tif or labels.npy"
+        refused(LimitError, words, write_label_text, io.BytesIO(), [], shape, largest_label=1)

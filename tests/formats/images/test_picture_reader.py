@@ -8,6 +8,7 @@ from PIL import Image, ImageOps, features
 
 from support.few import few
 from support.readers.sources import image_of, picture_of
+from support.refusals import refused
 from vorotool import InputError, LimitError
 from vorotool.formats.io.sources import Source
 
@@ -88,17 +89,14 @@ def test_of_an_animation_the_first_picture_is_read_which_is_said(kind):
     assert (read(data, page=2, note=notes.append) == 200).all()
     assert len(notes) == 1
     for page in (3, -1):
-        with pytest.raises(InputError, match=f"page={page}"):
-            read(data, page=page)
-    with pytest.raises(InputError, match="page=1"):
-        read(saved(GREY, kind), page=1)
+        refused(InputError, f"page={page}", read, data, page=page)
+    refused(InputError, "page=1", read, saved(GREY, kind), page=1)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_pixels_are_counted_before_they_are_decoded(kind):
     data = saved(GREY, kind)
-    with pytest.raises(LimitError, match=r"max_pixels=76"):
-        read(data, max_pixels=76)
+    refused(LimitError, r"max_pixels=76", read, data, max_pixels=76)
     assert read(data, max_pixels=77).shape[:2] == (7, 11)
 
 
@@ -106,8 +104,7 @@ def test_pixels_are_counted_before_they_are_decoded(kind):
 def test_what_is_cut_off_is_refused(kind):
     data = saved(COLORS, kind)
     for end in {*range(1, 60), *range(60, len(data) - 2, 7), len(data) // 2}:
-        with pytest.raises(InputError, match=r"^a.img "):
-            image_of(source(data[:end], "a.img"), input_format=kind)
+        refused(InputError, r"^a.img ", image_of, source(data[:end], "a.img"), input_format=kind)
 
 
 @pytest.mark.parametrize("kind", few(KINDS, 3))

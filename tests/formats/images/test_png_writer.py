@@ -1,6 +1,6 @@
 import io
 import itertools
-import tracemalloc
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,6 +8,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from support.few import few
+from support.processes.peak_memory import memory_below
+from support.readers.written import bytes_of
+from support.refusals import refused
 from vorotool.errors import LimitError
 from vorotool.formats.images.png_writer import write_png
 
@@ -15,9 +18,7 @@ SHAPES = [(1, 1), (1, 17), (13, 1), (3, 7), (5, 8), (4, 9), (31, 33)]
 
 
 def png(bands: object, shape: tuple[int, int], **options: object) -> bytes:
-    out = io.BytesIO()
-    write_png(out, bands, shape, **options)
-    return out.getvalue()
+    return bytes_of(write_png, bands, shape, **options)
 
 
 def read_back(data: bytes) -> NDArray[np.generic]:
@@ -71,8 +72,7 @@ def test_bytes_depend_on_pixels_alone() -> None:
     ],
 )
 def test_nothing_is_wrapped(value: int, options: dict[str, object], message: str) -> None:
-    with pytest.raises(LimitError, match=message):
-        png([np.array([[0, value]])], (1, 2), **options)
+    refused(LimitError, message, png, [np.array([[0, value]])], (1, 2), **options)
 
 
 @pytest.mark.parametrize(
@@ -85,24 +85,14 @@ def test_nothing_is_wrapped(value: int, options: dict[str, object], message: str
     ],
 )
 def test_impossible_kinds_are_refused(options: dict[str, object]) -> None:
-    with pytest.raises(ValueError, match=r"bit|palette"):
-        png([np.zeros((1, 1), np.uint8)], (1, 1), **options)
+    refused(ValueError, r"bit|palette", png, [np.zeros((1, 1), np.uint8)], (1, 1), **options)
 
 
 def test_memory_stays_bounded() -> None:
     shape = (4096, 8192)  # 64 MB of pixels
     band = np.arange(64 * 8192, dtype=np.uint16).reshape(64, 8192) // 50
-
-    class Null(io.RawIOBase):
-        def write(self, data: object) -> int:
-            return len(data)  # type: ignore[arg-type]
-
-    tracemalloc.start()
-    try:
-        write_png(Null(), (band for _ in range(64)), shape, threads=2)
-        assert tracemalloc.get_traced_memory()[1] < 40e6
-    finally:
-        tracemalloc.stop()
+    with Path("/dev/null").open("wb") as out, memory_below(40e6):
+        write_png(out, (band for _ in range(64)), shape, threads=2)
 
 
 @pytest.mark.parametrize("threads", [1, 2])
@@ -112,5 +102,4 @@ def test_red_green_and_blue(threads: int) -> None:
     image = Image.open(io.BytesIO(png(bands, (300, 17), rgb=True, threads=threads)))
     assert image.mode == "RGB"
     np.testing.assert_array_equal(np.asarray(image), pixels)
-    with pytest.raises(ValueError, match="shape"):
-        png([pixels[:, :, 0]], (300, 17), rgb=True)
+    refused(ValueError, "shape", png, [pixels[:, :, 0]], (300, 17), rgb=True)

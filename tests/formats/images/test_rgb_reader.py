@@ -8,6 +8,7 @@ import tifffile
 from PIL import Image
 
 from support.readers.sources import picture_of
+from support.refusals import refused
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 
@@ -57,6 +58,5 @@ def test_what_is_transparent_lies_on_white():
 def test_pages():
     stack = tiff(GREY, GREY // 2)
     assert np.array_equal(picture_of(stack, page=1)[:, :, 0], GREY // 2)
-    with pytest.raises(InputError, match="2 pages"):
-        picture_of(stack)
+    refused(InputError, "2 pages", picture_of, stack)
     assert np.array_equal(picture_of(tiff(GREY), page=3)[:, :, 0], GREY)  # a page of the other input

@@ -12,19 +12,17 @@ import vorotool
 from support.families.tiff_files import LONG, SHORT, grey, tiff_file
 from support.few import few
 from support.readers.sources import bands_of
+from support.refusals import refused
 from vorotool.errors import InputError, LimitError
 
 ROWS = bytes(range(60))  # 6 rows of 10 pixels
 
 
-def refused(tmp_path, data, words, error=InputError):
+def check_refused(tmp_path, data, words, error=InputError):
     path = tmp_path / "a.tif"
     path.write_bytes(data)
-    with pytest.raises(error, match=words) as caught:
-        vorotool.read(path)
-    assert "a.tif" in str(caught.value)
-    with pytest.raises(error, match=words):
-        whole_by_rows(path)
+    refused(error, [words, "a.tif"], vorotool.read, path)
+    refused(error, words, whole_by_rows, path)
 
 
 def whole_by_rows(path):
@@ -51,8 +49,10 @@ def test_strips_in_any_order(tmp_path):
 
 
 def test_an_endless_image_without_strips(tmp_path):
-    refused(tmp_path, tiff_file(grey(32, 577_990_168), []), "needs 1 strip, but there are offsets of 0")
-    refused(tmp_path, tiff_file(grey(32, 577_990_168, 16), [ROWS]), "needs 36124386 strips, but there are offsets of 1")
+    check_refused(tmp_path, tiff_file(grey(32, 577_990_168), []), "needs 1 strip, but there are offsets of 0")
+    check_refused(
+        tmp_path, tiff_file(grey(32, 577_990_168, 16), [ROWS]), "needs 36124386 strips, but there are offsets of 1"
+    )
 
 
 def test_what_is_left_out_is_background(tmp_path):
@@ -63,21 +63,23 @@ def test_what_is_left_out_is_background(tmp_path):
     expected[2:4] = 7
     nodata = {42113: (2, [ord("7"), 0])}
     accepted(tmp_path, tiff_file(grey(10, 6, 2) | nodata, strips, left_out=[1]), expected)
-    refused(tmp_path, tiff_file(grey(10, 6, 2), strips, left_out=[0, 1, 2]), "all of its 3 strips are empty")
-    refused(tmp_path, tiff_file(grey(10, 6, 2), strips), "strip 1 has 0 bytes at byte 28")
+    check_refused(tmp_path, tiff_file(grey(10, 6, 2), strips, left_out=[0, 1, 2]), "all of its 3 strips are empty")
+    check_refused(tmp_path, tiff_file(grey(10, 6, 2), strips), "strip 1 has 0 bytes at byte 28")
     torn = tiff_file(grey(10, 6, 2), strips, left_out=[1], counts=[20, 20, 20])
-    refused(tmp_path, torn, "strip 1 has 20 bytes at byte 0")
+    check_refused(tmp_path, torn, "strip 1 has 20 bytes at byte 0")
 
 
 def test_strips_shorter_than_their_rows(tmp_path):
     data = tiff_file(grey(10, 6, 2), [ROWS[:20], ROWS[20:40], ROWS[40:]], counts=[20, 19, 20])
-    refused(tmp_path, data, "strip 1 has 19 bytes, but its rows need more")
+    check_refused(tmp_path, data, "strip 1 has 19 bytes, but its rows need more")
     packed = [zlib.compress(ROWS[:20]), zlib.compress(ROWS[20:39]), zlib.compress(ROWS[40:])]
-    refused(tmp_path, tiff_file(grey(10, 6, 2, compression=8), packed), "strip 1 has 19 bytes, but its 2 rows need 20")
+    check_refused(
+        tmp_path, tiff_file(grey(10, 6, 2, compression=8), packed), "strip 1 has 19 bytes, but its 2 rows need 20"
+    )
     cut = [packed[0], zlib.compress(ROWS[20:40])[:-6], packed[2]]
-    refused(tmp_path, tiff_file(grey(10, 6, 2, compression=8), cut), "compressed data end too early")
+    check_refused(tmp_path, tiff_file(grey(10, 6, 2, compression=8), cut), "compressed data end too early")
     few = grey(100_000, 20_000, compression=8)
-    refused(tmp_path, tiff_file(few, [zlib.compress(b"0")]), "strip 0 has 9 bytes, which cannot hold its pixels")
+    check_refused(tmp_path, tiff_file(few, [zlib.compress(b"0")]), "strip 0 has 9 bytes, which cannot hold its pixels")
 
 
 @pytest.mark.parametrize(
@@ -98,13 +100,13 @@ def test_strips_shorter_than_their_rows(tmp_path):
     ],
 )
 def test_tags_that_are_no_such_numbers(tmp_path, tag, value, words):
-    refused(tmp_path, tiff_file(grey(10, 6) | {tag: value}, [ROWS]), words)
+    check_refused(tmp_path, tiff_file(grey(10, 6) | {tag: value}, [ROWS]), words)
 
 
 def test_tiles_out_of_proportion(tmp_path):
     tags = {code: value for code, value in grey(8, 8, compression=8).items() if code != 278}
     data = tiff_file(tags | {322: 2**17, 323: 2**17}, [zlib.compress(bytes(2**20))], is_tiled=True)
-    refused(tmp_path, data, "tiles of 131072 x 131072 pixels for an image of 8 x 8")
+    check_refused(tmp_path, data, "tiles of 131072 x 131072 pixels for an image of 8 x 8")
 
 
 def test_more_values_a_pixel_than_an_image_has(tmp_path):
@@ -116,8 +118,7 @@ def test_more_values_a_pixel_than_an_image_has(tmp_path):
 def test_a_file_without_an_image(tmp_path):
     (tmp_path / "a.tif").write_bytes(b"II*\0\0\0\0\0")
     for page in (None, 0, 1):
-        with pytest.raises(InputError, match=r"a\.tif"):
-            vorotool.read(tmp_path / "a.tif", page=page)
+        refused(InputError, r"a\.tif", vorotool.read, tmp_path / "a.tif", page=page)
 
 
 def test_bits_in_reverse(tmp_path):
@@ -152,8 +153,7 @@ def test_a_jpeg_larger_than_its_strip(tmp_path, side):
     Image.fromarray(np.zeros((side, side), np.uint8)).save(out, "JPEG")
     data = tiff_file(grey(8, 8, compression=7), [out.getvalue()])
     (tmp_path / "a.tif").write_bytes(data)
-    with pytest.raises(InputError, match=f"{side}"):
-        vorotool.read(tmp_path / "a.tif")
+    refused(InputError, f"{side}", vorotool.read, tmp_path / "a.tif")
     (tmp_path / "a.tif").write_bytes(tiff_file(grey(side, side, compression=7), [out.getvalue()]))
     assert vorotool.read(tmp_path / "a.tif").values.shape == (side, side)
 

@@ -1,6 +1,5 @@
 import io
 import itertools
-import tracemalloc
 from fractions import Fraction
 from types import SimpleNamespace
 
@@ -11,6 +10,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from support.few import few
+from support.processes.peak_memory import memory_below
+from support.readers.written import bytes_of
+from support.refusals import refused
 from vorotool.errors import LimitError
 from vorotool.formats.images import tiff_writer as tiff
 from vorotool.formats.images.tiff_reader import read_tiff
@@ -19,9 +21,7 @@ from vorotool.types.pixels import PixelGrid
 
 
 def written(bands: object, shape: tuple[int, int], **options: object) -> bytes:
-    out = io.BytesIO()
-    write_tiff(out, bands, shape, **options)
-    return out.getvalue()
+    return bytes_of(write_tiff, bands, shape, **options)
 
 
 def values_of(dtype: str, shape: tuple[int, int]) -> NDArray[np.generic]:
@@ -54,8 +54,7 @@ def test_bytes_depend_on_pixels_alone() -> None:
 
 
 def test_nothing_is_wrapped() -> None:
-    with pytest.raises(LimitError, match="65536 does not fit in uint16 pixels"):
-        written([np.array([[65_536]])], (1, 1), dtype="u2")
+    refused(LimitError, "65536 does not fit in uint16 pixels", written, [np.array([[65_536]])], (1, 1), dtype="u2")
 
 
 def test_output_that_cannot_be_sought() -> None:
@@ -83,13 +82,8 @@ def test_large_images_are_bigtiff(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("dtype", ["u4", "f4"])
 def test_memory_stays_bounded(dtype: str, tmp_path: object) -> None:
     band = (np.arange(64 * 4096).reshape(64, 4096) // 50).astype(dtype)
-    with (tmp_path / "large.tif").open("w+b") as out:  # type: ignore[operator]
-        tracemalloc.start()
-        try:
-            write_tiff(out, (band for _ in range(128)), (8192, 4096), dtype=dtype, threads=2)
-            assert tracemalloc.get_traced_memory()[1] < 40e6
-        finally:
-            tracemalloc.stop()
+    with (tmp_path / "large.tif").open("w+b") as out, memory_below(40e6):  # type: ignore[operator]
+        write_tiff(out, (band for _ in range(128)), (8192, 4096), dtype=dtype, threads=2)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import time
 import numpy as np
 import pytest
 
+from support.refusals import refused
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import check_space
 from vorotool.formats.zarr.writer import chunks_of, create_array, open_array, write_chunks, write_zarr, zarr_module
@@ -59,8 +60,7 @@ def test_rows_of_chunks_stay_small():
 
 def test_zarr_is_named_where_it_is_missing(monkeypatch):
     monkeypatch.setitem(sys.modules, "zarr", None)
-    with pytest.raises(UsageError, match=r"pip install 'vorotool\[zarr\]'"):
-        zarr_module()
+    refused(UsageError, r"pip install 'vorotool\[zarr\]'", zarr_module)
 
 
 def test_room_is_asked_for_only_where_it_may_lack(tmp_path, monkeypatch):
@@ -71,8 +71,7 @@ def test_room_is_asked_for_only_where_it_may_lack(tmp_path, monkeypatch):
 
     check_space(tmp_path / "new/a.npy", 1000, never)
     check_space(tmp_path / "a.npy", 1001, lambda: 1000)
-    with pytest.raises(OutputError, match=r"a\.npy"):
-        check_space(tmp_path / "a.npy", 2 * 10**12, lambda: 1200 * 10**9)
+    refused(OutputError, r"a\.npy", check_space, tmp_path / "a.npy", 2 * 10**12, lambda: 1200 * 10**9)
     check_space("-", 10**12, never)
     check_space("/dev/null", 10**12, never)
 
@@ -94,8 +93,7 @@ def test_an_interrupt_waits_for_what_is_being_written(tmp_path, monkeypatch, thr
 
     interrupted = []
     monkeypatch.setattr(local, "_put", slow)
-    with pytest.raises(KeyboardInterrupt):
-        write_zarr(tmp_path / "a.zarr", np.ones((4, 9000), np.uint8), threads=threads)
+    refused(KeyboardInterrupt, "", write_zarr, tmp_path / "a.zarr", np.ones((4, 9000), np.uint8), threads=threads)
     assert list(tmp_path.iterdir()) == []
     time.sleep(0.25)
     assert list(tmp_path.iterdir()) == []

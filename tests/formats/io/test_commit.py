@@ -12,6 +12,7 @@ import pytest
 
 from support.few import few
 from support.processes.leftovers import contents
+from support.refusals import refused
 from vorotool.errors import OutputError
 from vorotool.formats.io import temporaries
 from vorotool.formats.io.atomic_output import explained, open_output
@@ -129,8 +130,7 @@ def test_an_error_while_the_last_is_written_replaces_none(folder):
     def fail():
         raise OutputError("full")
 
-    with pytest.raises(OutputError, match="full"):
-        write_all(folder, last=fail)
+    refused(OutputError, "full", write_all, folder, last=fail)
     assert contents(folder) == before
 
 
@@ -142,8 +142,7 @@ def test_what_comes_meanwhile_stays(folder):
                 (folder / "late.csv").write_text("mine")
 
     before = contents(folder)
-    with pytest.raises(OutputError, match=r"late\.csv already exists"):
-        come()
+    refused(OutputError, r"late\.csv already exists", come)
     assert contents(folder) == before | {"late.csv": b"mine"}
 
 
@@ -156,8 +155,7 @@ def test_a_folder_in_the_place_of_a_file_stays(folder):
             (folder / "new.csv/mine").write_text("mine")
 
     before = contents(folder)
-    with pytest.raises(OutputError, match=r"new\.csv"):
-        come()
+    refused(OutputError, r"new\.csv", come)
     assert contents(folder) == before | {"new.csv/mine": b"mine"}
 
 
@@ -172,8 +170,7 @@ def test_permissions_are_those_of_the_older_files_after_a_failure_too(folder, mo
         move_to(self, target)
 
     monkeypatch.setattr(Temporary, "move_to", fail)
-    with pytest.raises(OutputError):
-        write_all(folder)
+    refused(OutputError, "", write_all, folder)
     assert ((folder / "a.shp").stat().st_ino, (folder / "a.shp").stat().st_mode & 0o777) == (number, 0o604)
 
 

@@ -7,6 +7,7 @@ import time
 
 import pytest
 
+from support.refusals import refused
 from vorotool.formats.io.descriptors import (
     descriptor_of,
     input_identity,
@@ -85,12 +86,10 @@ def test_a_file_is_read_from_where_it_stands(tmp_path):
         with open_input(number) as file:
             assert file.read() == b"rest"
         assert os.read(number, 1) == b""
-        with pytest.raises(OSError, match="Bad file descriptor: it is closed, or open for reading only"):
-            open_output_descriptor(number)
+        refused(OSError, "Bad file descriptor: it is closed, or open for reading only", open_output_descriptor, number)
     finally:
         os.close(number)
-    with pytest.raises(OSError, match="it is closed, or open for writing only"):
-        open_input(number)
+    refused(OSError, "it is closed, or open for writing only", open_input, number)
 
 
 @pytest.mark.parametrize("mode", [os.O_APPEND, 0])
@@ -101,8 +100,7 @@ def test_a_file_is_written_from_where_it_stands_and_never_sought(tmp_path, mode)
     with open_output_descriptor(number) as out:
         assert not out.seekable()
         for function in (out.tell, lambda: out.seek(0)):
-            with pytest.raises(io.UnsupportedOperation):
-                function()
+            refused(io.UnsupportedOperation, "", function)
         out.write(b"new\n")
     os.write(number, b"footer")
     os.close(number)

@@ -3,6 +3,7 @@ import itertools
 import numpy as np
 import pytest
 
+from support.refusals import refused
 from vorotool.formats.io.arrays import blocks, checked
 
 
@@ -10,8 +11,7 @@ from vorotool.formats.io.arrays import blocks, checked
     ("heights", "message"), [((2, 2), "4 rows, not 5"), ((3, 3), "more than 5 rows"), ((), "0 rows")]
 )
 def test_checked_counts_rows(heights: tuple[int, ...], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        list(checked([np.zeros((h, 3)) for h in heights], (5, 3)))
+    refused(ValueError, message, list, checked([np.zeros((h, 3)) for h in heights], (5, 3)))
 
 
 def test_blocks_carry_the_row_before() -> None:

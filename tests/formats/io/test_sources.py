@@ -7,15 +7,14 @@ import sys
 import pytest
 
 from support.readers.sources import bands_of
+from support.refusals import refused
 from vorotool.batch.tasks import digest_of
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting, read_source
 
 
 def error_of(function, *arguments, **options):
-    with pytest.raises(InputError) as caught:
-        function(*arguments, **options)
-    return str(caught.value)
+    return refused(InputError, "", function, *arguments, **options)
 
 
 def test_a_file(tmp_path):

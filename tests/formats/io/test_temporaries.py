@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from support.refusals import refused
 from vorotool.formats.io import temporaries
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.io.temporaries import (
@@ -192,8 +193,7 @@ def test_those_of_one_batch_are_removed_wherever_they_were_written(tmp_path):
 def test_a_file_that_was_removed_meanwhile_is_an_error(tmp_path):
     with temporary_beside(tmp_path / "a", new_file) as temporary:
         Path(temporary.path).unlink()
-        with pytest.raises(FileNotFoundError):
-            temporary.move_to(tmp_path / "a")
+        refused(FileNotFoundError, "", temporary.move_to, tmp_path / "a")
 
 
 def test_the_lock_is_held_until_the_file_has_its_name(tmp_path, monkeypatch):
@@ -223,6 +223,5 @@ def test_an_interrupt_while_it_is_removed_has_to_wait(tmp_path, monkeypatch):
             raise ValueError
 
     monkeypatch.setattr(temporaries, "_discard", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        fail()
+    refused(KeyboardInterrupt, "", fail)
     assert names(tmp_path) == []

@@ -6,6 +6,7 @@ import sys
 
 import pytest
 
+from support.refusals import refused
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.zarr.store import check_store, is_array, is_store, open_store
 
@@ -52,8 +53,7 @@ def test_a_failure_leaves_nothing_behind(tmp_path, failure):
             (folder / "c/0").write_text("chunk")
             raise failure
 
-    with pytest.raises((type(failure), OutputError)):
-        fail()
+    refused((type(failure), OutputError), "", fail)
     assert "old" in text_of(old)
     assert names(tmp_path) == ["a.zarr"]
 
@@ -72,18 +72,13 @@ def test_what_is_not_replaced(tmp_path):
     group = make(tmp_path / "group", "", "group")
     array = make(tmp_path / "array", "")
     for path in (tmp_path / "folder", tmp_path / "file", group):
-        with pytest.raises(OutputError, match="is not a Zarr array"):
-            check_store(path)
-    with pytest.raises(OutputError, match="no_clobber"):
-        check_store(array, no_clobber=True)
+        refused(OutputError, "is not a Zarr array", check_store, path)
+    refused(OutputError, "no_clobber", check_store, array, no_clobber=True)
     for source in (array, array / "c" / "0"):
-        with pytest.raises(UsageError, match="also an input"):
-            check_store(array, inputs=[source])
-    with pytest.raises(OutputError, match="create the directory first"):
-        check_store(tmp_path / "none" / "a.zarr")
+        refused(UsageError, "also an input", check_store, array, inputs=[source])
+    refused(OutputError, "create the directory first", check_store, tmp_path / "none" / "a.zarr")
     assert check_store(tmp_path / "none" / "a.zarr", makes_folder=True).endswith("a.zarr")
-    with pytest.raises(UsageError, match="standard output"):
-        check_store("-")
+    refused(UsageError, "standard output", check_store, "-")
 
 
 def test_a_link_to_a_store_stays_a_link(tmp_path):
@@ -122,8 +117,7 @@ def test_the_older_store_comes_back_after_an_interrupt_between_the_moves(tmp_pat
         raise KeyboardInterrupt
 
     monkeypatch.setattr("vorotool.formats.io.temporaries.Temporary.move_to", interrupt)
-    with pytest.raises(KeyboardInterrupt):
-        write(old, "new")
+    refused(KeyboardInterrupt, "", write, old, "new")
     assert "old" in text_of(old)
     assert names(tmp_path) == ["a.zarr"]
 
@@ -150,7 +144,6 @@ def test_what_comes_meanwhile_and_is_no_store_stays(tmp_path, kind):
         with open_store(tmp_path / "a.zarr"):
             (tmp_path / "a.zarr").mkdir() if kind == "folder" else (tmp_path / "a.zarr").write_text("mine")
 
-    with pytest.raises(OutputError, match="is not a Zarr array"):
-        come()
+    refused(OutputError, "is not a Zarr array", come)
     assert names(tmp_path) == ["a.zarr"]
     assert (tmp_path / "a.zarr").is_dir() == (kind == "folder")

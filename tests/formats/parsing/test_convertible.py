@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.refusals import refused
 from vorotool.errors import InputError
 
 FONTS = {".ttf": b"\0\1\0\0\0\x0f", ".otf": b"OTTO\0\x0f", ".woff2": b"wOF2\0\1", ".ttc": b"ttcf\0\1"}
@@ -30,23 +31,20 @@ def test_fonts(tmp_path, suffix, geometry):
 def test_columns_of_geometry_that_is_none(tmp_path, text, message, geometry):
     path = tmp_path / "towns.csv"
     path.write_text(text)
-    with pytest.raises(InputError, match=f"towns.csv, {message}"):
-        vorotool.read(path, geometry=geometry)
+    refused(InputError, f"towns.csv, {message}", vorotool.read, path, geometry=geometry)
 
 
 @pytest.mark.parametrize("text", ['{"type": \n"Point"\n', '{"a": 1}\n[1]\n', "[[1, 2],\n[3, 4]\n"])
 def test_other_json_is_told_where_it_is_wrong(tmp_path, text):
     (tmp_path / "a.json").write_text(text)
-    with pytest.raises(InputError, match=r"line \d, column \d: .* not valid JSON"):
-        vorotool.read(tmp_path / "a.json")
+    refused(InputError, r"line \d, column \d: .* not valid JSON", vorotool.read, tmp_path / "a.json")
 
 
 @pytest.mark.parametrize("shape", [(1000, 3), (2, 1000), (3, 1000)])
 def test_arrays_that_are_lists(tmp_path, shape):
     np.save(tmp_path / "a.npy", np.random.default_rng(1).random(shape))
     image = vorotool.read(tmp_path / "a.npy")
-    with pytest.raises(InputError, match=r"a list of points\? save x and y with shape \(n, 2\)"):
-        vorotool.outlines(image)
+    refused(InputError, r"a list of points\? save x and y with shape \(n, 2\)", vorotool.outlines, image)
 
 
 @pytest.mark.parametrize("geometry", [None, "points", "polygons"])
@@ -68,5 +66,4 @@ def test_arrays_that_are_lists(tmp_path, shape):
 def test_files_that_others_open(tmp_path, monkeypatch, name, data, advice, geometry):
     monkeypatch.chdir(tmp_path)
     (tmp_path / name).write_bytes(data)
-    with pytest.raises(InputError, match=advice):
-        vorotool.read(name, geometry=geometry)
+    refused(InputError, advice, vorotool.read, name, geometry=geometry)

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support.readers.point_reading import error_of, npy, read
+from support.readers.written import bytes_of
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.sources import STANDARD_INPUT, Source
 from vorotool.formats.text_recognition import point_format
@@ -67,9 +68,7 @@ def test_options_that_do_not_fit():
 
 
 def npz(**columns):
-    out = io.BytesIO()
-    np.savez(out, **columns)
-    return out.getvalue()
+    return bytes_of(np.savez, **columns)
 
 
 def vector_file(geometry, driver):

@@ -7,6 +7,7 @@ import pytest
 
 import vorotool
 from support.readers.polygon_reading import assert_same, error_of, read
+from support.refusals import refused
 from vorotool import InputError, PointSet, PolygonSet, UsageError, VorotoolError
 from vorotool.formats.io.sources import STANDARD_INPUT
 
@@ -52,14 +53,10 @@ def test_the_caller_knows(tmp_path):
     path.write_text("[[0, 0], [1, 0], [0, 1]]")
     assert len(vorotool.read(path, geometry="polygons").xy) == 3
     path.write_text(POLYGON)
-    with pytest.raises(InputError, match="'Polygon' is not a point"):
-        vorotool.read(path, geometry="points")
-    with pytest.raises(UsageError, match="invalid geometry 'lines'"):
-        vorotool.read(path, geometry="lines")
-    with pytest.raises(UsageError, match="columns applies to lists of points"):
-        vorotool.read(path, geometry="polygons", columns="1,2")
-    with pytest.raises(UsageError, match="columns applies to delimited text"):
-        vorotool.read(path, columns="1,2")
+    refused(InputError, "'Polygon' is not a point", vorotool.read, path, geometry="points")
+    refused(UsageError, "invalid geometry 'lines'", vorotool.read, path, geometry="lines")
+    refused(UsageError, "columns applies to lists of points", vorotool.read, path, geometry="polygons", columns="1,2")
+    refused(UsageError, "columns applies to delimited text", vorotool.read, path, columns="1,2")
 
 
 @pytest.mark.parametrize(
@@ -82,8 +79,7 @@ def test_the_caller_knows(tmp_path):
 )
 def test_formats_that_are_not_read(data, name, message):
     assert error_of(data, name).startswith(message)
-    with pytest.raises(UsageError, match="input_format 'node'"):
-        read(data, name, input_format="node")
+    refused(UsageError, "input_format 'node'", read, data, name, input_format="node")
 
 
 @pytest.mark.parametrize("fmt", ["json", "geojson", "wkt", "poly"])
@@ -101,13 +97,10 @@ def test_writing(tmp_path, fmt):
 
 def test_what_cannot_be_written(tmp_path):
     shapes = read("[[0, 0], [1, 0], [0, 1]]")
-    with pytest.raises(UsageError, match="'csv'"):
-        vorotool.write(shapes, tmp_path / "a.csv")
-    with pytest.raises(UsageError, match="PointSet"):
-        vorotool.write(PointSet([[1, 2]]), tmp_path / "a.csv")
+    refused(UsageError, "'csv'", vorotool.write, shapes, tmp_path / "a.csv")
+    refused(UsageError, "PointSet", vorotool.write, PointSet([[1, 2]]), tmp_path / "a.csv")
     assert list(tmp_path.iterdir()) == []
-    with pytest.raises(InputError, match="these are polygons or lines"):
-        vorotool.delaunay(shapes)
+    refused(InputError, "these are polygons or lines", vorotool.delaunay, shapes)
 
 
 WHOLE = {

@@ -8,25 +8,8 @@ import numpy as np
 import pytest
 import shapely
 
-from support.families.point_families import draw
 from support.readers.written import written
-from vorotool import PointSet, alpha_complex, alpha_hull, alpha_shape
-
-FAMILY = alpha_complex(PointSet(draw("uniform", 120, 5), crs={"type": "name"}))
-SHAPE = alpha_shape(FAMILY, r=float(FAMILY.spectrum[len(FAMILY.spectrum) // 2]))
-
-
-def test_edges_as_line_strings():
-    for interior in (False, True):
-        document = json.loads(written(SHAPE, "geojson", what="complex" if interior else "edges"))
-        assert document["crs"] == {"type": "name"}
-        classes = SHAPE.edge_classes
-        chosen = np.flatnonzero(classes) if interior else SHAPE.edge_index
-        places = [feature["geometry"]["coordinates"] for feature in document["features"]]
-        assert places == FAMILY.points[FAMILY.edges[chosen]].tolist()
-        properties = [feature["properties"] for feature in document["features"]]
-        assert [p["r_max"] is None for p in properties] == np.isinf(FAMILY.r_max[chosen]).tolist()
-        assert set(properties[0]) == {"label_a", "label_b", "length", "r_min", "r_max", "class"}
+from vorotool import alpha_hull, alpha_shape
 
 
 def test_a_hull_with_a_hole():

@@ -8,10 +8,10 @@ from scipy.spatial import Delaunay
 
 import vorotool
 from support.readers.written import rows_of, written
+from support.refusals import refused
 from vorotool.errors import UsageError
 
 XY = np.random.default_rng(8).integers(0, 60, (40, 2)).astype(float)
-SHAPE = [[0, 0], [40, 0], [40, 12], [14, 12], [14, 30], [0, 30]]
 
 
 def array(value, what):
@@ -48,15 +48,7 @@ def test_radii_of_the_spectrum():
     assert array(family, "spectrum").dtype == np.dtype("<f8")
 
 
-def test_points_along_are_points_for_all(tmp_path):
-    along = vorotool.points_along(vorotool.skeleton_exact(SHAPE), every=3)
-    assert np.array_equal(array(along, "points"), along.xy)
-    vorotool.write(along, tmp_path / "a.npy")
-    assert np.array_equal(vorotool.read(tmp_path / "a.npy").xy, along.xy)
-
-
 @pytest.mark.parametrize("what", ["table", "cells"])
 def test_what_is_no_plain_array(what):
     value = vorotool.delaunay(XY) if what == "table" else vorotool.voronoi_cells(XY)
-    with pytest.raises(UsageError, match="'npy'"):
-        written(value, "npy", what)
+    refused(UsageError, "'npy'", written, value, "npy", what)

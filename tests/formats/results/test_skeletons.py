@@ -1,10 +1,8 @@
 """Skeletons in every format."""
 
-import io
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import vorotool
@@ -19,17 +17,6 @@ MADE = vorotool.skeleton_exact(SHAPES, side="both")
 
 def text_of(fmt, skeleton=MADE, **options):
     return written(skeleton, fmt, **options)
-
-
-def test_npz_holds_all():
-    with np.load(io.BytesIO(text_of("npz"))) as archive:
-        for axis, name in enumerate(("source", "target")):
-            assert np.array_equal(archive[f"arc_{name}"], MADE.arcs[:, axis])
-        for axis, name in enumerate("xy"):
-            assert np.array_equal(archive[f"vertex_{name}"], MADE.as_given.vertices[:, axis])
-            assert np.array_equal(archive[f"arc_control_{name}"], MADE.control[:, axis], equal_nan=True)
-        assert np.array_equal(archive["vertex_r"], MADE.radius)
-        assert np.array_equal(archive["ring_x"], MADE.polygons.as_given.xy[:, 0])
 
 
 def test_geojson_keeps_ids_and_properties():
@@ -63,9 +50,3 @@ def test_nothing_is_written_too(what):
         text = text_of(fmt, nothing, what=what)
         if fmt in ("json", "geojson"):
             json.loads(text)
-
-
-def test_threads_change_nothing():
-
-    for fmt in streamed(parts_of(MADE)["skeleton"]):
-        assert text_of(fmt, threads=1) == text_of(fmt, threads=3)

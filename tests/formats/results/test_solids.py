@@ -1,6 +1,5 @@
 """Tetrahedra, triangles and edges in space, read back by readers of the tests' own."""
 
-import io
 from base64 import b64decode
 from xml.etree import ElementTree
 
@@ -8,6 +7,8 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.readers.written import bytes_of
+from support.refusals import refused
 from vorotool.formats.results.meshes import write_solid
 
 POINTS = np.random.default_rng(1).random((60, 3))
@@ -15,9 +16,7 @@ MESH = vorotool.delaunay(POINTS)
 
 
 def written(mesh, fmt, what):
-    out = io.BytesIO()
-    write_solid(out, mesh, fmt, what=what)
-    return out.getvalue()
+    return bytes_of(write_solid, mesh, fmt, what=what)
 
 
 def read_vtu(data):
@@ -86,14 +85,12 @@ def test_stl_says_what_single_precision_loses():
     close = np.vstack([POINTS, POINTS[:1] + 1e-12])
     with pytest.warns(vorotool.VorotoolWarning, match="corners coincide"):
         written(vorotool.delaunay(close), "stl", "triangles")
-    with pytest.raises(vorotool.InputError, match=r"up to 3\.4e38"):
-        written(vorotool.delaunay(POINTS * 1e39), "stl", "hull")
+    refused(vorotool.InputError, r"up to 3\.4e38", written, vorotool.delaunay(POINTS * 1e39), "stl", "hull")
 
 
 def test_ply_refuses_labels_that_it_cannot_hold():
     mesh = vorotool.delaunay(vorotool.VolumePoints(POINTS, np.arange(60) + 2**31))
-    with pytest.raises(vorotool.InputError, match="PLY holds labels up to 2147483647"):
-        written(mesh, "ply", "hull")
+    refused(vorotool.InputError, "PLY holds labels up to 2147483647", written, mesh, "ply", "hull")
 
 
 @pytest.mark.parametrize(("what", "kind"), [("hull", "f"), ("triangles", "f"), ("edges", "l")])

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.refusals import refused
 from vorotool import InputError
 
 CELLS = vorotool.voronoi_cells(
@@ -112,5 +113,4 @@ def test_arrays_of_npz_and_rows_of_csv():
 
 def test_what_ply_cannot_hold_is_refused():
     cells = vorotool.voronoi_cells(vorotool.VolumePoints([[0.5, 0.5, 0.5]], labels=[2**31]), frame=(0, 0, 0, 1, 1, 1))
-    with pytest.raises(InputError, match="PLY holds labels up to 2147483647"):
-        written("ply", cells)
+    refused(InputError, "PLY holds labels up to 2147483647", written, "ply", cells)

@@ -1,9 +1,7 @@
 """Voronoi maps as files: every format, what is read back, and files that are no maps."""
 
-import io
 import json
 import warnings
-import zipfile
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,8 +11,10 @@ import pytest
 import shapely
 
 import vorotool
-from support.readers.written import rows_of, written
+from support.readers.written import arrays_of, bytes_of, rows_of, written
+from support.refusals import refused
 from vorotool.errors import InputError
+from vorotool.formats.text.tables import write_arrays
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES = geopandas.GeoDataFrame(
@@ -130,7 +130,6 @@ def faulty():
     """A change of the JSON of a map, and words of the message."""
     yield lambda d: d.update(version=2), "version 2 of vorotool.voronoi"
     yield lambda d: d.update(frame=[0, 0, 1]), "the frame is"
-    yield lambda d: d.update(frame=[0, 0, -1, 1]), "the frame is"
     yield lambda d: d.update(frame=None), "the frame is None"
     yield lambda d: d.update(max_distance=-1), "max_distance is -1; write a length above 0"
     yield lambda d: d.update(clip=[]), r"clip: \[\] is not an object"
@@ -142,11 +141,9 @@ def faulty():
     yield lambda d: d["arcs"][2].update(source=10**6), "arcs 2: source is 1000000; write an integer"
     yield lambda d: d["arcs"][0].update(source=d["arcs"][0]["target"]), "arcs 0: it is from vertex"
     yield lambda d: d["arcs"][0].update(sites=[0, 99]), "arcs 0: sites is"
-    yield lambda d: d["arcs"][0].update(sites=[None]), "arcs 0: sites is"
     yield lambda d: d["arcs"][0].update(sites=d["arcs"][0]["sites"][::-1]), "whose side is"
     yield lambda d: d["arcs"][0].update(kind="spline"), "arcs 0: kind is 'spline'"
     yield lambda d: d["arcs"][0].update(kind="circle", control=None), r"the center of a circle is \[x, y\]"
-    yield lambda d: d["arcs"][0].update(center=[1, 2]), "arcs 0: the center of a"
     yield lambda d: d["arcs"][0].update(cut=1), "arcs 0: cut is 1; write true or false"
     yield lambda d: d["sites"].append({}), "5 cells, but 6 sites"
     yield lambda d: d["sites"][0].update(properties=[1]), r"sites 0: properties is \[1\]"
@@ -154,11 +151,9 @@ def faulty():
     yield lambda d: d["polygons"][0].update(line=[]), "a polygon has no vertices"
     yield lambda d: d["polygons"][0].update(feature=4), "feature must not decrease"
     yield lambda d: d["cells"][0].update(rings=[[0]]), "cells 0: rings are"
-    yield lambda d: d["cells"][0].update(rings=[[]]), "cells 0: rings are"
     yield lambda d: d["cells"][0].update(rings=7), "cells 0: rings are 7"
     yield lambda d: d["cells"][0].update(shells=[]), "cells 0: shells are"
     yield lambda d: d["cells"][0].update(shells=[0, 5]), "cells 0: shells are"
-    yield lambda d: d["cells"][0].update(shells=[True]), "cells 0: shells are"
     yield lambda d: d["cells"][0]["rings"][0].append(10**6), "cells 0: a ring has arc 1000000"
     yield lambda d: d["cells"][0]["rings"][0].pop(), "cells 0: a ring continues at vertex"
     yield lambda d: d["cells"][0].update(rings=2 * d["cells"][0]["rings"]), "side 2 times; expected 1"
@@ -169,14 +164,7 @@ def faulty():
 def test_json_that_is_no_map(saved, change, words):
     document = json.loads(written(MAPS["mixed"], "json"))
     change(document)
-    with pytest.raises(InputError, match=words) as error:
-        vorotool.read(saved(document))
-    assert "cells.json" in str(error.value)
-
-
-def arrays_of(data):
-    with np.load(io.BytesIO(data)) as arrays:
-        return dict(arrays)
+    refused(InputError, [words, "cells.json"], vorotool.read, saved(document))
 
 
 def faulty_arrays():
@@ -197,13 +185,6 @@ def faulty_arrays():
 
 @pytest.mark.parametrize(("change", "words"), list(faulty_arrays()))
 def test_npz_that_is_no_map(saved, change, words):
-    arrays = arrays_of(written(MAPS["mixed"], "npz"))
+    arrays = arrays_of(MAPS["mixed"])
     change(arrays)
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w") as archive:
-        for name, values in arrays.items():
-            with archive.open(f"{name}.npy", "w") as member:
-                np.lib.format.write_array(member, np.ascontiguousarray(values))
-    with pytest.raises(InputError, match=words) as error:
-        vorotool.read(saved(out.getvalue(), "npz"))
-    assert "cells.npz" in str(error.value)
+    refused(InputError, [words, "cells.npz"], vorotool.read, saved(bytes_of(write_arrays, arrays), "npz"))

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support.readers.sources import read_as
-from support.readers.written import rows_of
+from support.readers.written import bytes_of, rows_of
 from vorotool.formats.io.sources import Source
 from vorotool.formats.text.tables import write_table
 from vorotool.products.formats import TABLES
@@ -19,9 +19,7 @@ from vorotool.types.table import Table
 
 
 def written(table, fmt, **options):
-    out = io.BytesIO()
-    write_table(out, table, fmt, **options)
-    return out.getvalue()
+    return bytes_of(write_table, table, fmt, **options)
 
 
 MIXED = Table(

@@ -11,6 +11,7 @@ import pytest
 
 import vorotool
 from support.few import few
+from support.refusals import refused
 from vorotool.errors import InputError, OutputError, UsageError
 from vorotool.formats.volumes.opening import open_volume, read_volume
 from vorotool.formats.zarr.store import check_store
@@ -52,34 +53,26 @@ def test_npy(tmp_path, dtype, order):
 def test_npy_that_is_no_volume(tmp_path):
     path = tmp_path / "a.npy"
     np.save(path, VALUES[0])
-    with pytest.raises(InputError, match=r"a.npy"):
-        open_volume(path)
+    refused(InputError, r"a.npy", open_volume, path)
     np.save(path, VALUES)
     whole = path.read_bytes()
     for length in (0, 3, 7, 60, 128, len(whole) - 1):
         path.write_bytes(whole[:length])
-        with pytest.raises(InputError, match=r"a\.npy"):
-            read_volume(path)
+        refused(InputError, r"a\.npy", read_volume, path)
     np.save(path, VALUES.astype(complex))
-    with pytest.raises(InputError, match="holds complex128, not numbers"):
-        open_volume(path)
+    refused(InputError, "holds complex128, not numbers", open_volume, path)
     np.save(path, np.zeros((3, 0, 2)))
-    with pytest.raises(InputError, match="is 2 x 0 x 3 voxels: a volume needs at least 1 x 1 x 1"):
-        open_volume(path)
+    refused(InputError, "is 2 x 0 x 3 voxels: a volume needs at least 1 x 1 x 1", open_volume, path)
     head = io.BytesIO()
     np.lib.format.write_array_header_1_0(head, {"descr": "<u2", "fortran_order": False, "shape": (2**20,) * 3})
     path.write_bytes(head.getvalue() + bytes(100))
-    with pytest.raises(InputError, match="is cut off"):
-        open_volume(path)
+    refused(InputError, "is cut off", open_volume, path)
     with pytest.raises(InputError, match='is not a tiff file, it begins as npy: use input_format="npy"'):
         open_volume(path, input_format="tiff")
-    with pytest.raises(UsageError, match="input_format"):
-        open_volume(path, input_format="csv")
+    refused(UsageError, "input_format", open_volume, path, input_format="csv")
     (tmp_path / "a.csv").write_text("x,y\n")
-    with pytest.raises(InputError, match=r"a.csv"):
-        open_volume(tmp_path / "a.csv")
-    with pytest.raises(InputError, match="there is no such file"):
-        open_volume(tmp_path / "b.tif")
+    refused(InputError, r"a.csv", open_volume, tmp_path / "a.csv")
+    refused(InputError, "there is no such file", open_volume, tmp_path / "b.tif")
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with a name")
@@ -158,24 +151,19 @@ def test_units_of_ome_zarr(tmp_path, units, expected):
 )
 def test_axes_that_are_no_volume(tmp_path, axes, shape, words):
     pyramid(tmp_path / "a.zarr", np.zeros(shape, np.uint8), axes=axes)
-    with pytest.raises(InputError, match=f"a.zarr {words}"):
-        open_volume(tmp_path / "a.zarr")
+    refused(InputError, f"a.zarr {words}", open_volume, tmp_path / "a.zarr")
 
 
 def test_stores_that_are_damaged(tmp_path):
     vorotool.write(vorotool.Volume(VALUES.astype(np.uint16)), tmp_path / "a.zarr")
     chunk = tmp_path / "a.zarr/c/0/0/0"
     chunk.write_bytes(chunk.read_bytes()[:-5])
-    with pytest.raises(InputError, match=r"a\.zarr"):
-        read_volume(tmp_path / "a.zarr")
+    refused(InputError, r"a\.zarr", read_volume, tmp_path / "a.zarr")
     (tmp_path / "a.zarr/zarr.json").write_text("{")
-    with pytest.raises(InputError, match=r"a\.zarr"):
-        open_volume(tmp_path / "a.zarr")
+    refused(InputError, r"a\.zarr", open_volume, tmp_path / "a.zarr")
     (tmp_path / "b.zarr").mkdir()
-    with pytest.raises(InputError, match=r"b\.zarr"):
-        open_volume(tmp_path / "b.zarr")
-    with pytest.raises(InputError, match="is a directory"):
-        open_volume(tmp_path)
+    refused(InputError, r"b\.zarr", open_volume, tmp_path / "b.zarr")
+    refused(InputError, "is a directory", open_volume, tmp_path)
 
 
 def test_chunks():
@@ -200,8 +188,7 @@ def test_stores_do_not_depend_on_slabs(tmp_path, threads):
         written.append([(str(path.relative_to(tmp_path / name)), path.read_bytes()) for path in files])
         np.testing.assert_array_equal(zarr.open(tmp_path / name)[:], values)
     assert written[0] == written[1] == written[2]
-    with pytest.raises(ValueError, match="are not those of chunks of 4"):
-        write_chunks(array, 0, values[:3])
+    refused(ValueError, "are not those of chunks of 4", write_chunks, array, 0, values[:3])
 
 
 def test_coarser_copies(tmp_path):
@@ -219,10 +206,8 @@ def test_coarser_copies(tmp_path):
     source = check(path, values)
     assert source.grid == GRID
     (path / "notes.txt").write_text("of somebody")
-    with pytest.raises(OutputError, match="is not replaced"):
-        check_store(path)
-    with pytest.raises(UsageError, match="coarser copies apply to OME-Zarr"):
-        write_zarr(tmp_path / "b.zarr", values, levels=1)
+    refused(OutputError, "is not replaced", check_store, path)
+    refused(UsageError, "coarser copies apply to OME-Zarr", write_zarr, tmp_path / "b.zarr", values, levels=1)
     assert usual_levels((11, 40, 33)) == 0
     flat = values[:1, :1]
     write_zarr(tmp_path / "flat.ome.zarr", flat, levels=2)
@@ -240,5 +225,4 @@ def test_the_library_writes_and_reads_labels(tmp_path):
         assert (read.grid is not None) == (name in ("a.tif", "a.ome.zarr"))
     assert zarr.open_group(tmp_path / "a.ome.zarr").attrs["ome"]["image-label"] == {}
     for name in ("a.npy", "a.zarr", "a.ome.zarr"):
-        with pytest.raises(InputError, match='geometry="volume"'):
-            vorotool.read(tmp_path / name)
+        refused(InputError, 'geometry="volume"', vorotool.read, tmp_path / name)

@@ -7,6 +7,7 @@ import pytest
 import shapely
 
 import vorotool
+from support.refusals import refused
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.volumes.opening import read_xyz
 
@@ -61,8 +62,7 @@ def test_formats(tmp_path, name, data, columns, has_labels):
     if has_labels:
         assert points.labels.tolist() == LABELS
     assert read_xyz(path, columns=columns, properties=False).properties == {}
-    with pytest.raises(LimitError, match="3 points"):
-        read_xyz(path, columns=columns, max_sites=2)
+    refused(LimitError, "3 points", read_xyz, path, columns=columns, max_sites=2)
 
 
 @pytest.mark.parametrize("base", [0, 1])
@@ -75,14 +75,11 @@ def test_nodes_of_tetgen(tmp_path, base):
     assert points.properties == {"attribute_1": ["0.0", "0.5", "1.0"], "boundary_marker": ["0", "1", "2"]}
     path.write_text("1\n1 2 3 4\n")
     assert vorotool.read(path, geometry="space").xyz.tolist() == [[2, 3, 4]]
-    with pytest.raises(LimitError, match="1 points"):
-        read_xyz(path, max_sites=0)
+    refused(LimitError, "1 points", read_xyz, path, max_sites=0)
     path.write_text("1 2 0 0\n1 2 3\n")
-    with pytest.raises(InputError, match="line 1"):
-        read_xyz(path)
+    refused(InputError, "line 1", read_xyz, path)
     path.write_text("1 3 0 2\n1 2 3 4 5 6\n")
-    with pytest.raises(InputError, match="write <vertices> 3 <attributes>"):
-        read_xyz(path)
+    refused(InputError, "write <vertices> 3 <attributes>", read_xyz, path)
 
 
 def test_npz_and_npy(tmp_path):
@@ -93,8 +90,7 @@ def test_npz_and_npy(tmp_path):
     np.save(tmp_path / "a.npy", table)
     assert read_xyz(tmp_path / "a.npy", columns="1,2,z=3").xyz.tolist() == XYZ
     assert vorotool.read(tmp_path / "a.npy", geometry="space", columns="1,2,z=3").xyz.tolist() == XYZ
-    with pytest.raises(InputError, match='columns="1,2,z=3"'):
-        read_xyz(tmp_path / "a.npy")
+    refused(InputError, 'columns="1,2,z=3"', read_xyz, tmp_path / "a.npy")
     for columns, error, words in (
         ("1,2", UsageError, "names no z"),
         ("1,2,z=4", InputError, "has 3 columns without names: there is no column '4'"),
@@ -102,15 +98,13 @@ def test_npz_and_npy(tmp_path):
         ("1,2,z=2", UsageError, "name X,Y,z=Z"),
         ("01,2,z=1", InputError, "names one column twice"),
     ):
-        with pytest.raises(error, match=words):
-            read_xyz(tmp_path / "a.npy", columns=columns)
+        refused(error, words, read_xyz, tmp_path / "a.npy", columns=columns)
     np.save(tmp_path / "b.npy", np.column_stack([LABELS, table]))
     points = read_xyz(tmp_path / "b.npy", columns="2,3,1,z=4")
     assert (points.xyz.tolist(), points.labels.tolist()) == (XYZ, LABELS)
     table[1, 2] = np.nan
     np.save(tmp_path / "a.npy", table)
-    with pytest.raises(InputError, match=r"a.npy, row 2"):
-        read_xyz(tmp_path / "a.npy", columns="1,2,z=3")
+    refused(InputError, r"a.npy, row 2", read_xyz, tmp_path / "a.npy", columns="1,2,z=3")
     np.save(tmp_path / "a.npy", table[:, :2])
     with pytest.raises(InputError, match=r"holds float64 of shape \(3, 2\): points with a z are an \(n, 3\) array"):
         read_xyz(tmp_path / "a.npy", columns="1,2,z=3")
@@ -137,22 +131,18 @@ def test_npz_and_npy(tmp_path):
 def test_what_has_no_z(tmp_path, name, data, columns, words):
     path = tmp_path / name
     path.write_bytes(data if isinstance(data, bytes) else data.encode())
-    with pytest.raises(InputError, match=words) as caught:
-        read_xyz(path, columns=columns)
-    assert name in str(caught.value)
+    refused(InputError, [words, name], read_xyz, path, columns=columns)
 
 
 @pytest.mark.parametrize("columns", ["x", "x,y,z=", "x,y,z=z,z=w", "x,y,z=x", "0,1,z=2", "a,b,c,d,z=e"])
 def test_columns_that_are_malformed(tmp_path, columns):
     (tmp_path / "a.csv").write_text(text("x", "y", "z"))
-    with pytest.raises(UsageError, match="name X,Y,z=Z or X,Y,z=Z,LABEL"):
-        read_xyz(tmp_path / "a.csv", columns=columns)
+    refused(UsageError, "name X,Y,z=Z or X,Y,z=Z,LABEL", read_xyz, tmp_path / "a.csv", columns=columns)
 
 
 def test_an_image(tmp_path):
     vorotool.write(vorotool.LabelImage(np.ones((3, 4), np.uint8)), tmp_path / "a.png")
-    with pytest.raises(InputError, match=r"a.png"):
-        read_xyz(tmp_path / "a.png")
+    refused(InputError, r"a.png", read_xyz, tmp_path / "a.png")
 
 
 def test_a_z_stays_a_property_of_points_in_the_plane(tmp_path):

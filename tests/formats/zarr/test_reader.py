@@ -12,6 +12,7 @@ import pytest
 
 import vorotool
 from support.few import few
+from support.refusals import refused
 from vorotool.errors import InputError, OutputError
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import check_store
@@ -131,8 +132,7 @@ def test_a_pickled_chunk_of_format_2_does_not_run(tmp_path, where):
     path = store(
         tmp_path / "evil.zarr", version_2(**{where: [codec] if where == "filters" else codec}), data, version=2
     )
-    with pytest.raises(InputError, match="'pickle'"):
-        vorotool.read(path)
+    refused(InputError, "'pickle'", vorotool.read, path)
     assert not (tmp_path / "ran").exists()
 
 
@@ -149,8 +149,7 @@ def test_a_codec_of_format_3_that_is_not_known(tmp_path, name):
         )
     ):
         path = store(tmp_path / f"{number}.zarr", version_3(codecs=codec))
-        with pytest.raises(InputError, match=f"'{name}'"):
-            vorotool.read(path)
+        refused(InputError, f"'{name}'", vorotool.read, path)
 
 
 @pytest.mark.parametrize(
@@ -192,15 +191,12 @@ def test_a_codec_of_format_3_that_is_not_known(tmp_path, name):
 )
 def test_metadata_that_are_refused(tmp_path, metadata, version, words):
     path = store(tmp_path / "a.zarr", metadata, version=version)
-    with pytest.raises(InputError, match=words) as caught:
-        vorotool.read(path)
-    assert "a.zarr" in str(caught.value)
+    refused(InputError, [words, "a.zarr"], vorotool.read, path)
 
 
 def test_nested_brackets_as_an_output(tmp_path):
     path = store(tmp_path / "a.zarr", "[" * 100_000)
-    with pytest.raises(OutputError, match="is not a Zarr array"):
-        check_store(path)
+    refused(OutputError, "is not a Zarr array", check_store, path)
 
 
 @pytest.mark.parametrize(
@@ -218,8 +214,7 @@ def test_nested_brackets_as_an_output(tmp_path):
 def test_chunks_that_are_damaged(tmp_path, further, chunk, words):
     path = store(tmp_path / "a.zarr", version_3(*({"name": name} for name in further)), {"c/0/0": chunk})
     words = re.escape(words)
-    with pytest.raises(InputError, match=rf"a\.zarr cannot be read as Zarr: .*({words})"):
-        vorotool.read(path)
+    refused(InputError, rf"a\.zarr cannot be read as Zarr: .*({words})", vorotool.read, path)
 
 
 def test_indices_of_shards_that_lie(tmp_path):
@@ -230,14 +225,11 @@ def test_indices_of_shards_that_lie(tmp_path):
     for offset, size in ((2**40, 8), (0, 2**62), (2**64 - 1, 8), (0, 7)):
         index = offset.to_bytes(8, "little") + size.to_bytes(8, "little") + data[-52:-4]
         file.write_bytes(data[:-68] + index + google_crc32c.value(index).to_bytes(4, "little"))
-        with pytest.raises(InputError, match=r"cannot be read as Zarr: .*(of a shard|needs 8 bytes)"):
-            vorotool.read(tmp_path / "a")
+        refused(InputError, r"cannot be read as Zarr: .*(of a shard|needs 8 bytes)", vorotool.read, tmp_path / "a")
     file.write_bytes(data[:-1])
-    with pytest.raises(InputError, match="wrong checksum"):
-        vorotool.read(tmp_path / "a")
+    refused(InputError, "wrong checksum", vorotool.read, tmp_path / "a")
     file.write_bytes(data[:50])
-    with pytest.raises(InputError, match="a shard has 50 bytes, but its index 68"):
-        vorotool.read(tmp_path / "a")
+    refused(InputError, "a shard has 50 bytes, but its index 68", vorotool.read, tmp_path / "a")
 
 
 @pytest.mark.parametrize(
@@ -292,8 +284,7 @@ def test_chunks_of_a_shard_share_no_bytes(tmp_path):
     index = np.frombuffer(data[-(32 * 32 * 16 + 4) : -4], "<u8").reshape(-1, 2).copy()
     index[:] = index[0] * [1, 2]
     file.write_bytes(data[: -len(index.tobytes()) - 4] + index.tobytes() + crc32c(index))
-    with pytest.raises(InputError, match=f"{len(data)}"):
-        vorotool.read(tmp_path / "a")
+    refused(InputError, f"{len(data)}", vorotool.read, tmp_path / "a")
 
 
 def crc32c(values):

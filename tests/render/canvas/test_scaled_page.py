@@ -1,12 +1,12 @@
 """Pictures to scale, read back with their sizes, and in the colors and widths that are chosen."""
 
-import io
 import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
 
 from support.few import few
+from support.readers.written import bytes_of
 from vorotool.errors import UsageError
 from vorotool.formats.drawing.svg_reader import read_svg
 from vorotool.formats.io.sources import Source
@@ -21,9 +21,7 @@ SQUARE = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]])
 
 
 def svg_of(layers, page):
-    out = io.BytesIO()
-    write_layers_svg(out, layers, page)
-    return out.getvalue()
+    return bytes_of(write_layers_svg, layers, page)
 
 
 def shapes_of(svg):
@@ -92,9 +90,8 @@ CONTROLS = [*map(chr, range(0x20)), "\ud800", "\udfff", "\ufffe", "\uffff", "]]>
 @pytest.mark.parametrize("text", CONTROLS, ids=lambda text: "-".join(f"{ord(each):04x}" for each in text))
 def test_every_character_gives_xml(text):
     page = Page((0, 0, 9, 9), width=100, y_up=False)
-    out = io.BytesIO()
-    write_layers_svg(out, [Texts("labels", np.array([[1.0, 1.0]]), [f"v{text}v"])], page)
-    root = ET.fromstring(out.getvalue().decode())
+    data = bytes_of(write_layers_svg, [Texts("labels", np.array([[1.0, 1.0]]), [f"v{text}v"])], page)
+    root = ET.fromstring(data.decode())
     (found,) = [each.text for each in root.iter("{http://www.w3.org/2000/svg}text")]
     kept = text if text.isprintable() or text in "\t\n\r" else "\ufffd"
     assert found == f"v{kept}v".replace("\r", "\n")

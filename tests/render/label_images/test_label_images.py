@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import vorotool
+from support.refusals import refused
 from vorotool import LimitError, UsageError
 from vorotool.render.canvas.styles import CELLS, PictureStyle, picture_palette
 from vorotool.render.label_images.picture import LabelPicture
@@ -92,8 +93,7 @@ def test_layers_are_selectable() -> None:
     np.testing.assert_array_equal(picture(layers=["diagram"]), DIAGRAM * PALETTE.line)
     np.testing.assert_array_equal(picture(layers=["seeds"]), discs(Frame(0, 0, 31, 40)) * PALETTE.seed)
     np.testing.assert_array_equal(picture(diagram=None, seeds=None), COLORS[LABELS])
-    with pytest.raises(UsageError, match="'edges'"):
-        picture(layers=["edges"])
+    refused(UsageError, "'edges'", picture, layers=["edges"])
 
 
 @pytest.mark.parametrize(
@@ -145,8 +145,7 @@ def test_one_slice_is_chosen_by_its_z():
     ],
 )
 def test_no_other_slice_is_there(frame, chosen, words):
-    with pytest.raises(UsageError, match=words):
-        SlicePicture(frame, chosen=chosen)
+    refused(UsageError, words, SlicePicture, frame, chosen=chosen)
 
 
 def test_points_between_voxels_keep_their_places():
@@ -176,8 +175,7 @@ def test_objects_are_drawn_whole(chosen):
 
 
 def test_pictures_are_limited():
-    with pytest.raises(LimitError, match="209"):
-        SlicePicture(FRAME).check(209)
+    refused(LimitError, "209", SlicePicture(FRAME).check, 209)
     SlicePicture(FRAME).check(210)
 
 
@@ -229,5 +227,4 @@ def test_cells_are_paths_that_fill_the_labels() -> None:
 
 
 def test_many_pixels_are_refused() -> None:
-    with pytest.raises(LimitError, match=r"2000"):
-        drawn(LabelImage(np.ones((501, 2000), np.uint8)))
+    refused(LimitError, r"2000", drawn, LabelImage(np.ones((501, 2000), np.uint8)))

@@ -16,6 +16,8 @@ from PIL import Image
 import vorotool
 from support.families.point_families import FAMILIES, draw
 from support.few import few
+from support.readers.written import bytes_of
+from support.refusals import refused
 from vorotool import (
     UsageError,
     alpha_complex,
@@ -61,8 +63,7 @@ def test_every_edge_is_in_the_layer_of_its_class():
     regions = next(layer for layer in layers if layer.name == "polygons")
     assert isinstance(regions, Polygons)
     assert len(regions.ring_limits) - 1 == shape.region_count
-    with pytest.raises(UsageError, match="cells"):
-        alpha_layers(shape, page_of(family.mesh), ["cells"])
+    refused(UsageError, "cells", alpha_layers, shape, page_of(family.mesh), ["cells"])
 
 
 def bulge(path, sweep):
@@ -78,9 +79,7 @@ def test_an_arc_turns_clockwise_in_the_data(y_up):
     start, end = np.array([[-1.0, 0], [1, 0]]), np.array([[1.0, 0], [-1, 0]])
     arcs = Arcs("hull", start, end, np.zeros((2, 2)), np.array([0, 2]), "#ffffff", "#000000")
     page = Page((-1, -1, 1, 1), width=104, y_up=y_up)
-    out = io.BytesIO()
-    write_layers_svg(out, [arcs], page)
-    path = ET.fromstring(out.getvalue()).find(f"{NS}g/{NS}path").attrib["d"]
+    path = ET.fromstring(bytes_of(write_layers_svg, [arcs], page)).find(f"{NS}g/{NS}path").attrib["d"]
     steps = re.findall(r"A([\d.]+) [\d.]+ 0 0 (\d) ([\d.]+) ([\d.]+)", path)
     assert [float(step[0]) for step in steps] == [page.length(1.0)] * 2
     places = page.place(start).tolist()
@@ -109,9 +108,7 @@ def steps_of(path):
 @pytest.mark.parametrize("n", [3, 50, 3000])
 def test_the_plot_shows_every_curve_to_its_last_value(n):
     curves = alpha_curves(alpha_complex(draw("uniform", n, 1)))
-    out = io.BytesIO()
-    write_curves_svg(out, curves, width=600)
-    root = ET.fromstring(out.getvalue())
+    root = ET.fromstring(bytes_of(write_curves_svg, curves, width=600))
     for name in CURVES:
         group = root.find(f"{NS}g[@id='{name}']")
         corners = list(steps_of(group.find(f"{NS}path").attrib["d"]))
@@ -126,9 +123,7 @@ def test_the_plot_shows_every_curve_to_its_last_value(n):
 
 
 def test_a_plot_of_nothing():
-    out = io.BytesIO()
-    write_curves_svg(out, Table({name: np.empty(0) for name in ("r", *CURVES)}))
-    ET.fromstring(out.getvalue())
+    ET.fromstring(bytes_of(write_curves_svg, Table({name: np.empty(0) for name in ("r", *CURVES)})))
 
 
 @pytest.mark.parametrize("name", ["uniform", "grid", "collinear", "exact_circle"])
@@ -163,8 +158,7 @@ def test_layers_come_from_below_in_one_order():
     assert edges.pairs is mesh.edges
     assert points.points is mesh.points
     assert labels.texts == ["1", "2", "3", "4"]
-    with pytest.raises(UsageError, match="'hull'"):
-        mesh_layers(mesh, page, ["hull"])
+    refused(UsageError, "'hull'", mesh_layers, mesh, page, ["hull"])
 
 
 def test_crowded_points_have_fine_lines():
@@ -190,9 +184,7 @@ PAGE = page_of(MADE)
 
 
 def svg_of(layers, page=PAGE):
-    out = io.BytesIO()
-    write_layers_svg(out, layers, page)
-    return out.getvalue().decode()
+    return bytes_of(write_layers_svg, layers, page).decode()
 
 
 def test_every_parabola_is_one_quadratic_curve():
@@ -209,8 +201,7 @@ def test_layers_are_groups_from_below():
     assert text.count("stroke-dasharray") == 1
     assert re.findall(r'<g id="(\w+)"', text) == list(SKELETON_LAYERS)
     assert re.findall(r'<g id="(\w+)"', svg_of(diagram_layers(MADE, PAGE, ["skeleton"]))) == ["diagram"]
-    with pytest.raises(UsageError, match="cells"):
-        skeleton_layers(MADE, PAGE, ["cells"])
+    refused(UsageError, "cells", skeleton_layers, MADE, PAGE, ["cells"])
 
 
 def test_png_follows_the_curve():
@@ -218,9 +209,8 @@ def test_png_follows_the_curve():
     points = np.array([[0.0, 0.0], [10.0, 0.0], [5.0, 10.0]])
     layer = Curves("curve", points, np.array([[0, 1]], np.int32), np.array([2], np.int32), "#000000", 2)
     page = Page((0, 0, 10, 10), width=104, y_up=False)
-    out = io.BytesIO()
-    write_png(out, layer_bands([layer], page), (page.height, page.width), rgb=True)
-    dark = np.asarray(Image.open(io.BytesIO(out.getvalue())).convert("L")) < 128
+    data = bytes_of(write_png, layer_bands([layer], page), (page.height, page.width), rgb=True)
+    dark = np.asarray(Image.open(io.BytesIO(data)).convert("L")) < 128
     middle = page.place(np.array([[5.0, 5.0]]))[0]
     rows = np.flatnonzero(dark[:, int(middle[0])])
     assert np.abs(rows + 0.5 - middle[1]).max() <= 1.5

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import re
 from xml.etree import ElementTree
 
@@ -15,6 +14,8 @@ from tests.support.families.site_families import mixed_sites
 
 import vorotool
 from support.oracles.voronoi_oracle import quietly
+from support.readers.written import bytes_of
+from support.refusals import refused
 from vorotool import UsageError, voronoi
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Texts
 from vorotool.render.canvas.styles import cell_color
@@ -33,9 +34,7 @@ def drawn(cells, *layers, width=1000):
 
 
 def svg_of(layers, page):
-    out = io.BytesIO()
-    write_layers_svg(out, layers, page)
-    return ElementTree.fromstring(out.getvalue().decode())
+    return ElementTree.fromstring(bytes_of(write_layers_svg, layers, page).decode())
 
 
 def outline(path):
@@ -165,5 +164,4 @@ def test_names_say_what_a_column_says(tmp_path):
         assert f">{name}</text>" in text
     with pytest.raises(UsageError, match="expected a column of the input, name"):
         vorotool.write(cells, tmp_path / "a.svg", label_by="depth")
-    with pytest.raises(UsageError, match="'walls'"):
-        vorotool.write(cells, tmp_path / "a.svg", layers=["walls"])
+    refused(UsageError, "'walls'", vorotool.write, cells, tmp_path / "a.svg", layers=["walls"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import re
 from html import unescape
 
@@ -13,6 +12,8 @@ from PIL import Image
 from support.families.point_families import draw
 from support.few import few
 from support.processes.browser import browse, needs_browser
+from support.readers.written import bytes_of
+from support.refusals import refused
 from vorotool import LimitError, alpha_complex, alpha_curves, alpha_shape
 from vorotool.render.canvas.styles import BOUNDARY, CELLS, SEED, SINGULAR
 from vorotool.render.pages.html import MOST_POINTS, check_family_size, write_alpha_html
@@ -21,9 +22,7 @@ from vorotool.types.fields import with_y_axis
 
 
 def page_of(family, **options):
-    out = io.BytesIO()
-    write_alpha_html(out, family, alpha_curves(family), **options)
-    return out.getvalue().decode()
+    return bytes_of(write_alpha_html, family, alpha_curves(family), **options).decode()
 
 
 def shown(document, name):
@@ -106,5 +105,4 @@ def test_y_upwards():
 
 def test_too_many_points():
     family = alpha_complex(draw("uniform", MOST_POINTS + 1, 0))
-    with pytest.raises(LimitError, match=r'100001 points are too many for a page, .* use fmt="svg" or "png"'):
-        check_family_size(family)
+    refused(LimitError, r'100001 points are too many for a page, .* use fmt="svg" or "png"', check_family_size, family)

@@ -1,6 +1,5 @@
 """The page of cells and labels: its data, and what a real browser shows of it where there is one."""
 
-import io
 import json
 import re
 from base64 import b64decode
@@ -14,6 +13,8 @@ from PIL import Image
 import vorotool
 from support.few import few
 from support.processes.browser import browse, needs_browser
+from support.readers.written import bytes_of
+from support.refusals import refused
 from vorotool import LimitError, voronoi_cells
 from vorotool.render.canvas.styles import CELLS
 from vorotool.render.pages.html import (
@@ -30,9 +31,7 @@ LABELS = np.array([[1, 1, 2, 2], [1, 0, 3, 2], [3, 3, 3, 12]])
 
 
 def page_of(shapes, classes, columns):
-    out = io.BytesIO()
-    write_cells_html(out, shapes, classes, columns)
-    return out.getvalue().decode()
+    return bytes_of(write_cells_html, shapes, classes, columns).decode()
 
 
 def data_of(page):
@@ -84,8 +83,7 @@ def test_cells_are_outlined(y_up):
 
 
 def test_too_many():
-    with pytest.raises(LimitError, match="100001 cells are too many for a page"):
-        check_cells_size(MOST_CELLS + 1)
+    refused(LimitError, "100001 cells are too many for a page", check_cells_size, MOST_CELLS + 1)
 
 
 def test_nothing_is_loaded_from_elsewhere():

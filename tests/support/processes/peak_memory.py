@@ -3,6 +3,8 @@
 import json
 import subprocess
 import sys
+import tracemalloc
+from contextlib import contextmanager
 
 SCRIPT = """
 import json, re, sys
@@ -40,3 +42,14 @@ def watched_together(commands, folder):
     *errors, last = done.stderr.splitlines()
     codes, peak = json.loads(last)
     return codes, errors, peak
+
+
+@contextmanager
+def memory_below(most):
+    """Let what is done here take less than so many bytes at once, as Python counts them."""
+    tracemalloc.start()
+    try:
+        yield
+        assert tracemalloc.get_traced_memory()[1] < most
+    finally:
+        tracemalloc.stop()

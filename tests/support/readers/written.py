@@ -18,12 +18,23 @@ def streamed(product):
     return [fmt for fmt in product.written if not FORMATS[fmt].parts]
 
 
+def bytes_of(write, *arguments, **options):
+    """Give what a function writes into a file that it is given first."""
+    out = io.BytesIO()
+    write(out, *arguments, **options)
+    return out.getvalue()
+
+
 def written(value, fmt, what=None, *, decimals=None, **options):
     """Give what a file would hold."""
-    out = io.BytesIO()
     with coordinates_written(decimals):
-        write_product(out, value, chosen_part(value, fmt, what), fmt, **options)
-    return out.getvalue()
+        return bytes_of(write_product, value, chosen_part(value, fmt, what), fmt, **options)
+
+
+def arrays_of(value, what=None):
+    """Give the arrays of what is written as NPZ, of a value or of the bytes of a file."""
+    with np.load(io.BytesIO(value if isinstance(value, bytes) else written(value, "npz", what))) as arrays:
+        return dict(arrays)
 
 
 def rows_of(text, delimiter=","):
