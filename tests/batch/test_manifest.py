@@ -74,15 +74,9 @@ NONE_OF_OURS = [
     *("[]", "1", "null", "NaN", '"x"', "\xff", "\0\0\0{", "[" * 100_000, '{"input":' * 100_000, "9" * 10_000),
     *('{"input": [], "status": "done"}', '{"status": "done"}', '{"input": "a"}', "{" * 9 + "}" * 9),
     *('{"run": "*"}', '{"run": "x/../../victim/"}', '{"run": []}'),
-    *(
-        line(input=None),
-        line(input=["a"]),
-        line(options=1),
-        line(sha256=None),
-        line(unit=None),
-        line(outputs=["a.csv"]),
-    ),
-    *(line(outputs=None), line(outputs={"a.csv": 1}), line(outputs={"a.csv": "e", "../b.csv": "e"})),
+    *(line(input=None), line(input=["a"]), line(options=1), line(sha256=None), line(unit=None)),
+    *(line(outputs=["a.csv"]), line(outputs=None), line(outputs={"a.csv": 1})),
+    line(outputs={"a.csv": "e", "../b.csv": "e"}),
     *(line(outputs={"/etc/passwd": "e"}), line(outputs={"sub/../../a.csv": "e"})),
 ]
 
@@ -119,9 +113,8 @@ def test_a_manifest_that_cannot_be_written(tmp_path):
 
 def test_a_full_disk_is_not_passed_over(manifest, monkeypatch):
     with manifest:
-        monkeypatch.setattr(
-            manifest, "_file", SimpleNamespace(write=lambda line: len(line) - 3, close=manifest._file.close)
-        )
+        full = SimpleNamespace(write=lambda line: len(line) - 3, close=manifest._file.close)
+        monkeypatch.setattr(manifest, "_file", full)
         refused(OutputError, "No space left on device", manifest.add, Task("a", ()), DONE)
 
 

@@ -3,15 +3,13 @@
 Rules of the table of options are tested in `tests/jobs/test_refusals.py`, values in `options/test_values.py`.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 import tifffile
 
+from support.documents import DATA
 from support.processes.leftovers import contents
 
-DATA = Path(__file__).parents[2] / "data"
 USAGE = {
     # ---- inputs, outputs, formats
     "tessellate": "no input given",

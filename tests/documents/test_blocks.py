@@ -3,16 +3,14 @@
 import re
 import shutil
 import tomllib
-from pathlib import Path
 
 import pytest
 
-from support.documents import blocks
+from support.documents import ROOT, blocks
 from support.processes.ended import ended, ended_bash, ended_python
 from vorotool.cli.commands.sample import write_all_samples
 from vorotool.cli.main import COMMANDS
 
-ROOT = Path(__file__).parents[2]
 PICTURES = [*(ROOT / "docs/images").glob("*.svg")]
 """Those that a page shows are what its commands draw."""
 MANUAL = ROOT / "docs/man/man1"

@@ -3,11 +3,11 @@
 import shutil
 import subprocess
 import xml.etree.ElementTree as ET
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from support.documents import ROOT
+
 PICTURE = ROOT / "docs/images/front.svg"
 
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from support.documents import ROOT
 from support.processes.drawn_figures import drawn_figures
 from support.processes.ended import ended
 
-ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/gallery.md").read_text(encoding="utf-8")
 COMMANDS = re.findall(r"^```sh\n(.*)\n```$", PAGE, re.MULTILINE)
 

@@ -2,13 +2,12 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 import check_site
+from support.documents import ROOT
 
-ROOT = Path(__file__).parents[2]
 GOOD = '<h1 id="top">Top</h1><a href="other.html#there">there</a><img src="a.png"><a href="https://example.org">out</a>'
 
 

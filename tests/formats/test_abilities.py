@@ -1,7 +1,6 @@
 """What each format carries: each is written and read, and the table of that in the documents is what was found."""
 
 from fractions import Fraction
-from pathlib import Path
 
 import geopandas
 import laspy
@@ -12,6 +11,7 @@ import shapely
 from PIL import Image
 
 import vorotool
+from support.documents import ROOT
 from vorotool.errors import UsageError
 from vorotool.numeric.crs import crs_name, member_of_text
 from vorotool.numeric.length_units import meters
@@ -21,7 +21,6 @@ from vorotool.products.inputs import INPUTS, NAMES_WITH, VOLUME_NAMES
 from vorotool.types.pixels import PixelGrid, map_grid
 from vorotool.types.polygons.polygon_set import PolygonSet
 
-ROOT = Path(__file__).parents[2]
 VERTICES = np.array([[0.1, 0], [4, 1 / 3], [0, 3], [10, 0], [14, 0], [10, 3.5]])
 ATTRIBUTES = {"name": ["a", "b"], "code": ["007", "8"], "count": [3, -4], "depth": [0.5, 2.0]}
 SYSTEM = member_of_text("EPSG:2056")

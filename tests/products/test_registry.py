@@ -1,20 +1,19 @@
 """What can be written: names that resolve, formats that fit, and all that is made from this one list."""
 
 import inspect
-from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
 import vorotool
 from cli_reference import reference
+from support.documents import ROOT
 from support.processes.ended import ended_python
 from vorotool.cli.main import vorotool as vorotool_command
 from vorotool.products.formats import EXTENSIONS, FORMATS, GENERAL, PICTURES
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of
 from vorotool.products.writing import resolved
 
-ROOT = Path(__file__).parents[2]
 ALL = [each for own in PRODUCTS.values() for each in own.values()]
 
 

@@ -3,54 +3,17 @@
 import pytest
 
 import vorotool
+from support.families.values import example_values, volume_values
 from support.readers.written import streamed, written
 from support.refusals import refused
 from vorotool.errors import OutputError, UsageError
 from vorotool.products.registry import parts_of, public_types
 from vorotool.products.writing import chosen_part
 
-POINTS = [[0, 0], [4, 0], [0, 3], [5, 5]]
-SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]]
-IN_SPACE = [[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2]]
-WAIST = [[0, 0], [4, 1], [8, 0], [8, 4], [4, 3], [0, 4]]
-
-
-def values():
-    """A value of each type that can be written."""
-    mesh, shape = vorotool.delaunay(POINTS), vorotool.alpha_shape(POINTS, r=4)
-    skeleton = vorotool.skeleton_exact(SQUARE)
-    found = [
-        vorotool.tessellate(POINTS, shape=(6, 6)),
-        vorotool.edge_table(mesh),
-        mesh,
-        vorotool.digital_triangulation([[1, 1], [5, 3], [2, 6]], shape=(8, 8)),
-        vorotool.proximity_graph(mesh, "mst"),
-        vorotool.delaunay(IN_SPACE),
-        vorotool.voronoi_cells(POINTS),
-        vorotool.cell_statistics(POINTS),
-        vorotool.persistence(POINTS),
-        shape,
-        vorotool.alpha_complex(POINTS),
-        vorotool.alpha_hull(shape),
-        skeleton,
-        vorotool.centerline(skeleton),
-        vorotool.extend_ends(skeleton),
-        vorotool.smooth(skeleton, 0.1),
-        vorotool.offset(SQUARE, -1),
-        vorotool.rebuild(skeleton),
-        vorotool.points_along(skeleton, every=1),
-        vorotool.necks(WAIST),
-        vorotool.parts(WAIST),
-        vorotool.voronoi(SQUARE),
-        vorotool.largest_discs(SQUARE, count=2),
-        vorotool.hausdorff(SQUARE, POINTS),
-    ]
-    found += [vorotool.alpha_complex(IN_SPACE), vorotool.alpha_shape(IN_SPACE)]
-    return {type(value).__name__: value for value in found}
-
-
-VALUES = values()
-OF_SEVERAL_KINDS = {("AlphaHull", "hull")}
+VALUES = {name: value for name, value in (example_values() | volume_values()).items() if name in public_types()}
+"""A value of each type that can be written."""
+VALUES["SpaceAlphaShape"] = vorotool.alpha_shape(VALUES["SpaceAlphaComplex"])  # with a surface
+OF_SEVERAL_KINDS = {("AlphaHull", "hull"), ("PolygonSet", "shape")}
 
 
 def test_there_is_a_value_of_each_type():
@@ -65,10 +28,8 @@ def test_every_part_in_every_format(name, tmp_path):
             if name == "DigitalTriangulation" and (what == "table" or fmt in ("edge", "ele")):
                 continue  # which need be no triangulation
             if fmt == "shp" and (name, what) in OF_SEVERAL_KINDS:
-                with pytest.raises(
-                    OutputError, match=r"a Shapefile holds geometry of one kind, but this is .*; write a"
-                ):
-                    vorotool.write(value, tmp_path / f"{what}.shp", what=what)
+                words = r"a Shapefile holds geometry of one kind, but this is .*; write a"
+                refused(OutputError, words, vorotool.write, value, tmp_path / f"{what}.shp", what=what)
                 assert not list(tmp_path.glob("*.shp"))
                 continue
             path = tmp_path / f"{what}.{fmt}"
@@ -99,12 +60,7 @@ def test_the_part_that_a_format_is_for(name, fmt, what):
 @pytest.mark.parametrize(
     ("name", "fmt", "what", "message"),
     [
-        (
-            "Skeleton",
-            "csv",
-            "arcs",
-            "Skeleton",
-        ),
+        ("Skeleton", "csv", "arcs", "Skeleton"),
         ("Offsets", "csv", "arcs", "Offsets"),
         ("Skeleton", "graphml", "branches", "'graphml'"),
         ("Table", "svg", None, "Table"),
@@ -117,11 +73,11 @@ def test_what_there_is_not(name, fmt, what, message):
 def test_what_is_no_result():
     with pytest.raises(UsageError, match=r"a list cannot be written: give a LabelImage, Table, Triangulation, .* or "):
         vorotool.write([[0, 0]], "a.csv")
-    refused(UsageError, "PointSet", vorotool.to_geojson, vorotool.PointSet(POINTS))
+    refused(UsageError, "PointSet", vorotool.to_geojson, vorotool.PointSet([[0, 0]]))
 
 
 def test_a_mistyped_result_or_layer_is_told(tmp_path):
-    mesh = vorotool.delaunay(POINTS)
+    mesh = VALUES["Triangulation"]
     words = r"what='edge' is not a result of a Triangulation: .*; did you mean edges\?$"
     refused(UsageError, words, vorotool.write, mesh, tmp_path / "a.csv", what="edge")
     words = r"the layer 'edgs' does not exist: .*; did you mean edges\?$"

@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import imageio.v3 as iio
 import numpy as np
 import pytest
+import shapely
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
@@ -134,13 +135,10 @@ def test_plots_cover_the_data(name):
     is_up = name not in {"SeedSet", "LabelImage", "Raster", "DigitalTriangulation"}
     assert (ax.get_ylim()[0] < ax.get_ylim()[1]) == is_up
     if hasattr(value, "to_shapely"):
-        import shapely
-
         left, bottom, right, top = shapely.total_bounds(value.to_shapely())
-        assert min(ax.get_xlim()) <= left + 1e-6
-        assert max(ax.get_xlim()) >= right - 1e-6
-        assert min(ax.get_ylim()) <= bottom + 1e-6
-        assert max(ax.get_ylim()) >= top - 1e-6
+        for limits, low, high in ((ax.get_xlim(), left, right), (ax.get_ylim(), bottom, top)):
+            assert min(limits) <= low + 1e-6
+            assert max(limits) >= high - 1e-6
     ax.figure.savefig(io.BytesIO(), format="png", dpi=30)
 
 

@@ -1,11 +1,9 @@
 """What is imported when: `--help` loads nothing heavy, a usual run nothing that only an extra brings."""
 
 import re
-from pathlib import Path
 
+from support.documents import ROOT
 from support.processes.ended import ended_python
-
-ROOT = Path(__file__).parents[2]
 
 
 def test_neither_help_nor_completion_loads_a_heavy_module():

@@ -1,15 +1,14 @@
 """The lower bounds of pyproject.toml: how they are read, and what older libraries lack."""
 
 import tomllib
-from pathlib import Path
 
 import pytest
 
 from requirements import oldest, requirements
+from support.documents import ROOT
 from support.processes.ended import ended_python
 from support.refusals import refused
 
-ROOT = Path(__file__).parents[2]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 

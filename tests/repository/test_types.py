@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 import vorotool.typing
-
-ROOT = Path(__file__).parents[2]
+from support.documents import ROOT
 
 
 @pytest.mark.slow

@@ -13,8 +13,6 @@ import pytest
 from support.families.mask_folders import write_many_points
 from support.processes.leftovers import contents, wait_until
 
-pytest.importorskip("distributed")
-
 
 @pytest.fixture
 def many(tmp_path):

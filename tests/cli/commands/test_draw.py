@@ -2,15 +2,16 @@
 
 import re
 import xml.etree.ElementTree as ET
-from pathlib import Path
 
 import numpy as np
 import pytest
 import tifffile
 from PIL import Image
 
+from support.documents import DATA
+
 SVG = "{http://www.w3.org/2000/svg}"
-SHAPES = Path(__file__).parents[3] / "data" / "two-shapes.json"
+SHAPES = DATA / "two-shapes.json"
 
 
 def test_the_picture_is_that_of_tessellate(run, folder):
@@ -31,34 +32,24 @@ def test_sparse_labels_have_the_colors_of_dense_ones(run, folder):
     run("tessellate sparse.npy --seeds labels --what color -o c.svg")
 
 
-def groups_of(svg):
-    return re.findall(r'<g id="(\w+)"', svg)
-
-
 @pytest.mark.parametrize(
     ("options", "count", "layer", "other", "words"),
     [
-        ([], '"arcs": 43', "skeleton", "cells", "nodes, labels"),
-        (
-            ["--what", "offset", "-d", "-20,10"],
-            '"shapes": 5',
-            "offset",
-            "nodes",
-            "polygons, offset, labels",
-        ),
+        ("", '"arcs": 43', "skeleton", "cells", "nodes, labels"),
+        ("--what offset -d -20,10", '"shapes": 5', "offset", "nodes", "polygons, offset, labels"),
     ],
 )
 def test_results_are_drawn_as_by_the_command_that_makes_them(run, folder, options, count, layer, other, words):
-    run(f"skeleton-exact {SHAPES}", *options, "-o", "made.json")
+    run(f"skeleton-exact {SHAPES} {options} -o made.json")
     for fmt, width in (("svg", ()), ("png", ("--width", 200))):
-        run(f"skeleton-exact {SHAPES}", *options, "-o", f"made.{fmt}", *width)
+        run(f"skeleton-exact {SHAPES} {options} -o made.{fmt}", *width)
         run(f"draw made.json -o drawn.{fmt}", *width, "--stats", f"{fmt}.json")
         assert (folder / f"drawn.{fmt}").read_bytes() == (folder / f"made.{fmt}").read_bytes()
     for said in ("json", "geojson"):  # an object is of either kind: its type tells
         run(f"draw made.json --input-format {said} -o said.svg")
         assert (folder / "said.svg").read_bytes() == (folder / "made.svg").read_bytes()
     assert count in (folder / "svg.json").read_text()
-    assert groups_of(run(f"draw made.json --layers {layer} -f svg").out) == [layer]
+    assert re.findall(r'<g id="(\w+)"', run(f"draw made.json --layers {layer} -f svg").out) == [layer]
     run(f"draw made.json --layers {other} -o a.svg", code=2, says=words)
     run("draw made.json --page 1 -o a.svg", code=2)
     (folder / "made.json").write_text((folder / "made.json").read_text()[:-50])
@@ -74,17 +65,17 @@ def test_an_array_of_two_columns_is_an_image(run, folder):
 
 
 @pytest.mark.parametrize(
-    ("content", "options", "code", "words"),
+    ("content", "code", "words"),
     [
-        (b"", [], 3, "a.json"),
-        (b'{"polygons":[]}', [], 0, "warning: the picture is empty: the input (polygons or lines)"),
-        (b'{"type":"FeatureCollection","features":[]}', [], 0, "warning: the picture is empty"),
-        (b'{"type":"vorotool.offsets","version":2}', [], 3, "vorotool.offsets"),
+        (b"", 3, "a.json"),
+        (b'{"polygons":[]}', 0, "warning: the picture is empty: the input (polygons or lines)"),
+        (b'{"type":"FeatureCollection","features":[]}', 0, "warning: the picture is empty"),
+        (b'{"type":"vorotool.offsets","version":2}', 3, "vorotool.offsets"),
     ],
 )
-def test_what_is_said_of_shapes(run, folder, content, options, code, words):
+def test_what_is_said_of_shapes(run, folder, content, code, words):
     (folder / "a.json").write_bytes(content)
-    run("draw a.json", *options, "-o", "a.svg", code=code, says=words)
+    run("draw a.json -o a.svg", code=code, says=words)
     assert (folder / "a.svg").exists() == (code == 0)
 
 
@@ -105,10 +96,9 @@ def test_objects_of_a_mask_have_their_own_colors(run, folder, dtype, value):
 
 
 # ---- --pixel-size ------------------------------------------------------------------------------------
-def bar(path):
-    """What stands at the scale bar of an SVG, and its length in px."""
-    root = ET.parse(path).getroot()
-    (text,) = (each for each in root.iter(f"{SVG}g") if each.get("id") == "scale-bar-length")
+def bar(svg):
+    """What stands at the scale bar."""
+    (text,) = (each for each in ET.fromstring(svg).iter(f"{SVG}g") if each.get("id") == "scale-bar-length")
     return text.find(f"{SVG}text").text
 
 
@@ -116,18 +106,15 @@ def test_scale_bars_of_label_images_have_the_unit_of_pixels(run, tmp_path):
     labels = np.repeat(np.arange(1, 5, dtype=np.uint8), 100).reshape(4, 100).repeat(20, axis=0)
     tifffile.imwrite(tmp_path / "plain.tif", labels)
     tifffile.imwrite(tmp_path / "sized.tif", labels, imagej=True, resolution=(2, 2), metadata={"unit": "um"})
-    run("draw plain.tif --pixel-size 0.325um --scale-bar -o made.svg")
-    assert bar(tmp_path / "made.svg") == "5 µm"
-    run("draw sized.tif --pixel-size auto --scale-bar -o made.svg --overwrite")
-    assert bar(tmp_path / "made.svg") == "10 µm"
-    run("draw plain.tif --scale-bar -o made.svg --overwrite")
-    assert bar(tmp_path / "made.svg") == "20 px"
+    for options, length in (
+        ("plain.tif --pixel-size 0.325um", "5 µm"), ("sized.tif --pixel-size auto", "10 µm"), ("plain.tif", "20 px"),
+    ):  # fmt: skip
+        assert bar(run(f"draw {options} --scale-bar -f svg").out) == length
     run("draw plain.tif --pixel-size auto --scale-bar -o none.svg", code=3, says="pixel size")
 
 
-def test_scale_bars_of_shapes_have_the_unit_of_coordinates(run, tmp_path):
+def test_scale_bars_of_shapes_have_the_unit_of_coordinates(run):
     square = b"POLYGON ((0 0, 100 0, 100 100, 0 100, 0 0))"
-    run("draw - --pixel-size 2mm --scale-bar -o made.svg", data=square)
-    assert bar(tmp_path / "made.svg") == "50 mm"
-    run("draw - --pixel-size 2mm --scale 1:4 -o made.svg --overwrite", data=square)
-    assert ET.parse(tmp_path / "made.svg").getroot().get("width") == "52mm"
+    assert bar(run("draw - --pixel-size 2mm --scale-bar -f svg", data=square).out) == "50 mm"
+    drawn = run("draw - --pixel-size 2mm --scale 1:4 -f svg", data=square).out
+    assert ET.fromstring(drawn).get("width") == "52mm"

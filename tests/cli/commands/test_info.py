@@ -87,11 +87,8 @@ def test_pictures_say_what_to_do(run, info, tmp_path):
     iio.imwrite(tmp_path / "grey.png", chance.integers(0, 255, (64, 64), dtype=np.uint8))
     iio.imwrite(tmp_path / "color.png", chance.integers(0, 255, (8, 9, 3), dtype=np.uint8))
     iio.imwrite(tmp_path / "photo.jpg", chance.integers(0, 255, (8, 9), dtype=np.uint8))
-    for told, words in zip(
-        info("grey.png", "color.png", "photo.jpg"),
-        ("a photograph", "a color image", "lossy"),
-        strict=True,
-    ):
+    pictures = info("grey.png", "color.png", "photo.jpg")
+    for told, words in zip(pictures, ("a photograph", "a color image", "lossy"), strict=True):
         assert told["kind"] == "picture"
         assert "draw" not in told["commands"]
         assert any(words in note and "--threshold otsu" in note for note in told["notes"])
@@ -113,10 +110,8 @@ def test_points_lines_and_polygons_and_their_map(run, info, tmp_path):
     (tmp_path / "a.wkt").write_text("POINT (0 0)\nLINESTRING (5 5, 9 6)\nPOLYGON ((4 9, 9 9, 9 12, 4 9))")
     run("voronoi a.wkt -o map.json -q")
     mixed, cells = info("a.wkt", "map.json")
-    assert (mixed["kind"], mixed["features"], mixed["commands"]) == (
-        *("points, lines and polygons", 3, ["voronoi", "distance"]),
-    )
-    assert (mixed["points"], mixed["lines"], mixed["polygons"]) == (1, 1, 1)
+    assert (mixed["kind"], mixed["commands"]) == ("points, lines and polygons", ["voronoi", "distance"])
+    assert [mixed[name] for name in ("features", "points", "lines", "polygons")] == [3, 1, 1, 1]
     assert (cells["kind"], cells["cells"]) == ("Voronoi map", 3)
     assert cells["commands"] == ["voronoi", "skeleton-approx", "skeleton-exact", "distance", "draw"]
 
@@ -172,12 +167,15 @@ def test_text_is_for_people(run, tmp_path):
     (tmp_path / "a.csv").write_text("x,y,label\n0.5,1,3\n2,7,4\n")
     tifffile.imwrite(tmp_path / "a.tif", np.eye(4, dtype=np.uint8), resolution=(20, 20), resolutionunit=3)
     lines = run("info a.csv a.tif").out.splitlines()
-    assert lines[:5] == ["a.csv", "  format     csv", "  kind       points", "  points     2", f"  bounds     {BOUNDS}"]
+    assert lines[:5] == [
+        "a.csv",
+        "  format     csv",
+        "  kind       points",
+        "  points     2",
+        "  bounds     x 0.5 to 2, y 1 to 7",
+    ]
     assert lines[8:11] == ["a.tif", "  format     tiff", "  kind       mask"]
     assert {"  pixel size 0.05 cm", "  foreground 4 pixels", "  objects    1"} < set(lines)
-
-
-BOUNDS = "x 0.5 to 2, y 1 to 7"
 
 
 def test_a_pipe_with_a_name(run, tmp_path):

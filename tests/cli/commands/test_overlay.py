@@ -1,14 +1,14 @@
 """``--overlay``: pictures of every command over an image, at its size."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 from scipy import ndimage
 
-DATA = Path(__file__).parents[3] / "data"
+from support.documents import DATA
+
 BLOBS = DATA / "blobs.png"
 COMMANDS = {
     "tessellate": (BLOBS, "--what", "color"),

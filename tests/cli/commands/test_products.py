@@ -1,16 +1,14 @@
 """All results of all commands: in every format, with the layers that are drawn, the same for any number of threads."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
+from support.documents import DATA
 from vorotool.products.formats import ANIMATIONS, FORMATS
 from vorotool.products.registry import PRODUCTS, formats_of, layers_of
 from vorotool.render.label_images import png as label_png
 from vorotool.render.label_images import svg as label_svg
 
-DATA = Path(__file__).parents[3] / "data"
 INPUTS = {
     "tessellate": ["dots.csv"],
     "delaunay": [DATA / "dots.csv"],
@@ -24,7 +22,7 @@ OF_IMAGES = {("skeleton-exact", "thickness")}
 """What is of no polygons."""
 OF_SPACE = {("delaunay", "tetrahedra"), ("delaunay", "hull")}
 OF_SPACE |= {("alphashape", "surface"), ("alphashape", "tetrahedra"), ("alphashape", "triangles")}
-"""Results with `--space` alone; test_delaunay_space.py and test_alphashape_space.py have the others."""
+"""Results with `--space` alone; test_space.py have the others."""
 
 
 @pytest.mark.parametrize(("command", "what"), [(command, what) for command in INPUTS for what in formats_of(command)])

@@ -3,14 +3,12 @@
 import json
 import warnings
 from functools import cache, partial
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import vorotool as v
-
-DATA = Path(__file__).parents[3] / "data"
+from support.documents import DATA
 
 
 @cache

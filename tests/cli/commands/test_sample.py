@@ -4,12 +4,11 @@ from pathlib import Path
 
 import pytest
 
+from support.documents import ROOT
 from support.refusals import refused
 from vorotool import UsageError
 from vorotool.formats import read, sample
 from vorotool.products.samples import SAMPLES
-
-ROOT = Path(__file__).parents[3]
 
 
 def test_the_list_has_all_files_and_what_is_in_them(run):

@@ -9,24 +9,19 @@ from PIL import Image, ImageSequence
 
 import vorotool
 
-SHAPES = "[[[0, 0], [40, 0], [40, 30], [0, 30]], [[50, 0], [60, 0], [55, 9]]]"
-
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def folder(tmp_path):
     rng = np.random.default_rng(7)
     np.savetxt(tmp_path / "dots.csv", rng.integers(0, 60, (12, 2)), fmt="%d", delimiter=",")
-    (tmp_path / "shapes.json").write_text(SHAPES)
     return tmp_path
 
 
 def frames_of(path):
     """Frames, each as often as its time says."""
     with Image.open(path) as image:
-        found = [
-            (np.asarray(frame.convert("RGB")), frame.info.get("duration")) for frame in ImageSequence.Iterator(image)
-        ]
+        frames = ImageSequence.Iterator(image)
+        found = [(np.asarray(frame.convert("RGB")), frame.info.get("duration")) for frame in frames]
     shortest = min((time for _, time in found if time), default=None)
     return [pixels for pixels, time in found for _ in range(round(time / shortest) if time else 1)]
 
@@ -73,6 +68,6 @@ def test_many_colors_share_a_palette(run, folder):
     assert difference.mean() < 40  # 256 colors for 3600
 
 
-def test_the_library_has_none(folder):
+def test_the_library_has_none():
     with pytest.raises(vorotool.UsageError, match="'gif'"):
         vorotool.write(vorotool.tessellate([[1, 1]], shape=(3, 3)), "a.gif", what="color")

@@ -47,3 +47,47 @@ def test_jobs_of_many_and_a_cluster_that_is_not_asked_where_jobs_are_typed(run, 
     monkeypatch.setenv("VOROTOOL_CLUSTER", "tcp://127.0.0.1:1")
     run("delaunay p.csv q.csv --out-dir two -q -j 1 --stats s.json")
     assert json.loads((tmp_path / "s.json").read_text())["done"] == 2
+
+
+# ---- options that are given again ----------------------------------------
+SQUARE = "[[[0, 0], [9, 0], [9, 9], [0, 9]]]"
+
+
+def test_results_and_layers_accumulate(run, tmp_path):
+    (tmp_path / "p.csv").write_text("x,y\n2,1\n7,5\n1,6\n")
+    run("delaunay p.csv --what edges,triangles --what table --what edges -o o")
+    assert sorted(path.name for path in tmp_path.glob("o.*")) == ["o.edges.csv", "o.table.csv", "o.triangles.csv"]
+    once = run("delaunay p.csv -f svg --layers points,edges,labels").out
+    assert run("delaunay p.csv -f svg", *("--layers", "points", "--layers", "edges,labels")).out == once
+    run("alphashape p.csv --what hull --what polygons -f geojson -o a")
+    assert sorted(path.name for path in tmp_path.glob("a.*")) == ["a.hull.geojson", "a.polygons.geojson"]
+
+
+def test_distances_accumulate(run, tmp_path):
+    (tmp_path / "s.json").write_text(SQUARE)
+    several = run("skeleton-exact s.json --what offset -d -1,2,-3")
+    again = run("skeleton-exact s.json --what offset -d -1 -d 2,-3 -d -1")
+    assert again.out == several.out
+    assert json.loads(several.out) != json.loads(run("skeleton-exact s.json --what offset -d -1").out)
+
+
+def test_the_last_of_others_holds(run, tmp_path):
+    (tmp_path / "p.csv").write_text("x,y\n2,1\n7,5\n1,6\n")
+    last = run("alphashape p.csv -r 9 --precision 4").out
+    assert run("alphashape p.csv -r 1 -r 9 --precision 2 --precision 4").out == last
+
+
+@pytest.mark.parametrize(
+    ("arguments", "shown", "not_shown"),
+    [
+        ("skeleton-exact s.json --offset 1", "-d", "--aspect"),
+        ("skeleton-exact s.json -d -1 -2", "-1,-2", "No such"),
+        ("skeleton-exact s.json -d 1 -.5", "-.5", "No such"),
+        ("skeleton-exact s.json --flaten 1", "--flatten", "--gap"),
+        ("draw s.json -f dxf", "dxf", "--what"),
+    ],
+)
+def test_advice_fits_what_was_typed(run, tmp_path, arguments, shown, not_shown):
+    (tmp_path / "s.json").write_text(SQUARE)
+    done = run(arguments, code=2, says=shown)
+    assert not_shown not in done.err

@@ -10,17 +10,16 @@ import click
 import ezdxf
 import numpy as np
 import pytest
-import tifffile
+import rasterio
 from PIL import Image
 
+import vorotool
 from support.families.geojson import collection
-from vorotool import read
+from support.families.rasters import MASK, write_map, write_sized
 from vorotool.cli.command import Value
-from vorotool.cli.main import vorotool
+from vorotool.cli.main import vorotool as main
 from vorotool.numeric.length_units import unit_name
 
-MASK = np.zeros((40, 60), np.uint8)
-MASK[5:20, 5:25] = MASK[25:36, 20:55] = 255
 RINGS = [[(5, 5), (25, 5), (25, 20), (5, 20)], [(20, 25), (55, 25), (55, 36), (20, 36)]]
 POINTS = [(3, 4), (21, 9), (38, 2), (55, 30), (12, 33), (30, 20)]
 
@@ -70,8 +69,7 @@ def typed(folder):
 
 
 def ome(folder):
-    sizes = {"PhysicalSizeX": 0.5, "PhysicalSizeY": 0.5, "PhysicalSizeXUnit": "µm", "PhysicalSizeYUnit": "µm"}
-    tifffile.imwrite(folder / "in.ome.tif", MASK, ome=True, metadata={"axes": "YX", **sizes})
+    write_sized(folder / "in.ome.tif")
     return ("in.ome.tif",) * 2
 
 
@@ -81,23 +79,17 @@ def ome_auto(folder):
 
 
 def imagej(folder):
-    tifffile.imwrite(folder / "ij.tif", MASK, imagej=True, resolution=(2, 2), metadata={"unit": "um"})
+    write_sized(folder / "ij.tif", "imagej", unit="um")
     return ("ij.tif",) * 2
 
 
 def centimeters(folder):
-    tifffile.imwrite(folder / "cm.tif", MASK, resolution=(20000, 20000), resolutionunit=3)
+    write_sized(folder / "cm.tif", 3, (0.00005, 0.00005))
     return ("cm.tif",) * 2
 
 
 def geotiff(folder):
-    keys = (1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 2056)
-    tags = [
-        (33550, 12, 3, (30.0, 30.0, 0.0), True),
-        (33922, 12, 6, (0.0, 0.0, 0.0, 2600000.0, 1200000.0, 0.0), True),
-        (34735, 3, len(keys), keys, True),
-    ]
-    tifffile.imwrite(folder / "map.tif", MASK, extratags=tags)
+    write_map(folder / "map.tif", transform=rasterio.Affine(30, 0, 2600000, 0, -30, 1200000))
     return ("map.tif",) * 2
 
 
@@ -151,9 +143,9 @@ NO_LENGTHS = {"alpha", "neck", "fps"}
 
 
 def options():
-    context = click.Context(vorotool)
-    for command in vorotool.list_commands(context):
-        for option in vorotool.get_command(context, command).params:
+    context = click.Context(main)
+    for command in main.list_commands(context):
+        for option in main.get_command(context, command).params:
             yield command, option
 
 
@@ -275,7 +267,7 @@ def test_units_are_told_and_kept(run, tmp_path, source, unit):
     assert f"unit       {told['unit']}" in run(f"info {shapes}").out
     for command in ("skeleton-exact", "voronoi", "skeleton-exact --what offset -d 1"):
         run(command, shapes, "-o", "o.json", "-q")
-        value = read("o.json")
+        value = vorotool.read("o.json")
         kept = value.polygons.unit
         assert (kept is None) == (source in ("meters", "feet"))
         assert kept is None or unit_name(kept) == told["unit"]
@@ -286,17 +278,52 @@ def test_units_are_told_and_kept(run, tmp_path, source, unit):
 
 
 def test_the_library_keeps_units(tmp_path):
-    import vorotool as library
-
     shapes, _ = svg(tmp_path)
-    drawing = library.read(tmp_path / shapes)
-    skeleton = library.skeleton_exact(drawing)
-    values = [drawing, library.voronoi(drawing), skeleton, library.offset(drawing, [1])]
-    values.append(library.points_along(skeleton, every=2))
+    drawing = vorotool.read(tmp_path / shapes)
+    skeleton = vorotool.skeleton_exact(drawing)
+    values = [drawing, vorotool.voronoi(drawing), skeleton, vorotool.offset(drawing, [1])]
+    values.append(vorotool.points_along(skeleton, every=2))
     for value in values:
-        assert library.to_geojson(value)["unit"] == "mm"
-        library.write(value, tmp_path / "o.geojson")
+        assert vorotool.to_geojson(value)["unit"] == "mm"
+        vorotool.write(value, tmp_path / "o.geojson")
         assert json.loads((tmp_path / "o.geojson").read_text())["unit"] == "mm"
-    assert library.read(tmp_path / "o.geojson").unit == "mm"
-    plain = library.read(tmp_path / geojson(tmp_path, "plain")[0])
-    assert "unit" not in library.to_geojson(plain)
+    assert vorotool.read(tmp_path / "o.geojson").unit == "mm"
+    plain = vorotool.read(tmp_path / geojson(tmp_path, "plain")[0])
+    assert "unit" not in vorotool.to_geojson(plain)
+
+
+# ---- exact lengths, places and frames ----------------------------------------
+XY = np.array([[0, 0], [9, 1], [4, 7], [12, 8], [2, 3], [7, 4], [11, 2], [1, 9], [5, 2], [8, 9]])
+
+
+@pytest.fixture
+def inputs(tmp_path):
+    (tmp_path / "in.csv").write_text("x,y\n" + "".join(f"{x},{y}\n" for x, y in XY))
+    (tmp_path / "in.json").write_text(
+        "[[[0, 0], [9, 0], [9, 9], [5, 3], [0, 9]], [[20, 0], [33, 1], [30, 8], [21, 7]]]"
+    )
+    return tmp_path
+
+
+def test_what_is_exact_stays_so(run, inputs):
+    """A third of an inch is no decimal number: of pixels at distance 1 none is lost or won by rounding."""
+    (inputs / "two.csv").write_text("x,y\n3,3\n")
+    size = ["--pixel-size", "0.1in", "--size", "7x7", "-q", "-o"]
+    run("tessellate two.csv --max-distance 2.54mm", *size, "one.npy")
+    run("tessellate two.csv --max-distance 2.5399999999999999999999mm", *size, "less.npy")
+    assert np.count_nonzero(np.load(inputs / "one.npy")) == 5
+    assert np.count_nonzero(np.load(inputs / "less.npy")) == 1
+
+
+@pytest.mark.parametrize("command", ["voronoi in.json", "delaunay in.csv --what cells"])
+@pytest.mark.usefixtures("inputs")
+def test_a_frame_is_its_numbers(run, command):
+    """A pixel is 0.5 um."""
+    frames = ("-1um,-1um,10um,0.009mm", "-2,-2,20,18")
+    unit, plain = (run(f"{command} -f csv --frame {frame} --pixel-size 0.5um").out for frame in frames)
+    assert unit == plain
+
+
+def test_places_on_a_map_are_in_pixels(run, tmp_path):
+    write_map(tmp_path / "m.tif")
+    run("voronoi m.tif --frame 0,0,20,20m -f csv", code=2, says=["--frame", "pixels"])

@@ -1,6 +1,5 @@
 """``--label-by``, ``--legend``, ``--scale-bar``, ``--aspect``, ``--extent``: what is drawn, and what is refused."""
 
-import json
 import math
 import re
 import xml.etree.ElementTree as ET
@@ -9,31 +8,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from shapely import Polygon, box
 
 import vorotool
+from support.families.geojson import collection
 from vorotool.render.canvas.insets import rounded_length
 
 NS = "{http://www.w3.org/2000/svg}"
-BOX = [[0, 0], [40, 0], [40, 30], [0, 30], [0, 0]]
-
-
-def feature(coordinates, **properties):
-    return {
-        "type": "Feature",
-        "properties": properties,
-        "geometry": {"type": "Polygon", "coordinates": [coordinates]},
-    }
-
-
-def shifted(x):
-    return [[a + x, b] for a, b in BOX]
 
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    features = [feature(BOX, name="Huron & <co>", depth=2.0), feature(shifted(60), name=None, depth=7.5)]
-    (tmp_path / "shapes.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+def folder(tmp_path):
+    rows = [{"name": "Huron & <co>", "depth": 2.0}, {"name": None, "depth": 7.5}]
+    (tmp_path / "shapes.geojson").write_text(collection([box(0, 0, 40, 30), box(60, 0, 100, 30)], rows))
     (tmp_path / "dots.csv").write_text("x,y,town\n0,0,Ulm\n9,0,\n9,7,Bern\n2,8,Genf\n")
     (tmp_path / "world.csv").write_text("lon,lat\n0,60\n10,60\n10,64\n0,64\n5,61\n")
     labels = np.zeros((50, 100), np.uint8)
@@ -71,8 +58,8 @@ def test_objects_are_named_by_a_column(run, folder, command, column, expected):
 
 
 def test_names_lie_in_their_polygons(run, folder):
-    ring = [[0, 0], [9, 0], [9, 9], [8, 9], [8, 1], [0, 1], [0, 0]]  # the centroid is outside
-    Path("bent.geojson").write_text(json.dumps(feature(ring, name="L")))
+    bent = Polygon([(0, 0), (9, 0), (9, 9), (8, 9), (8, 1), (0, 1)])  # the centroid is outside
+    Path("bent.geojson").write_text(collection([bent], [{"name": "L"}]))
     done = run("draw bent.geojson --label-by name -f svg")
     (text,) = groups(done.out)["labels"]
     x, y = float(text.get("x")), float(text.get("y")) - 0.36 * 16
@@ -141,3 +128,36 @@ def test_longitude_and_latitude_have_no_bar_and_an_aspect(run, folder):
     mesh = vorotool.read("world.csv", geometry="points")
     vorotool.write(vorotool.delaunay(mesh), "out.svg")
     assert Path("out.svg").read_text() == run("delaunay world.csv -f svg").out
+
+
+# ---- options of pictures ----------------------------------------
+PICTURES = {
+    "skeleton-exact": ["shapes.json"],
+    "delaunay": ["dots.csv"],
+    "alphashape": ["dots.csv", "-r", "9"],
+    "draw": ["shapes.json"],
+}
+LAYER = {"delaunay": "edges", "alphashape": "boundary", "draw": "shape"}
+
+
+@pytest.fixture
+def folder_of_picture_style(tmp_path):
+    (tmp_path / "shapes.json").write_text("[[[0, 0], [40, 0], [40, 30], [0, 30]]]")
+    (tmp_path / "dots.csv").write_text("0,0\n9,0\n9,7\n2,8\n5,3\n")
+    logo = '<svg xmlns="http://www.w3.org/2000/svg" width="50mm" viewBox="0 0 50 40"><path d="M2 2h40v30h-40z"/></svg>'
+    (tmp_path / "logo.svg").write_text(logo)
+    return tmp_path
+
+
+@pytest.mark.parametrize("command", PICTURES)
+def test_looks(run, folder_of_picture_style, command):
+    layer = LAYER.get(command, "skeleton")
+    plain = run(command, *PICTURES[command], "-f", "svg")
+    style = ["--color", f"{layer}=navy", "--line-width", f"{layer}=0.25", "--background", "none"]
+    done = run(command, *PICTURES[command], "-f", "svg", *style)
+    assert 'stroke="#000080"' in done.out or 'fill="#000080"' in done.out
+    assert 'stroke-width="0.25"' in done.out
+    assert "<rect" in plain.out
+    assert "<rect" not in done.out
+    paths = [re.findall(r' d="([^"]*)"', text) for text in (plain.out, done.out)]
+    assert paths[0] == paths[1]

@@ -1,13 +1,16 @@
 """``--pixel-size``: what is written is what a larger input gives, byte by byte where the factor is a power of two."""
 
+import json
+
 import numpy as np
 import pytest
+import tifffile
+
+from support.families.rasters import MASK, write_sized
 
 
 @pytest.mark.parametrize("what", ["labels", "distance"])
 def test_the_resolution_of_an_image_is_kept(run, tmp_path, what):
-    import tifffile
-
     image = np.zeros((6, 8), np.uint8)
     image[1, 2] = image[4, 5] = 255
     tifffile.imwrite(tmp_path / "in.tif", image, resolution=(300, 150), resolutionunit=2)
@@ -24,3 +27,76 @@ def test_a_column_of_the_input_keeps_its_name(run, tmp_path):
     (tmp_path / "a.csv").write_text("x,y,unit\n1,2,px\n4,3,px\n2,6,px\n")
     row = run("delaunay a.csv --what table --pixel-size 2nm -q").rows[0]
     assert (row["unit"], row["voro_unit"], list(row)[-1]) == ("px", "nm", "voro_unit")
+
+
+# ---- --pixel-size auto ----------------------------------------
+FILES = [
+    ("ome", (0.325, 0.325), "µm", "0.325 µm"),
+    ("ome", (2.5, 2.5), "nm", "2.5 nm"),
+    ("imagej", (0.325, 0.325), "um", "0.325 µm"),
+    ("imagej", (0.25, 0.25), "micron", "0.25 µm"),
+    ("imagej", (0.25, 0.25), "\\u00B5m", "0.25 µm"),
+    (3, (0.02, 0.02), None, "0.02 cm"),
+]
+
+
+@pytest.mark.parametrize(("kind", "sides", "unit", "words"), FILES)
+def test_what_a_file_carries_is_what_a_user_would_type(run, tmp_path, kind, sides, unit, words):
+    write_sized(tmp_path / "in.tif", kind, sides, unit)
+    plain = run("tessellate in.tif --what table", says=f"{words}: --pixel-size")
+    auto = run("tessellate in.tif --what table --pixel-size auto --stats s.json")
+    typed = run("tessellate in.tif --what table --pixel-size", words)
+    assert auto.out == typed.out != plain.out
+    assert "note" not in auto.err
+    stats = json.loads((tmp_path / "s.json").read_text())
+    assert f"{stats['pixel_size']:g} {stats['unit']}" == words
+
+
+@pytest.mark.parametrize(
+    ("kind", "sides", "unit", "words"),
+    [
+        (2, (1 / 300, 1 / 300), None, "300 dots"),
+        ("imagej", (0.25, 0.5), "um", "0.25 x 0.5 µm"),
+        ("ome", (0.25, 0.5), "µm", "0.25 x 0.5 µm"),
+        (1, (0.25, 0.25), None, "--pixel-size"),
+        ("imagej", (0.25, 0.25), "pixel", "--pixel-size"),
+        ("ome", (0.25, 0.25), "reference frame", "--pixel-size"),
+    ],
+)
+def test_files_without_a_size(run, tmp_path, kind, sides, unit, words):
+    write_sized(tmp_path / "in.tif", kind, sides, unit)
+    done = run("tessellate in.tif --what table --pixel-size auto", code=3)
+    assert done.err.startswith("error: in.tif: ")
+    assert words in done.err
+    assert "--pixel-size 0.325um" in done.err
+    plain = run("tessellate in.tif --what table")
+    assert ("--spacing" in plain.err) == (sides[0] != sides[1])
+
+
+@pytest.mark.parametrize(
+    ("kind", "sides", "unit", "words", "what"),
+    [(*each, what) for each, what in zip(FILES, 2 * ("labels", "diagram", "distance"), strict=True)],
+)
+def test_outputs_carry_sizes_on(run, tmp_path, kind, sides, unit, words, what):
+    write_sized(tmp_path / "in.tif", kind, sides, unit)
+    run(f"tessellate in.tif -o out.tif --what {what} -q")
+    run("tessellate out.tif --what table", *(["--threshold", "1"] if what == "distance" else []), says="out.tif")
+    with tifffile.TiffFile(tmp_path / "out.tif") as file:
+        assert (file.is_ome, file.is_imagej) == (kind == "ome", kind == "imagej")
+        assert file.asarray().shape == MASK.shape
+        assert file.series[0].axes == "YX"
+
+
+def test_ome_xml_that_is_hostile(run, tmp_path):
+    """Entities are not expanded, sizes are numbers, and two images of different sizes have none in common."""
+    bodies = [
+        '<!DOCTYPE OME [<!ENTITY a "0.5"><!ENTITY b "&a;&a;">]><OME><Pixels PhysicalSizeX="&b;"/></OME>',
+        '<OME><Pixels PhysicalSizeX="1e99999999" PhysicalSizeY="1"/></OME>',
+        '<OME><Pixels PhysicalSizeX="0" PhysicalSizeY="-1"/></OME>',
+        '<OME><Pixels PhysicalSizeX="1" PhysicalSizeY="1"/><Pixels PhysicalSizeX="2" PhysicalSizeY="2"/></OME>',
+        '<OME><Pixels PhysicalSizeX="1" PhysicalSizeY="1"></OME>',
+    ]
+    for body in bodies:
+        tifffile.imwrite(tmp_path / "in.tif", MASK, description=body, metadata=None)
+        run("tessellate in.tif --what table --pixel-size auto", code=3, says="states no pixel size")
+        run("tessellate in.tif -o out.png")

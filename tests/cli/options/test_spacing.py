@@ -4,14 +4,20 @@ import json
 
 import numpy as np
 import pytest
+import rasterio
+import shapely
 import tifffile
+from PIL import Image
 
 import vorotool
+from support.families.rasters import write_map, write_sized
+from vorotool.engines.label_images.outlines import outlines
 from vorotool.engines.tessellation.tessellator import Tessellator
 
 X, Y = np.array([2, 9, 4, 15]), np.array([3, 4, 12, 9])
 MASK = np.zeros((24, 32), np.uint8)
 MASK[3:9, 4:11] = MASK[12:20, 15:30] = 255
+MASK[14:17, 18:22] = 0
 FRAME = ["--size", "20x15"]
 
 
@@ -76,18 +82,9 @@ def test_too_large_a_range_is_refused_before_work(run, dots):
 
 
 # ---- images --------------------------------------------------------------------------------------
-def write(path, kind, sides=(0.325, 0.5)):
-    x, y = sides
-    if kind == "ome":
-        sizes = {"PhysicalSizeX": x, "PhysicalSizeY": y, "PhysicalSizeXUnit": "µm", "PhysicalSizeYUnit": "µm"}
-        tifffile.imwrite(path, MASK, ome=True, metadata={"axes": "YX", **sizes})
-    else:
-        tifffile.imwrite(path, MASK, imagej=True, resolution=(1 / x, 1 / y), metadata={"unit": "um"})
-
-
 @pytest.mark.parametrize("kind", ["ome", "imagej"])
 def test_auto_takes_what_the_file_says(run, tmp_path, kind):
-    write(tmp_path / "in.tif", kind)
+    write_sized(tmp_path / "in.tif", kind, (0.325, 0.5), values=MASK)
     plain = run("tessellate in.tif --what table", says="--spacing")
     auto = run("tessellate in.tif --what table --spacing auto --stats s.json")
     typed = run("tessellate in.tif --what table --spacing 0.325,0.5µm")
@@ -102,7 +99,7 @@ def test_auto_takes_what_the_file_says(run, tmp_path, kind):
 @pytest.mark.parametrize(("name", "large"), [("dots.csv", 2**24), ("in.tif", 100)])
 def test_images_that_are_written_say_the_spacing(run, dots, monkeypatch, name, large):
     monkeypatch.setattr("vorotool.jobs.tessellation.LARGE", large)
-    write(dots / "in.tif", "ome", (2, 2))
+    write_sized(dots / "in.tif", "ome", (2, 2), values=MASK)
     frame = FRAME if name == "dots.csv" else []
     for end in (".tif", ".ome.zarr"):
         run(f"tessellate {name}", *frame, "--spacing", "0.325,0.5um", "-q", "-o", f"out{end}")
@@ -115,16 +112,12 @@ def test_images_that_are_written_say_the_spacing(run, dots, monkeypatch, name, l
 def test_auto_needs_a_file_that_says_it(run, tmp_path):
     np.save(tmp_path / "in.npy", MASK)
     run("tessellate in.npy --spacing auto -o a.png", code=3, says="--spacing")
-    write(tmp_path / "in.tif", "ome", (0.32512345, 1.2345678))
+    write_sized(tmp_path / "in.tif", "ome", (0.32512345, 1.2345678))
     run("tessellate in.tif --spacing auto -o a.png", code=3, says="no common step that is coarse enough")
 
 
 def test_a_map_with_pixels_that_are_no_squares(run, tmp_path):
-    rasterio = pytest.importorskip("rasterio")
-    transform = rasterio.transform.Affine(30, 0, 2600000, 0, -25, 1200000)
-    about = {"driver": "GTiff", "count": 1, "height": 24, "width": 32, "dtype": "uint8"}
-    with rasterio.open(tmp_path / "in.tif", "w", **about, crs="EPSG:2056", transform=transform) as file:
-        file.write(MASK, 1)
+    write_map(tmp_path / "in.tif", MASK, rasterio.Affine(30, 0, 2600000, 0, -25, 1200000))
     run("tessellate in.tif --what table --pixel-size auto", code=3, says="--pixel-size 1")
     rows = run("tessellate in.tif --what table --spacing auto").rows
     # 42 pixels in columns 4 to 10 and rows 3 to 8: center (7, 5.5)
@@ -164,3 +157,78 @@ def test_images_that_pass_by_have_the_same_bytes(run, tmp_path, monkeypatch, wha
     stats = json.loads((tmp_path / "s.json").read_text())
     assert stats["spacing"] == [0.325, 0.5]
     assert (stats["distance2_step"], stats["arithmetic"], "labels" in stats) == ("1/40", "float64", is_table)
+
+
+# ---- triangulations, skeletons, Voronoi maps ----------------------------------------
+STEPS = (20, 13)  # of 0.025, in 0.5 and 0.325
+
+
+@pytest.fixture
+def masks(tmp_path):
+    Image.fromarray(MASK).save(tmp_path / "mask.png")
+    (tmp_path / "dots.csv").write_text("x,y\n2,3\n9,4\n4,12\n15,9\n11,14\n")
+    return tmp_path
+
+
+def in_units(polygons):
+    return polygons * (0.5, 0.325)
+
+
+def shapes(path):
+    features = json.loads(path.read_text())["features"]
+    return shapely.from_geojson([json.dumps(each["geometry"]) for each in features])
+
+
+@pytest.mark.parametrize("options", [["--prune", "length=0.3um"], ["--outline", "contour"]])
+def test_exact_skeletons_are_those_of_outlines_in_the_unit(run, masks, options):
+    args = ["--spacing", "0.5,0.325um", "--verify", *options]
+    run("skeleton-exact mask.png -o a.geojson", *args)
+    polygons = outlines(MASK, outline="contour" if "contour" in options else "crack")
+    steps = shapely.transform(polygons.to_shapely(), lambda xy: xy * STEPS)
+    skeleton = vorotool.skeleton_exact(steps)
+    if "none" not in options:
+        criterion = {"length": 0.3 / 0.025} if "length=0.3um" in options else {"scale": 1.5}
+        skeleton = vorotool.prune(skeleton, **criterion)
+    expected = shapely.transform(skeleton.to_shapely(), lambda xy: xy / 40)
+    found = shapes(masks / "a.geojson")
+    assert shapely.hausdorff_distance(shapely.union_all(found), shapely.union_all(expected)) < 0.01
+    assert sum(shapely.length(found)) == pytest.approx(sum(shapely.length(expected)), rel=1e-3)
+
+
+@pytest.mark.parametrize("distance", ["-0.3", "-300nm"])
+def test_offsets_are_at_distances_in_the_unit(run, masks, distance):
+    args = ["--what", "offset", "-d", distance, "--spacing", "0.5,0.325um"]
+    run("skeleton-exact mask.png", *args, "-o", "a.geojson")
+    first = shapes(masks / "a.geojson")[0]
+    assert first.bounds == pytest.approx((3.5 * 0.5 + 0.3, 2.5 * 0.325 + 0.3, 10.5 * 0.5 - 0.3, 8.5 * 0.325 - 0.3))
+
+
+def test_voronoi_maps(run, masks):
+    args = ["--spacing", "0.5,0.325um", "--frame", "0,0,16,8", "--max-distance", "1.5", "--verify"]
+    rows = run("voronoi mask.png --what table", *args).rows
+    polygons = shapely.transform(outlines(MASK).to_shapely(), in_units)
+    cells = vorotool.voronoi(polygons, frame=(0, 0, 16, 8), max_distance=1.5)
+    assert [float(row["area"]) for row in rows] == pytest.approx(cells.areas.tolist(), rel=1e-5)
+
+
+@pytest.mark.parametrize("method", ["exact", "digital-valid"])
+def test_triangulations_are_of_places_in_the_unit(run, masks, method):
+    args = ["--method", method, "--spacing", "0.5,0.325um", "--verify", "-q"]
+    rows = run("delaunay dots.csv -f csv", *args).rows
+    points = np.loadtxt(masks / "dots.csv", delimiter=",", skiprows=1)
+    mesh = vorotool.delaunay(points * STEPS)
+    assert [(int(row["label_a"]) - 1, int(row["label_b"]) - 1) for row in rows] == [
+        tuple(e) for e in mesh.edges.tolist()
+    ]
+    assert [float(row["length"]) for row in rows] == pytest.approx((mesh.edge_lengths() / 40).tolist())
+    assert {row["unit"] for row in rows} == {"um"}
+
+
+def test_places_are_in_the_unit(run, masks):
+    args = ["skeleton-exact", "mask.png", "--what", "centerline", "-f", "wkt", "--spacing", "0.5,0.325um", "--from"]
+    assert (
+        run(*args, "2,1.7875", "--to", "5,1.7875").out
+        == "LINESTRING (2 1.7875, 2.725 1.7875, 4.275 1.7875, 5 1.7875)\n"
+    )
+    words = ["leads from (80, 80) to (560, 200)", "(coordinates in steps of 1/40 um)"]
+    run(*args, "2,2", "--to", "14,5", code=3, says=words)

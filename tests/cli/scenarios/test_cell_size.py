@@ -9,6 +9,7 @@ import rasterio
 import rasterio.features
 import shapely
 
+from support.documents import DATA
 from support.families.geojson import collection
 
 RNG = np.random.default_rng(21)
@@ -68,9 +69,8 @@ def test_polygons_are_those_of_rasterio(run, folder_of_data):
 
 @pytest.fixture
 def folder_of_data(tmp_path):
-    from pathlib import Path
 
-    data = Path(__file__).parents[3] / "data/great-lakes.geojson"
+    data = DATA / "great-lakes.geojson"
     (tmp_path / "lakes.geojson").write_bytes(data.read_bytes())
     return tmp_path
 

@@ -27,7 +27,7 @@ LENGTHS = {
 """Lengths that a table needs, for the smaller input."""
 OF_SPACE = {("delaunay", "tetrahedra"), ("delaunay", "hull")}
 OF_SPACE |= {("alphashape", "surface"), ("alphashape", "tetrahedra"), ("alphashape", "triangles")}
-"""Of points with a z, in test_delaunay_space.py and test_alphashape_space.py."""
+"""Of points with a z, in test_space.py."""
 STEP = " --step {2}"
 
 

@@ -3,15 +3,15 @@
 import gzip
 import os
 import threading
-from pathlib import Path
 
 import ezdxf
 import numpy as np
 import pytest
 
 import vorotool
+from support.documents import DATA
 
-LOGO = Path(__file__).parents[3] / "data" / "logo.svg"
+LOGO = DATA / "logo.svg"
 NOISY = (
     '<svg xmlns="http://www.w3.org/2000/svg"><circle r="4" fill="none" stroke="red"/><g display="none"><path/></g>'
     '<path d="M0 0L9 9" fill="none"/></svg>'

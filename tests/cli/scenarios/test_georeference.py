@@ -7,9 +7,12 @@ import pytest
 import rasterio
 import shapely
 import tifffile
+from PIL import Image
 from rasterio.transform import Affine
 from shapely.affinity import affine_transform
 
+from support.families.geojson import collection
+from support.families.rasters import about, write_map
 from support.few import few
 from vorotool.engines.tessellation.raster_objects import numbered_components
 
@@ -26,19 +29,6 @@ def from_origin(west, north, x, y):
 
 NORTH_UP = from_origin(2600000, 1200000, 25, 25)
 SOUTH_UP = Affine(0.5, 0, 10, 0, 0.5, -7)
-
-
-def write(path, values=MASK, transform=NORTH_UP, crs="EPSG:2056", **options):
-    height, width = values.shape
-    kind = {"driver": "GTiff", "count": 1, "height": height, "width": width, "dtype": values.dtype}
-    with rasterio.open(path, "w", **kind, crs=crs, transform=transform, **options) as file:
-        file.write(values, 1)
-    return path
-
-
-def about(path):
-    with rasterio.open(path) as file:
-        return file.transform, file.crs, file.shape, file.nodata, file.tags().get("AREA_OR_POINT")
 
 
 CASES = [
@@ -59,7 +49,7 @@ CASES = [
     [(*case, what) for case, what in zip(CASES, 3 * ("labels", "distance", "diagram"), strict=True)],
 )
 def test_images_line_up_with_their_input(run, tmp_path, transform, crs, options, what):
-    write(tmp_path / "in.tif", transform=transform, crs=crs, **options)
+    write_map(tmp_path / "in.tif", MASK, transform=transform, crs=crs, **options)
     done = run(f"tessellate in.tif -o out.tif --what {what}")
     assert "results are in its coordinates" not in done.err
     before, after = about(tmp_path / "in.tif"), about(tmp_path / "out.tif")
@@ -69,7 +59,7 @@ def test_images_line_up_with_their_input(run, tmp_path, transform, crs, options,
 
 
 def test_pixels_that_are_points(run, tmp_path):
-    path = write(tmp_path / "in.tif")
+    path = write_map(tmp_path / "in.tif", MASK)
     with rasterio.open(path, "r+") as file:
         file.update_tags(AREA_OR_POINT="Point")
     run("tessellate in.tif -o out.tif")
@@ -90,9 +80,7 @@ def component(number):
 
 def geometry(features):
     """All features in one, so that neither their order nor their direction counts."""
-    return shapely.union_all(
-        [shapely.from_geojson(json.dumps(each["geometry"])) for each in features if each["geometry"]]
-    )
+    return shapely.union_all([shapely.geometry.shape(each["geometry"]) for each in features if each["geometry"]])
 
 
 VECTORS = [
@@ -119,7 +107,7 @@ def vectors():
 @pytest.mark.parametrize(("command", "transform", "is_fine"), vectors())
 def test_vectors_are_those_of_pixels_on_the_map(run, tmp_path, command, transform, is_fine):
     values = DOTS if "pixels" in command else MASK
-    write(tmp_path / "in.tif", values, transform)
+    write_map(tmp_path / "in.tif", values, transform)
     has_many_arcs = "offset" in command or "shape" in command.split()
     closeness = 1e-4 if has_many_arcs and not is_fine else 1e-6
     flatten = ["--flatten", closeness] if command.startswith("skeleton") else []
@@ -133,15 +121,13 @@ def test_vectors_are_those_of_pixels_on_the_map(run, tmp_path, command, transfor
     a, b, c, d, e, f = tuple(transform)[:6]
     placed = affine_transform(geometry(pixels["features"]), [a, b, d, e, c + a / 2, f + e / 2])
     assert placed.hausdorff_distance(geometry(on_map["features"])) < 10 * closeness * a
-    rings = [
-        each["geometry"] for each in on_map["features"] if each["geometry"] and each["geometry"]["type"] == "Polygon"
-    ]
-    assert all(shapely.from_geojson(json.dumps(ring)).exterior.is_ccw for ring in rings)
+    shapes = [shapely.geometry.shape(each["geometry"]) for each in on_map["features"] if each["geometry"]]
+    assert all(shape.exterior.is_ccw for shape in shapes if shape.geom_type == "Polygon")
 
 
 @pytest.mark.parametrize("transform", [NORTH_UP, SOUTH_UP])
 def test_the_table_of_regions(run, tmp_path, transform):
-    write(tmp_path / "in.tif", transform=transform)
+    write_map(tmp_path / "in.tif", MASK, transform=transform)
     rows = run("tessellate in.tif --what table -q").rows
     run("tessellate in.tif -o labels.tif -q")
     with rasterio.open(tmp_path / "labels.tif") as file:
@@ -163,7 +149,7 @@ def test_the_table_of_regions(run, tmp_path, transform):
 
 def test_paths_between_places_of_the_image(run, tmp_path):
     """Places among the options are in pixels, as without a map."""
-    write(tmp_path / "in.tif", MASK)
+    write_map(tmp_path / "in.tif", MASK)
     options = ["--what", "centerline", "--from", "7,5", "--to", "18,13", "-f", "geojson"]
     on_map = json.loads(run("skeleton-exact in.tif", *options).out)
     pixels = json.loads(run("skeleton-exact in.tif", *options, "--pixel-size", "1").out)
@@ -172,18 +158,14 @@ def test_paths_between_places_of_the_image(run, tmp_path):
 
 
 def test_clip_is_on_the_map(run, tmp_path):
-    write(tmp_path / "in.tif", DOTS)
+    write_map(tmp_path / "in.tif", DOTS)
     area = shapely.box(2600100, 1199300, 2600900, 1199900)
-    crs = {"type": "name", "properties": {"name": "EPSG:2056"}}
-    clip = {"type": "Feature", "properties": {}, "geometry": json.loads(shapely.to_geojson(area)), "crs": crs}
-    (tmp_path / "clip.geojson").write_text(json.dumps(clip))
-    command = ["delaunay", "in.tif", "--seeds", "pixels", "--what", "cells", "-f", "geojson", "--clip", "clip.geojson"]
-    done = run(*command)
-    cells = [each for each in json.loads(done.out)["features"] if each["geometry"]]
+    command = "delaunay in.tif --seeds pixels --what cells -f geojson --clip clip.geojson"
+    (tmp_path / "clip.geojson").write_text(collection([area], crs="EPSG:2056"))
+    cells = json.loads(run(command).out)["features"]
     assert geometry(cells).symmetric_difference(area).area < 1e-3
-    clip["crs"]["properties"]["name"] = "EPSG:3857"
-    (tmp_path / "clip.geojson").write_text(json.dumps(clip))
-    run(*command, code=3, says="in.tif in EPSG:2056")
+    (tmp_path / "clip.geojson").write_text(collection([area], crs="EPSG:3857"))
+    run(command, code=3, says="in.tif in EPSG:2056")
 
 
 @pytest.mark.parametrize(
@@ -195,15 +177,14 @@ def test_clip_is_on_the_map(run, tmp_path):
     ],
 )
 def test_maps_that_results_cannot_follow(run, tmp_path, transform, code, words):
-    write(tmp_path / "in.tif", transform=transform)
+    write_map(tmp_path / "in.tif", MASK, transform=transform)
     run("skeleton-exact in.tif -o a.geojson", code=code, says=words)
     run("skeleton-exact in.tif -o a.geojson --pixel-size auto", code=3, says="--pixel-size 1")
-    done = run("skeleton-exact in.tif -o a.geojson --pixel-size 1")
-    assert done.err == ""
+    assert run("skeleton-exact in.tif -o a.geojson --pixel-size 1").err == ""
 
 
 def test_a_system_without_a_code(run, tmp_path):
-    write(tmp_path / "in.tif", crs="+proj=laea +lat_0=10 +lon_0=20 +datum=WGS84")
+    write_map(tmp_path / "in.tif", MASK, crs="+proj=laea +lat_0=10 +lon_0=20 +datum=WGS84")
     done = run("skeleton-exact in.tif -f geojson", says="without an EPSG code")
     assert "crs" not in json.loads(done.out)
 
@@ -223,49 +204,34 @@ def test_tiles(run, tmp_path, size, what):
     image = tifffile.imread(tmp_path / "tiles.tif")
     assert (image == tifffile.imread(tmp_path / "strips.tif")).all()
     if what == "labels":
-        rows = [run(f"tessellate {name}.tif --what table -q --seeds labels").rows
-                for name in ("strips", "tiles")]  # fmt: skip
-        assert rows[0] == rows[1]
+        strips, tiles = (
+            run(f"tessellate {name}.tif --what table -q --seeds labels").out for name in ("strips", "tiles")
+        )
+        assert strips == tiles
     run(f"tessellate in.csv --size {size} -o a.png --tiled", code=2, says="--tiled")
 
 
 # ---- nodata --------------------------------------------------------------------------------------
-@pytest.mark.parametrize("options", [[], ["--threshold", "100", "--invert"]])
-def test_nodata_is_background(run, tmp_path, options):
-    values = MASK.copy()
-    values[:, 40:] = 7
-    write(tmp_path / "in.tif", values, nodata=7)
-    run("tessellate in.tif -o out.npy", *options)
-    plain = np.where(values == 7, 0, values)
-    if options:
-        plain = (plain > 100) != ("--invert" in options)
-        plain = np.where(values == 7, 0, plain).astype(np.uint8) * 255
+KNOWN = np.arange(50) < 40
+
+
+@pytest.mark.parametrize(
+    ("values", "nodata", "options", "plain"),
+    [
+        (np.where(KNOWN, MASK, 7), 7, "", MASK * KNOWN),
+        (np.where(KNOWN, MASK, 7), 7, "--threshold 100 --invert", (255 - MASK) * KNOWN),
+        (np.where(MASK == 255, 1, np.where(KNOWN, np.nan, 0)).astype(np.float32), np.nan, "", MASK),
+    ],
+)
+def test_nodata_is_background(run, tmp_path, monkeypatch, values, nodata, options, plain):
+    """Of images that are held, and of those that are not."""
+    write_map(tmp_path / "in.tif", values, nodata=nodata)
     tifffile.imwrite(tmp_path / "plain.tif", plain)
     run("tessellate plain.tif -o plain.npy")
-    assert (np.load(tmp_path / "out.npy") == np.load(tmp_path / "plain.npy")).all()
-
-
-@pytest.mark.parametrize("options", [[], ["--threshold", "100", "--invert"]])
-def test_nodata_of_images_that_are_not_held(run, tmp_path, monkeypatch, options):
-    import vorotool.jobs.tessellation as streamed
-
-    values = MASK.copy()
-    values[:, 40:] = 7
-    write(tmp_path / "in.tif", values, nodata=7)
-    run("tessellate in.tif -o held.tif", *options)
-    monkeypatch.setattr(streamed, "LARGE", 100)
-    run("tessellate in.tif -o rows.tif", *options)
-    assert (tmp_path / "held.tif").read_bytes() == (tmp_path / "rows.tif").read_bytes()
-
-
-def test_nodata_that_is_no_number(run, tmp_path):
-    values = np.where(MASK == 255, 1, np.nan).astype(np.float32)
-    values[0] = 0
-    write(tmp_path / "in.tif", values, nodata=np.nan)
-    run("tessellate in.tif -o out.npy")
-    tifffile.imwrite(tmp_path / "plain.tif", MASK)
-    run("tessellate plain.tif -o plain.npy")
-    assert (np.load(tmp_path / "out.npy") == np.load(tmp_path / "plain.npy")).all()
+    for pixels in (2**24, 100):
+        monkeypatch.setattr("vorotool.jobs.tessellation.LARGE", pixels)
+        run(f"tessellate in.tif -o out.npy {options}")
+        assert (np.load(tmp_path / "out.npy") == np.load(tmp_path / "plain.npy")).all()
 
 
 # ---- world files ---------------------------------------------------------------------------------
@@ -274,11 +240,9 @@ def test_nodata_that_is_no_number(run, tmp_path):
     [("a.tif", "a.TFW"), ("a.tif", "a.tifw"), ("a.gif", "a.gfw"), ("a.png", "a.wld"), ("a.jpg", "a.jgw")],
 )
 def test_world_files(run, tmp_path, image, world):
-    from PIL import Image
-
     Image.fromarray(MASK).save(tmp_path / image)
     (tmp_path / world).write_text("25\n0\n0\n-25\n2600012.5\n1199987.5\n")
-    write(tmp_path / "map.tif")
+    write_map(tmp_path / "map.tif", MASK)
     options = ["--what", "table", *(["--threshold", "100"] if image.endswith("jpg") else [])]
     done = run(f"tessellate {image}", *options, says=image)
     assert done.out == run("tessellate map.tif --what table").out
@@ -294,9 +258,6 @@ def test_world_files_that_are_none(run, tmp_path, text):
     run("tessellate a.tif -o out.png", code=3, says=["a.tfw", "correct or remove it"])
 
 
-# ---- damage --------------------------------------------------------------------------------------
-
-
 def test_control_points_are_not_used(run, tmp_path):
     points = tuple(float(k) for k in range(24))
     tifffile.imwrite(tmp_path / "a.tif", MASK, extratags=[(33922, 12, 24, points, True)])
@@ -305,11 +266,9 @@ def test_control_points_are_not_used(run, tmp_path):
 
 def test_many_images_of_maps(run, tmp_path):
     (tmp_path / "in").mkdir()
-    write(tmp_path / "in" / "a.tif")
-    write(tmp_path / "in" / "b.tif", transform=from_origin(0, 0, 50, 50))
+    write_map(tmp_path / "in" / "a.tif", MASK)
+    write_map(tmp_path / "in" / "b.tif", MASK, transform=from_origin(0, 0, 50, 50))
     run("tessellate in --table all.csv --out-dir out -f tiff -q")
     assert about(tmp_path / "out" / "b.tif")[:2] == about(tmp_path / "in" / "b.tif")[:2]
-    write(tmp_path / "in" / "c.tif", crs="EPSG:3857")
-    done = run("tessellate in --table all.csv -q", code=3)
-    for each in ("EPSG:2056", "in/a.tif", "EPSG:3857", "in/c.tif"):
-        assert each in done.err
+    write_map(tmp_path / "in" / "c.tif", MASK, crs="EPSG:3857")
+    run("tessellate in --table all.csv -q", code=3, says=["EPSG:2056", "in/a.tif", "EPSG:3857", "in/c.tif"])

@@ -51,28 +51,21 @@ INPUTS = {
     "completion": (),
 }
 NEEDED = {
-    "frame": {
-        "delaunay": ("--what", "cells"),
-        "skeleton-exact": ("--side", "both"),
-        "skeleton-approx": ("--side", "both"),
-    },
-    "distance": {"": ("--what", "offset")},
-    "every": {"": ("--what", "points")},
-    "count": {"": ("--what", "discs")},
-    "neck": {"": ("--what", "parts")},
-    "start": {"": ("--what", "centerline")},
-    "end": {"": ("--what", "centerline")},
-    "flatten": {"": ("-f", "geojson")},
-    "pixel_size": {"tessellate": ("--what", "table", "-f", "csv")},
-    "passes": {"": ("--method", "propagation")},
-    "chunk": {"": ("-f", "zarr")},
-    "threshold": {"": ("mask.pgm",)},
-    "connectivity": {"": ("mask.pgm",)},
-    "slice": {"": ("space.csv", "--size", "5x4x3", "--what", "color", "-f", "svg")},
-    "page": {"": ("mask.pgm",)},
-    "simplify": {"": ("mask.pgm",)},
-    "width": {"": ("-f", "svg")},
-    "precision": {"": ("-f", "csv")},
+    "delaunay frame": "--what cells",
+    **dict.fromkeys(("skeleton-exact frame", "skeleton-approx frame"), "--side both"),
+    "distance": "--what offset",
+    "every": "--what points",
+    "count": "--what discs",
+    "neck": "--what parts",
+    **dict.fromkeys(("start", "end"), "--what centerline"),
+    "flatten": "-f geojson",
+    "tessellate pixel_size": "--what table -f csv",
+    "passes": "--method propagation",
+    "chunk": "-f zarr",
+    "slice": "space.csv --size 5x4x3 --what color -f svg",
+    **dict.fromkeys(("threshold", "connectivity", "page", "simplify"), "mask.pgm"),
+    "width": "-f svg",
+    "precision": "-f csv",
 }
 """What an option means something with."""
 
@@ -106,10 +99,8 @@ def test_no_value_of_an_option_is_a_defect(run, folder, name, option, values):
     (folder / "shape.wkt").write_text("POLYGON ((0 0, 9 0, 9 4, 0 4, 0 0))\n")
     (folder / "space.csv").write_text("x,y,z\n1,2,0\n4,0,2\n")
     (folder / "mask.pgm").write_text("P2\n4 3\n255\n0 9 9 0\n0 9 9 0\n0 0 0 200\n")
-    needed = NEEDED.get(option.name, {})
-    given = [*INPUTS[name], *needed.get(name, needed.get("", ()))]
-    if {"mask.pgm", "space.csv"} & set(needed.get(name, needed.get("", ()))):
-        given.remove(given[0])
+    needed = NEEDED.get(f"{name} {option.name}", NEEDED.get(option.name, "")).split()
+    given = [*INPUTS[name][{"mask.pgm", "space.csv"} & set(needed) != set() :], *needed]
     codes = {value[:60]: run(name, *given, f"{option.opts[-1]}={value}", code=None).code for value in values}
     assert {value: code for value, code in codes.items() if code not in (0, 2, 3, 4, 5)} == {}
 

@@ -8,6 +8,7 @@ import pandas
 import pytest
 
 import vorotool
+from support.families.geojson import collection
 from vorotool.products import registry
 
 ROWS = [(101, 0.0, 0.0, "a"), (102, 5.0, 1.0, "b"), (103, 2.0, 6.0, "c")]
@@ -38,11 +39,11 @@ def columns_of(path):
     if path.suffix == ".npz":
         with np.load(path) as arrays:
             return {name: arrays[name].tolist() for name in arrays}
-    readers = {".csv": pandas.read_csv, ".json": pandas.read_json, ".geojson": geopandas.read_file}
+    readers = {".csv": pandas.read_csv, ".json": pandas.read_json}
     if path.suffix == ".json" and isinstance(held := json.loads(path.read_text()), dict):
         frame = pandas.DataFrame([each["properties"] for each in held["polygons"]])
     else:
-        frame = readers[path.suffix](path)
+        frame = readers.get(path.suffix, geopandas.read_file)(path)
     return {name: frame[name].tolist() for name in frame}
 
 
@@ -110,13 +111,6 @@ def test_the_column_that_sites_are_joined_by_stays(run, tmp_path):
     assert vorotool.voronoi(frame, by="tree").properties == {"tree": ["oak", "elm"]}
 
 
-FEATURES = {
-    "type": "FeatureCollection",
-    "features": [
-        {"type": "Feature", "properties": {"name": "A", "label": 12}, "geometry": squares((0, 10))},
-        {"type": "Feature", "properties": {"name": "B", "label": 11}, "geometry": squares((30,))},
-    ],
-}
 OF_PARTS = ["table", "skeleton", "branches", "elements", "points", "parts", "discs", "centerline"]
 
 
@@ -127,19 +121,16 @@ OF_PARTS = ["table", "skeleton", "branches", "elements", "points", "parts", "dis
         for what in OF_PARTS
         for fmt in (("csv", "json", "geojson", "npz") if what == "parts" else ("csv",))
         if fmt in registry.PRODUCTS["skeleton-exact"][what].formats
-        and (what, fmt) not in {("skeleton", "json"), ("skeleton", "npz")}  # have no rows
     ],
 )
 def test_rows_made_of_polygons_refer_to_features_by_label(run, tmp_path, what, fmt):
     path, more = tmp_path / f"out.{fmt}", ["--every", "3"] if what == "points" else []
-    for labels, columns in (([12, 12, 11], {}), ([1, 1, 2], {"label": [5, 5]}), ([1, 1, 2], {"label": ["a", "b"]})):
-        document = json.loads(json.dumps(FEATURES))
-        for feature, label in zip(document["features"], columns.get("label", ()), strict=False):
-            feature["properties"]["label"] = label
-        (tmp_path / "in.geojson").write_text(json.dumps(document))
+    for labels, column in (([12, 12, 11], [12, 11]), ([1, 1, 2], [5, 5]), ([1, 1, 2], ["a", "b"])):
+        rows = [{"name": name, "label": label} for name, label in zip("AB", column, strict=True)]
+        (tmp_path / "in.geojson").write_text(collection([squares((0, 10)), squares((30,))], rows))
         run(f"skeleton-exact {tmp_path}/in.geojson --what {what} -o {path}", *more, "-q")
         found = columns_of(path)
-        name = "voro_label" if columns and "label" in found and "voro_label" in found else "label"
+        name = "voro_label" if column != [12, 11] and "voro_label" in found else "label"
         rows = list(zip(map(int, found[name]), map(int, found["part"]), strict=True))
         expected = list(zip(labels, (1, 2, 1), strict=True))
         assert list(dict.fromkeys(rows)) == (expected[::2] if what == "discs" else expected)
@@ -159,29 +150,13 @@ def kinds(tmp_path):
         "points": [{"type": "Point", "coordinates": place} for place in places],
         "polygons": [squares((10 * k,)) for k in range(4)],
     }.items():
-        features = [
-            {"type": "Feature", "properties": row, "geometry": shape} for row, shape in zip(rows, shapes, strict=True)
-        ]
-        (tmp_path / f"{name}.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+        (tmp_path / f"{name}.geojson").write_text(collection(shapes, rows))
     return tmp_path
 
 
 def written_formats(command, what, *, leaving=()):
     written = registry.PRODUCTS[command][what].written
     return [fmt for fmt in READ_BACK if fmt in written and fmt not in leaving]
-
-
-def read_any(path):
-    """Read rows of any format by another library."""
-    if path.suffix in (".gpkg", ".fgb", ".jsonl"):
-        frame = geopandas.read_file(path, driver="GeoJSONSeq" if path.suffix == ".jsonl" else None)
-    elif path.suffix == ".parquet":
-        frame = pandas.read_parquet(path)
-    elif path.suffix == ".tsv":
-        frame = pandas.read_csv(path, sep="\t")
-    else:
-        return columns_of(path)
-    return {name: frame[name].tolist() for name in frame}
 
 
 def test_rows_that_are_features_have_all_columns_in_every_format(run, kinds):
@@ -196,13 +171,13 @@ def test_rows_that_are_features_have_all_columns_in_every_format(run, kinds):
         ("voronoi", "polygons", "table"),
         ("alphashape", "points", "points"),
     ):
-        for fmt in written_formats(command, what, leaving=["jsonl"] if what != "parts" else []):
+        for fmt in written_formats(command, what):
             if (command, what, fmt) in {("voronoi", "cells", "json"), ("voronoi", "cells", "npz")}:
                 continue  # the whole map, not its rows
             path = kinds / f"{what}.{fmt}"
             more = ["-r", "9"] if command == "alphashape" else []
             run(command, kinds / f"{source}.geojson", "--what", what, "-o", path, *more, "-q")
-            found = read_any(path)
+            found = columns_of(path)
             assert list(map(int, found["length"])) == [1, 2, 3, 4], (command, what, fmt)
             assert [str(value) for value in found["type"][:3]] == ["a", "b", "a"]
             assert not {"type_a", "polygon"} & set(found)
@@ -212,18 +187,17 @@ def test_rows_that_are_features_have_all_columns_in_every_format(run, kinds):
 def test_rows_about_parts_have_the_columns_that_are_asked_for(run, kinds, what):
     more = {"points": ["--every", "2"], "transects": ["--every", "2"], "offset": ["-d", "-1"]}.get(what, [])
     whole = {"skeleton": ["json", "npz"], "offset": ["json", "npz"]}.get(what, [])
-    for fmt in written_formats("skeleton-exact", what, leaving=[*whole, "jsonl"]):
+    for fmt in written_formats("skeleton-exact", what, leaving=whole):
         path = kinds / f"out.{fmt}"
         command = ("skeleton-exact", kinds / "polygons.geojson", "--what", what, "-o", path, *more, "-q")
         run(*command)
-        is_feature = what in ("offset", "centerline") and fmt in ("geojson", "gpkg", "fgb", "parquet")
-        is_feature &= not (what == "centerline" and fmt == "parquet")
-        if not is_feature and fmt != "parquet":
-            assert "kind.name" not in (plain := read_any(path))
+        is_feature = what in ("offset", "centerline") and fmt in ("geojson", "gpkg")
+        if not is_feature:
+            assert "kind.name" not in (plain := columns_of(path))
             assert not {"voro_length", "voro_kind"} & set(plain)
         run(*command, "--with", "length,kind.name")
-        found = read_any(path)
-        if not is_feature and fmt != "parquet":
+        found = columns_of(path)
+        if not is_feature:
             by_label = dict(zip(map(int, found["label"]), found["kind.name"], strict=True))
             assert by_label == {1: "p", 2: "q", 3: "r", 4: "s"}
             assert list(map(int, found["length"])) == list(map(int, found["label"]))
@@ -240,11 +214,11 @@ def test_rows_about_pairs_have_the_columns_of_both(run, kinds):
         ("voronoi", "polygons", "neighbors", []),
         ("voronoi", "polygons", "edges", []),
     ):
-        for fmt in written_formats(command, what, leaving=["jsonl"]):
+        for fmt in written_formats(command, what):
             path = kinds / f"{command}.{what}.{fmt}"
             given = (command, kinds / f"{source}.geojson", "--what", what, "-o", path, *more, "-q")
             run(*given, "--with", "kind.name")
-            found = read_any(path)
+            found = columns_of(path)
             assert [name for name in found if name.startswith("kind.name")][:2] == ["kind.name_a", "kind.name_b"]
             for end in "ab":
                 assert ["pqrs"[int(label) - 1] for label in found[f"label_{end}"]] == found[f"kind.name_{end}"]
@@ -259,14 +233,10 @@ def test_columns_that_nothing_shows_are_refused(kinds):
 
 
 def test_a_path_with_dots_names_objects_in_pictures(run, kinds):
-    for command, source, more in (
-        ("voronoi", "polygons", []),
-        ("delaunay", "points", []),
-        ("skeleton-exact", "polygons", []),
-        ("tessellate", "points", ["--what", "color"]),
-        ("draw", "polygons", []),
+    for given in (
+        *(f"{command} polygons.geojson" for command in ("voronoi", "skeleton-exact", "draw")),
+        *(f"{command} points.geojson" for command in ("delaunay", "tessellate --what color")),
     ):
-        given = (command, kinds / f"{source}.geojson", *more, "-f", "svg", "-q")
-        drawn = run(*given, "--label-by", "kind.name")
-        assert all(f">{name}</text>" in drawn.out for name in "pqrs"), (command, drawn.err)
-        run(*given, "--label-by", "kind", code=3, says="column.name")
+        drawn = run(f"{given} -f svg -q --label-by kind.name")
+        assert all(f">{name}</text>" in drawn.out for name in "pqrs"), (given, drawn.err)
+        run(f"{given} -f svg -q --label-by kind", code=3, says="column.name")

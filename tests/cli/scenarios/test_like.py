@@ -8,30 +8,19 @@ import tifffile
 from PIL import Image
 
 from support.families.geojson import collection
+from support.families.rasters import about, pixels, write_map
 
 NORTH = rasterio.Affine(12.5, 0, 2600512.5, 0, -12.5, 1200012.5)
 SAME_BY_HAND = ("--cell-size", "12.5", "--window", "2600512.5,1199512.5,625,500")
 XY = np.random.default_rng(5).integers((2600400, 1199400), (2601200, 1200100), (30, 2)) + 0.25
 
 
-def raster(path, transform=NORTH, crs="EPSG:2056", **kind):
-    kind = {"driver": "GTiff", "height": 40, "width": 50, "count": 1, "dtype": "uint8", **kind}
-    with rasterio.open(path, "w", crs=crs, transform=transform, **kind) as file:
-        file.write(np.zeros((kind["count"], kind["height"], kind["width"]), np.uint8))
+def raster(path, transform=NORTH, crs="EPSG:2056", count=1, height=40, width=50, **kind):
+    write_map(path, np.zeros((count, height, width), np.uint8), transform, crs, **kind)
 
 
 def points(path, xy=XY, crs="EPSG:2056"):
     path.write_text(collection(shapely.points(xy), [{"name": f"n{k}"} for k in range(len(xy))], crs=crs))
-
-
-def about(path):
-    with rasterio.open(path) as file:
-        return file.transform, file.crs, file.shape, file.tags().get("AREA_OR_POINT")
-
-
-def pixels(path):
-    with rasterio.open(path) as file:
-        return file.read()
 
 
 @pytest.mark.parametrize("what", ["labels", "color", "table"])

@@ -78,7 +78,7 @@ for line, name in %r:
 
 
 def test_what_lacks_is_named_with_the_way_to_get_it(lakes):
-    (lakes / "logo.svg").write_text("<svg/>")
+    (lakes / "logo.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H9V9Z"/></svg>')
     cases = [
         (
             "delaunay dots.csv --input-crs EPSG:4326 --crs EPSG:3857",

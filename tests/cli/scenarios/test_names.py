@@ -25,9 +25,7 @@ def texts(path):
 
 @pytest.mark.parametrize("command", ["draw", "skeleton-exact"])
 def test_objects_have_their_ids_once(run, folder, objects, command):
-    name, *options = command.split()
-    layers = {"draw": "labels", "tessellate": "cells,seeds,labels"}.get(name, "polygons,skeleton,labels")
-    run(name, "objects.npy", *options, "--layers", layers, "-o", "a.svg")
+    run(f"{command} objects.npy --layers {'labels' if command == 'draw' else 'polygons,skeleton,labels'} -o a.svg")
     assert sorted(text for _, _, text in texts(folder / "a.svg")) == ["12", "3", "700"]
     assert 'paint-order="stroke"' in (folder / "a.svg").read_text()
 

@@ -3,17 +3,14 @@
 import numpy as np
 import pytest
 import tifffile
+import zarr
 
-zarr = pytest.importorskip("zarr")
-
-MASK = np.zeros((60, 70), np.uint8)
-MASK[5:20, 5:30] = MASK[30:50, 40:60] = 255
+from support.families.rasters import write_sized
 
 
 @pytest.fixture
 def store(tmp_path):
-    sizes = {"PhysicalSizeX": 0.325, "PhysicalSizeY": 0.325}
-    tifffile.imwrite(tmp_path / "in.ome.tif", MASK, ome=True, metadata={"axes": "YX", **sizes})
+    write_sized(tmp_path / "in.ome.tif", sides=(0.325, 0.325))
     return tmp_path
 
 

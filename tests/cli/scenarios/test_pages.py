@@ -38,17 +38,15 @@ def page(path):
 @pytest.mark.parametrize(
     "made",
     [
-        ("skeleton-exact", "--what", "offset", "-d", "60"),
-        ("skeleton-exact", "--side", "exterior"),
-        ("skeleton-approx", "--step", "2"),
-        ("voronoi",),
-        ("draw",),
+        "skeleton-exact --layers polygons --what offset -d 60",
+        "skeleton-exact --layers polygons --side exterior",
+        "skeleton-approx --layers polygons --step 2",
+        "voronoi --layers objects",
+        "draw --layers shape",
     ],
 )
 def test_all_results_of_one_drawing_register(run, tmp_path, part, made):
-    command, *options = made
-    layer = {"voronoi": "objects", "draw": "shape"}.get(command, "polygons")
-    run(command, part, *options, "-o", "made.svg", "--layers", layer)
+    run(f"{made} {part} -o made.svg")
     sides, layers = page(tmp_path / "made.svg")
     assert sides == SHEET
     assert layers.popitem()[1] == pytest.approx(RECTANGLE, abs=1e-3)
@@ -73,24 +71,25 @@ def test_a_frame_is_the_page(run, tmp_path, part, side):
 @pytest.mark.parametrize(
     ("command", "data"),
     [
-        (["skeleton-exact"], "POLYGON ((2 3, 8 3, 8 5, 2 5, 2 3))"),
-        (["draw"], "POLYGON ((2 3, 8 3, 8 5, 2 5, 2 3))"),
-        (["delaunay"], "x,y\n2,3\n8,3\n8,5\n"),
-        (["alphashape", "-r", "9", "--layers", "points"], "x,y\n2,3\n8,3\n8,5\n"),
+        *((command, "POLYGON ((2 3, 8 3, 8 5, 2 5, 2 3))") for command in ("skeleton-exact", "draw")),
+        *((command, "x,y\n2,3\n8,3\n8,5\n") for command in ("delaunay", "alphashape -r 9 --layers points")),
     ],
 )
 def test_frames_are_pages_in_every_command(run, tmp_path, command, data):
-    name, *options = command
-    run(name, "-", *options, "--scale", "4", "--frame", "0,0,10,20", "-o", "made.svg", "--y-up", data=data.encode())
+    run(f"{command} - --scale 4 --frame 0,0,10,20 -o made.svg --y-up", data=data.encode())
     sides, _ = page(tmp_path / "made.svg")
     assert sides == (40, 80)
 
 
-@pytest.mark.parametrize(("number", "millimeters"), [(4, 1), (5, 10), (1, 25.4)])
-def test_drawings_in_dxf_are_drawn_at_their_size(run, tmp_path, number, millimeters):
+def dxf(folder, number):
     drawing = ezdxf.new(units=number)
     drawing.modelspace().add_lwpolyline([(0, 0), (10, 0), (10, 5), (0, 5)], close=True)
-    drawing.saveas(tmp_path / "part.dxf")
+    drawing.saveas(folder / "part.dxf")
+
+
+@pytest.mark.parametrize(("number", "millimeters"), [(4, 1), (5, 10), (1, 25.4)])
+def test_drawings_in_dxf_are_drawn_at_their_size(run, tmp_path, number, millimeters):
+    dxf(tmp_path, number)
     run("skeleton-exact part.dxf -o made.svg")
     sides, layers = page(tmp_path / "made.svg")
     assert sides == pytest.approx((10.4 * millimeters, 5.4 * millimeters))  # with a margin of 2 %
@@ -111,10 +110,8 @@ def test_a_drawing_without_a_unit_has_pixels(run, tmp_path):
 
 
 def test_a_drawing_larger_than_any_page_has_pixels(run, tmp_path):
-    drawing = ezdxf.new(units=7)  # km
-    drawing.modelspace().add_lwpolyline([(0, 0), (10, 0), (10, 5), (0, 5)], close=True)
-    drawing.saveas(tmp_path / "land.dxf")
-    run("skeleton-exact land.dxf -o made.svg")
+    dxf(tmp_path, 7)  # km
+    run("skeleton-exact part.dxf -o made.svg")
     assert ET.parse(tmp_path / "made.svg").getroot().get("width") == "1000"
 
 

@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from support.documents import DATA
 from support.processes.ended import ended_bash
-
-DATA = Path(__file__).parents[3] / "data"
 
 PIPELINES = {
     "table to Delaunay": ("tessellate six-seeds.csv --what table", "csv", "delaunay IN --columns x,y,label", "csv"),

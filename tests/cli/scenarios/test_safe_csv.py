@@ -2,9 +2,11 @@
 
 import csv
 import io
-import json
 
 import pytest
+import shapely
+
+from support.families.geojson import collection
 
 PAIRS = {
     "=1+1": "'=1+1",
@@ -20,23 +22,15 @@ PAIRS = {
 TEXTS, SAFE = list(PAIRS), list(PAIRS.values())
 
 
-def rows(text):
-    return list(csv.reader(io.StringIO(text, newline="")))
-
-
 @pytest.fixture
 def features(folder):
     """Points, squares and their properties."""
-
-    def square(x):
-        return {"type": "Polygon", "coordinates": [[[x, 0], [x + 1, 0], [x + 1, 1], [x, 1], [x, 0]]]}
-
-    for name, geometry in (("points", lambda x: {"type": "Point", "coordinates": [x, x * x]}), ("squares", square)):
-        collection = [
-            {"type": "Feature", "id": text, "geometry": geometry(3 * x), "properties": {"=name": text, "n": -x}}
-            for x, text in enumerate(TEXTS)
-        ]
-        (folder / f"{name}.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": collection}))
+    rows = [{"=name": text, "n": -x} for x, text in enumerate(TEXTS)]
+    for name, give in (
+        ("points", lambda x: shapely.Point(x, x * x)),
+        ("squares", lambda x: shapely.box(x, 0, x + 1, 1)),
+    ):
+        (folder / f"{name}.geojson").write_text(collection([give(3 * x) for x in range(len(TEXTS))], rows))
     return folder
 
 
@@ -48,7 +42,7 @@ def test_texts_get_an_apostrophe_and_numbers_stay(run, features, command):
     run(command, "-q", "-o", "a.csv")
     run(command, "-q", "-o", "b.csv", "--safe-csv")
     (header, *before), (safe_header, *after) = (
-        rows((features / name).read_bytes().decode()) for name in ("a.csv", "b.csv")
+        csv.reader(io.StringIO((features / name).read_bytes().decode(), newline="")) for name in ("a.csv", "b.csv")
     )
     name = header.index("=name")
     assert safe_header[name] == "'=name"

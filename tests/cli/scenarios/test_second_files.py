@@ -4,16 +4,14 @@ import json
 from fractions import Fraction
 
 import ezdxf
-import numpy as np
 import pytest
 import shapely
 import tifffile
 
 from support.families.geojson import collection
+from support.families.rasters import MASK, write_sized
 
 METERS = {"mm": Fraction(1, 1000), "um": Fraction(1, 10**6), "in": Fraction(254, 10**4), "m": Fraction(1)}
-MASK = np.zeros((40, 60), np.uint8)
-MASK[5:20, 5:25] = MASK[25:36, 20:55] = 255
 SITES = [shapely.box(0, 0, 10, 10), shapely.box(30, 5, 40, 15), shapely.box(8, 30, 20, 40)]
 CLIP = shapely.box(-5, -5, 35, 45)
 CODES = {"in": 1, "mm": 4, "m": 6}
@@ -68,17 +66,12 @@ def test_drawings_state_theirs(run, tmp_path):
 
 
 # ---- images -------------------------------------------------------------------------------------
-def image(path):
-    sizes = {"PhysicalSizeX": 0.5, "PhysicalSizeY": 0.5, "PhysicalSizeXUnit": "µm", "PhysicalSizeYUnit": "µm"}
-    tifffile.imwrite(path, MASK, ome=True, metadata={"axes": "YX", **sizes})
-
-
 @pytest.mark.parametrize(
     ("command", "size"), [("voronoi", ""), ("delaunay", "--pixel-size auto"), ("voronoi", "--pixel-size 0.5um")]
 )
 def test_results_clip_results(run, tmp_path, command, size):
     """What vorotool writes of an image in um clips the image, whatever its results are in."""
-    image(tmp_path / "in.tif")
+    write_sized(tmp_path / "in.tif")
     words = [command, "in.tif", *size.split(), "--what", "table", "-f", "csv"]
     half = [shapely.box(-0.5, -0.5, 29.5, 39.5)]
     (tmp_path / "pixels.geojson").write_text(text(half, y_axis="down"))
@@ -140,7 +133,7 @@ def test_distances_of_two_files(run, tmp_path):
 )
 def test_pictures_over_an_image(run, tmp_path, command, fmt):
     """Coordinates in nm over pixels of 0.5 um: as the same in pixels."""
-    image(tmp_path / "im.tif")
+    write_sized(tmp_path / "im.tif")
     shapes = [shapely.Point(xy) for xy in [(1, 2), (50, 30), (5, 36), (30, 9)]]
     shapes = shapes if command.startswith(("del", "alp")) else SITES
     (tmp_path / "pixels.geojson").write_text(text(shapes, y_axis="down"))
@@ -184,10 +177,9 @@ def test_files_of_maps_state_it_in_a_column(run, tmp_path, name):
     """Where a format has no member: what vorotool writes of an image in um clips that image."""
     import geopandas
 
-    image(tmp_path / "in.tif")
+    write_sized(tmp_path / "in.tif")
     run(f"voronoi in.tif --pixel-size auto -o {name} -q")
-    frame = (geopandas.read_parquet if name.endswith("parquet") else geopandas.read_file)(tmp_path / name)
-    assert set(frame["unit"]) == {"um"}
+    assert set(geopandas.read_file(tmp_path / name)["unit"]) == {"um"}
     done = run(f"voronoi in.tif --clip {name} --what table -f csv")
     assert sum(areas(done)) == pytest.approx(60 * 40)
     assert f"{name} states no unit" not in done.err

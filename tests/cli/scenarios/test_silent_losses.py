@@ -25,8 +25,7 @@ def told(run, *arguments):
 
 
 @pytest.mark.usefixtures("inputs")
-def test_empty_cells_are_named(run, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_empty_cells_are_named(run):
     lines, stats = told(run, "delaunay", "four.csv", "--what", "cells,table", "--frame", "0,0,9,9", "--out-dir", "o")
     assert lines.count("note: 2 of 4 cells are empty: those of sites 3, 4") == 1
     assert (stats["empty_cells"], stats["empty_sites"]) == (2, [3, 4])
@@ -39,8 +38,7 @@ def test_empty_cells_are_named(run, tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("inputs")
-def test_seeds_outside_the_frame_are_named(run, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_seeds_outside_the_frame_are_named(run):
     lines, stats = told(run, "tessellate", "four.csv", "--size", "9x9", "-o", "a.png")
     assert "note: 1 of 4 seeds is outside the frame: site 4" in lines
     assert stats["outside"] == 1
@@ -53,8 +51,7 @@ def test_seeds_outside_the_frame_are_named(run, tmp_path, monkeypatch):
 
 @pytest.mark.usefixtures("inputs")
 @pytest.mark.parametrize(("options", "is_told"), [((), True), (("--columns", "x,y"), False)])
-def test_a_column_z_is_no_coordinate(run, tmp_path, monkeypatch, options, is_told):
-    monkeypatch.chdir(tmp_path)
+def test_a_column_z_is_no_coordinate(run, options, is_told):
     said = run("delaunay space.csv", *options, "-o", "a.csv").err
     assert ("space.csv: the column z is ignored: only x and y are used" in said) == is_told
     if not options:  # of a volume it is one

@@ -6,6 +6,7 @@ import signal
 import numpy as np
 import pytest
 import tifffile
+import zarr
 from scipy import ndimage
 
 import vorotool
@@ -44,22 +45,12 @@ def written(path):
     if path.suffix == ".npy":
         return np.load(path)
     if path.suffix == ".zarr":
-        zarr = pytest.importorskip("zarr")
         found = zarr.open(path, mode="r")
         return (found["0"] if isinstance(found, zarr.Group) else found)[...]
     return tifffile.imread(path)
 
 
 # ---- what is written is what the library gives ---------------------------------------------------
-@pytest.mark.parametrize(("source", "name"), [("stack.npy", "out.npy"), ("stack.tif", "out.ome.zarr")])
-def test_labels_of_a_stack(run, stack, source, name):
-    done = run(f"tessellate --volume {source} -o {name} -q")
-    assert (done.out, done.err) == ("", "")
-    expected = vorotool.tessellate(MASK != 0)
-    np.testing.assert_array_equal(written(stack / name), expected.labels)
-    assert expected.labels.max() == 3
-
-
 @pytest.mark.parametrize(
     ("what", "spacing"), [("labels", None), ("distance", SPACING), ("distance2", None), ("diagram", SPACING)]
 )
@@ -76,8 +67,9 @@ def test_every_volume_that_is_written(run, stack, what, spacing):
         "distance2": squares,
         "diagram": vorotool.voronoi_diagram(result),
     }[what]
-    for name in ("out.tif", "out.npy", "out.zarr"):
-        run(f"tessellate --volume stack.tif --what {what} -o {name} -q", *given)
+    for name in ("out.tif", "out.npy", "out.zarr", "out.ome.zarr"):
+        source = "stack.npy" if (name, spacing) == ("out.npy", None) else "stack.tif"
+        assert run(f"tessellate --volume {source} --what {what} -o {name} -q", *given).err == ""
         found = written(stack / name)
         np.testing.assert_allclose(found, expected, rtol=1e-7 if what == "distance" else 0)
 
@@ -102,10 +94,7 @@ def test_columns_are_chosen(run, points):
     run("tessellate array.npy --columns 1,2,z=3 --size 9x8x7 -o b.npy -q")
     np.testing.assert_array_equal(np.load(points / "a.npy"), np.load(points / "b.npy"))
     done = run("tessellate named.csv --columns east,north,z=height --what table -q")
-    assert [(row["x"], row["y"], row["z"], row["name"]) for row in done.rows] == [
-        ("1", "2", "0", "a"),
-        ("8", "3", "4", "b"),
-    ]
+    assert ["".join(row[name] for name in ("x", "y", "z", "name")) for row in done.rows] == ["120a", "834b"]
 
 
 def test_labels_stay_and_values_are_cut(run, tmp_path):
@@ -194,7 +183,6 @@ def test_what_the_file_says_is_told(run, stack):
 
 
 def test_coarser_copies(run, tmp_path):
-    pytest.importorskip("zarr")
     values = np.random.default_rng(1).integers(0, 4, (3, 300, 290)).astype(np.uint16)
     np.save(tmp_path / "labels.npy", values)
     options = ["tessellate", "--volume", "labels.npy", "--seeds", "labels", "-q", "-o", "out.ome.zarr"]
@@ -202,7 +190,6 @@ def test_coarser_copies(run, tmp_path):
     assert sorted(path.name for path in (tmp_path / "out.ome.zarr").iterdir()) == ["0", "1", "zarr.json"]
     run(*options, "--levels", "2")  # replaces it
     whole = vorotool.tessellate(vorotool.seeds_from_volume(values, mode="labels")).labels
-    zarr = pytest.importorskip("zarr")
     for level in range(3):
         step = 2**level
         found = zarr.open_array(tmp_path / f"out.ome.zarr/{level}", mode="r")[...]
@@ -230,21 +217,18 @@ def test_bytes_depend_neither_on_slabs_nor_threads(run, stack, monkeypatch):
 @pytest.mark.slow
 @pytest.mark.parametrize("what", ["labels", "diagram", "distance", "distance2"])
 def test_a_cluster_writes_the_same_store(run, stack, what):
-    pytest.importorskip("distributed")
-    pytest.importorskip("zarr")
     options = ["tessellate", "--volume", "stack.tif", "--what", what, "--spacing", "auto", "--chunk", "4x4x2", "-q"]
     options += ["--max-distance", "1.5um"] if what == "labels" else []
     run(*options, "-o", "a.ome.zarr", "--levels", "1")
     done = run(*options, "-o", "b.ome.zarr", "--levels", "1", "--cluster", "local", "-j", "2")
     assert done.err == ""
-    assert {path: data for path, data in contents(stack / "a.ome.zarr").items() if path != "zarr.json"} == {
-        path: data for path, data in contents(stack / "b.ome.zarr").items() if path != "zarr.json"
-    }
+    made = [contents(stack / name) for name in ("a.ome.zarr", "b.ome.zarr")]
+    assert {each.pop("zarr.json") for each in made}
+    assert made[0] == made[1]
 
 
 @pytest.mark.slow
 def test_memory_does_not_grow_with_the_depth(tmp_path):
-    pytest.importorskip("zarr")
     np.save(tmp_path / "points.npy", np.random.default_rng(3).integers(0, 512, (200, 3)))
     frame = ["points.npy", "--columns", "1,2,z=3", "-q"]
     low, high = (
@@ -302,16 +286,14 @@ def test_a_folder_of_stacks(run, tmp_path):
     [("png", ["--slice", "2"]), ("svg", ["--layers", "cells,labels"]), ("png", ["--scale-bar", "--legend"])],
 )
 def test_pictures(run, stack, fmt, options):
-    start = ["tessellate", "--volume", "stack.tif", "--spacing", "auto", "--what", "color", "-q", "-o", f"a.{fmt}"]
-    run(*start, *options)
-    first = (stack / f"a.{fmt}").read_bytes()
-    run(*start, *options, "--threads", "1")
-    assert (stack / f"a.{fmt}").read_bytes() == first
+    for number in "31":
+        line = f"tessellate --volume stack.tif --spacing auto --what color -q -o {number}.{fmt} --threads {number}"
+        run(line, *options)
+    assert (stack / f"3.{fmt}").read_bytes() == (stack / f"1.{fmt}").read_bytes()
 
 
 def test_the_page(run, stack):
-    options = ["--spacing", "auto", "--what", "labels", "-q", "-o", "a.html"]
-    run("tessellate --volume stack.tif", *options)
+    run("tessellate --volume stack.tif --spacing auto --what labels -q -o a.html")
     page = (stack / "a.html").read_text(encoding="utf-8")
     assert '"depth":7' in page
     assert '"name":"volume"' in page

@@ -6,13 +6,12 @@ import signal
 import numpy as np
 import pytest
 import tifffile
+import zarr
 
 from support.processes.leftovers import contents, wait_until
 from support.processes.peak_memory import peak_memory
 from vorotool.engines.tessellation.tessellate import tessellate
 from vorotool.engines.tessellation.tessellator import Tessellator
-
-zarr = pytest.importorskip("zarr")
 
 SHAPE = (60, 80)
 

@@ -38,10 +38,7 @@ from vorotool.types.polygons.shapely_geometry import to_shapely
         ('<g transform="scale(2,3)"><circle r="1"/></g>', 6 * math.pi),
         ('<g transform="skewX(40) rotate(10)"><circle r="1"/></g>', math.pi),
         ('<svg x="5" width="20" height="10" viewBox="0 0 2 2"><rect width="2" height="2"/></svg>', 100),
-        (
-            '<svg width="20" height="10" viewBox="0 0 2 2" preserveAspectRatio="none"><path d="M0 0h2v2h-2z"/></svg>',
-            200,
-        ),
+        ('<svg width="20" height="5" viewBox="0 0 2 2" preserveAspectRatio="none"><path d="M0 0h2v2h-2z"/></svg>', 100),
     ],
 )
 def test_areas(body, area):
@@ -95,14 +92,11 @@ def random_body(rng, depth=0):
         if kind == 0 and depth < 3:
             made.append(f'<g transform="{transform()}">{random_body(rng, depth + 1)}</g>')
         elif kind == 1:
-            made.append(
-                f'<rect x="{number()}" y="{number()}" width="{rng.uniform(1, 50)}" height="30" '
-                f'rx="{rng.randint(0, 9)}"/>'
-            )
+            place = f'x="{number()}" y="{number()}"'
+            made.append(f'<rect {place} width="{rng.uniform(1, 50)}" height="30" rx="{rng.randint(0, 9)}"/>')
         elif kind == 2:
-            made.append(
-                f'<ellipse cx="{number()}" cy="{number()}" rx="{rng.uniform(1, 30)}" ry="7" transform="{transform()}"/>'
-            )
+            place = f'cx="{number()}" cy="{number()}"'
+            made.append(f'<ellipse {place} rx="{rng.uniform(1, 30)}" ry="7" transform="{transform()}"/>')
         elif kind == 3:
             made.append(f'<polygon points="{points(4)}"/>')
         elif kind == 4:
@@ -256,9 +250,8 @@ def test_ids_and_uses():
 def test_layers_of_inkscape():
     name = 'xmlns:i="http://www.inkscape.org/namespaces/inkscape"'
     box = '<path d="M0 0h4v3z"/>'
-    layers = (
-        f'<g i:groupmode="layer" i:label="Cut out">{box}<g>{box}</g></g><g i:groupmode="layer" id="b">{box}</g>{box}'
-    )
+    layers = f'<g i:groupmode="layer" i:label="Cut out">{box}<g>{box}</g></g>'
+    layers += f'<g i:groupmode="layer" id="b">{box}</g>{box}'
     shapes, _ = svg(layers, name)
     assert shapes.properties == {"layer": ["Cut out", "Cut out", "b", None]}
     assert svg(layers, name, properties=False)[0].properties == {}

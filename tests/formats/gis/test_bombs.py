@@ -1,8 +1,6 @@
 """Small files that announce or become much are refused before memory is taken."""
 
 import io
-import subprocess
-import sys
 import zipfile
 
 import numpy as np
@@ -12,6 +10,7 @@ import pytest
 
 import vorotool
 from support.families.vector_files import frame, save
+from support.processes.ended import ended_python
 from support.refusals import refused
 from vorotool.errors import InputError, LimitError
 
@@ -37,7 +36,7 @@ def test_parquet(tmp_path, kind):
 def test_parquet_in_a_process_that_has_imported_nothing(tmp_path):
     path = parquet(tmp_path / "a.parquet", x=np.arange(5.0), y=np.arange(5.0), t=["a"] * 5)
     script = f"import vorotool; print(vorotool.read({str(path)!r}).properties)"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    done = ended_python("-c", script)
     assert (done.stdout.strip(), done.stderr) == ("{'t': ['a', 'a', 'a', 'a', 'a']}", "")
 
 

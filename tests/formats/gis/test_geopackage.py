@@ -131,9 +131,8 @@ def test_numbers_of_features_are_ids_unless_they_count(tmp_path):
 
 def test_values_of_other_types(tmp_path):
     """SQLite holds anything in any column."""
-    path = save(
-        frame(shapes := [shapely.Point(1, 2), shapely.Point(3, 4)], n=[1, 2], t=["a", "b"]), tmp_path / "a.gpkg"
-    )
+    shapes = [shapely.Point(1, 2), shapely.Point(3, 4)]
+    path = save(frame(shapes, n=[1, 2], t=["a", "b"]), tmp_path / "a.gpkg")
     changed(
         path,
         "ALTER TABLE a ADD COLUMN day DATE",

@@ -5,6 +5,7 @@ import os
 from pathlib import Path
 
 import geopandas
+import pyogrio
 import pytest
 import shapely
 
@@ -59,8 +60,6 @@ def test_parts_that_the_new_one_lacks_go_and_the_users_own_stay(older):
 
 
 def test_what_gdal_cannot_write_is_an_output_error(older, monkeypatch):
-    import pyogrio
-
     before = contents(older)
 
     def fail(*_, **__):
@@ -76,8 +75,6 @@ def test_what_gdal_cannot_write_is_an_output_error(older, monkeypatch):
 @pytest.mark.parametrize("part", PARTS)
 @pytest.mark.parametrize("size", few([20, -1, 0], 1))
 def test_a_part_that_is_cut_off_is_not_taken(older, monkeypatch, part, size, count):
-    import pyogrio
-
     before, write = contents(older), pyogrio.raw.write
 
     def cut(path, *arguments, **options):

@@ -6,6 +6,7 @@ import sys
 import numpy as np
 import pytest
 import tifffile
+import zarr
 from PIL import Image
 
 import vorotool
@@ -14,7 +15,6 @@ from support.readers.sources import bands_of
 from support.refusals import refused
 from vorotool.errors import InputError, LimitError, UsageError
 
-zarr = pytest.importorskip("zarr")
 IMAGE = np.random.default_rng(2).integers(0, 200, (70, 50))
 WORDS = IMAGE.astype(np.uint16)
 
@@ -84,12 +84,10 @@ def test_what_is_read_otherwise(tmp_path):
 
 def test_bad_stores(tmp_path):
     (tmp_path / "empty.zarr").mkdir()
-    (tmp_path / "torn.zarr").mkdir()
-    (tmp_path / "torn.zarr/zarr.json").write_text('{"node_type": "array", "shape"')
-    (tmp_path / "odd.zarr").mkdir()
-    (tmp_path / "odd.zarr/zarr.json").write_text('{"node_type": "array", "shape": 7}')
+    for name, text in (("torn", '{"node_type": "array", "shape"'), ("odd", '{"node_type": "array", "shape": 7}')):
+        (tmp_path / f"{name}.zarr").mkdir()
+        (tmp_path / f"{name}.zarr/zarr.json").write_text(text)
     zarr.create_group(tmp_path / "group.zarr")
-    make(tmp_path / "cube.zarr", np.zeros((3, 4, 5), np.uint8).reshape(12, 5))
     zarr.create_array(tmp_path / "three.zarr", shape=(3, 4, 5), dtype=np.uint8)
     zarr.create_array(tmp_path / "complex.zarr", shape=(3, 4), dtype=np.complex64)
     zarr.create_array(tmp_path / "none.zarr", shape=(0, 4), dtype=np.uint8)

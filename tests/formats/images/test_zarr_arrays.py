@@ -7,13 +7,13 @@ import time
 
 import numpy as np
 import pytest
+import zarr
 
 from support.refusals import refused
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import check_space
 from vorotool.formats.zarr.writer import chunks_of, create_array, open_array, write_chunks, write_zarr, zarr_module
 
-zarr = pytest.importorskip("zarr")
 IMAGE = np.random.default_rng(1).integers(0, 9, (70, 50)).cumsum(axis=1).astype(np.uint16)
 
 

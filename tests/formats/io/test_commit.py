@@ -3,14 +3,13 @@
 import errno
 import os
 import signal
-import subprocess
-import sys
 from functools import partial
 from pathlib import Path
 
 import pytest
 
 from support.few import few
+from support.processes.ended import ended_python
 from support.processes.leftovers import contents
 from support.refusals import refused
 from vorotool.errors import OutputError
@@ -193,15 +192,11 @@ def test_after_a_kill_between_two_renames_each_is_old_or_new(folder, at):
         "write_all(Path())\n"
     )
     tests = str(Path(__file__).parents[2])
-    done = subprocess.run([sys.executable, "-c", script, tests, str(at)], cwd=folder, check=False)
+    done = ended_python("-c", script, tests, at, cwd=folder)
     assert done.returncode == -signal.SIGKILL
     for place in ("next.csv", "sub/next.csv"):
-        subprocess.run(
-            [sys.executable, "-c", f"from formats.io.test_commit import *; write_file({place!r}, 'next')"],
-            cwd=folder,
-            env=os.environ | {"PYTHONPATH": tests},
-            check=True,
-        )
+        line = f"from formats.io.test_commit import *; write_file({place!r}, 'next')"
+        ended_python("-c", line, cwd=folder, env=os.environ | {"PYTHONPATH": tests}, check=True)
     held = contents(folder)
     assert not [name for name in held if ".vorotool" in name]
     for name in ("a.shp", "sub/c.dbf"):

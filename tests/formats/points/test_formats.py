@@ -50,10 +50,8 @@ def test_detection(name, content, expected):
 @pytest.mark.parametrize("suffix", [".gml", ".tab", ".mif"])
 def test_files_to_convert(suffix):
     message = error_of(b"", f"data/towns{suffix}")
-    assert message == (
-        f"data/towns{suffix}: {suffix} files are not supported; convert it: "
-        f"ogr2ogr -f GeoJSON data/towns.geojson data/towns{suffix}"
-    )
+    assert message.startswith(f"data/towns{suffix}: {suffix} files are not supported")
+    assert message.endswith(f"ogr2ogr -f GeoJSON data/towns.geojson data/towns{suffix}")
 
 
 @pytest.mark.parametrize("suffix", [".shx", ".dbf", ".prj", ".cpg"])
@@ -67,21 +65,11 @@ def test_options_that_do_not_fit():
         assert "columns applies to delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
 
 
-def npz(**columns):
-    return bytes_of(np.savez, **columns)
-
-
 def vector_file(geometry, driver):
     out = io.BytesIO()
     kind = {"driver": driver, "geometry_type": "Point", "crs": "EPSG:3857"}
     order = {"SPATIAL_INDEX": "NO"} if driver == "FlatGeobuf" else {}
     pyogrio.raw.write(out, shapely.to_wkb(geometry), [], [], layer="a", layer_options=order, **kind)
-    return out.getvalue()
-
-
-def parquet(**columns):
-    out = io.BytesIO()
-    pyarrow.parquet.write_table(pyarrow.table(columns), out)
     return out.getvalue()
 
 
@@ -98,7 +86,7 @@ def test_all_formats_agree(points):
         "csv": "".join(f"{x!r};{y!r}\n" for x, y in points),
         "node": f"{len(points)} 2 0 0\n{node}",
         "npy": npy(array),
-        "npz": npz(x=array[:, 0], y=array[:, 1]),
+        "npz": bytes_of(np.savez, x=array[:, 0], y=array[:, 1]),
         "json": json.dumps(pairs),
         "geojson": json.dumps({"type": "MultiPoint", "coordinates": pairs}),
         "wkt": "".join(f"POINT ({x!r} {y!r})\n" for x, y in points),
@@ -109,19 +97,17 @@ def test_all_formats_agree(points):
         texts[fmt] = vector_file(geometry, driver)
     texts["wkb"] = shapely.to_wkb(shapely.multipoints(array))
     texts["csv-wkt"] = "wkt\n" + "".join(f"POINT ({x!r} {y!r})\n" for x, y in points)
-    texts["parquet"] = parquet(x=array[:, 0], y=array[:, 1])
-    texts["ply"] = (
-        f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\nend_header\n"
-    )
-    texts["ply"] += "".join(f"{x!r} {y!r}\n" for x, y in points)
+    columns = pyarrow.table({"x": array[:, 0], "y": array[:, 1]})
+    texts["parquet"] = bytes_of(lambda out: pyarrow.parquet.write_table(columns, out))
+    texts["ply"] = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\n"
+    texts["ply"] += "end_header\n" + "".join(f"{x!r} {y!r}\n" for x, y in points)
     texts["obj"] = "".join(f"v {x!r} {y!r} 7\n" for x, y in points)
     texts["xyz"] = "".join(f"{x!r} {y!r} 7\n" for x, y in points)
     others = {"shp", "kml", "gpx", "las"}  # of several files; of longitudes and latitudes; of integers
     assert set(texts) == set(POINT_FORMATS) - others
     for fmt, text in texts.items():
         np.testing.assert_array_equal(read(text, STANDARD_INPUT, input_format=fmt).xy, array)
-    whole = shapely.multipoints(array).wkt
-    assert len(read(whole, STANDARD_INPUT)) == len(points)
+    assert len(read(shapely.multipoints(array).wkt, STANDARD_INPUT)) == len(points)
 
 
 def reason_against(data, fmt):

@@ -9,18 +9,7 @@ from vorotool.formats.results.graphml import write_graphml
 from vorotool.types.identity import columns_wanted
 
 SPACE = "{http://graphml.graphdrawing.org/xmlns}"
-CONTROLS = [
-    *map(chr, range(0x20)),
-    "\x7f",
-    "\x85",
-    "\ud800",
-    "\udfff",
-    "\ufffe",
-    "\uffff",
-    "\U0001f600",
-    "]]>",
-    "&<>\"'",
-]
+CONTROLS = [*map(chr, range(0x20)), *"\x7f\x85\ud800\udfff\ufffe\uffff\U0001f600", "]]>", "&<>\"'"]
 
 
 def written(name, value):

@@ -42,9 +42,8 @@ def test_edges_of_shapes(what):
 
 def test_radii_of_the_spectrum():
     family = vorotool.alpha_complex(XY)
-    assert array(family, "spectrum").tolist() == [
-        float(row["r"]) for row in rows_of(written(family, "csv", "spectrum"))
-    ]
+    radii = [float(row["r"]) for row in rows_of(written(family, "csv", "spectrum"))]
+    assert array(family, "spectrum").tolist() == radii
     assert array(family, "spectrum").dtype == np.dtype("<f8")
 
 

@@ -1,19 +1,19 @@
 """Skeletons, offset curves and cells as JSON and NPZ: what is written is read back, and damage is named."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 
 import vorotool
+from support.documents import DATA
 from support.readers.written import ARCS, arrays_of, assert_same, bytes_of, written
 from support.refusals import refused
 from vorotool.errors import InputError, VorotoolError
 from vorotool.formats.text.tables import write_arrays
 
-TWO = vorotool.read(Path(__file__).parents[3] / "data/two-shapes.json")
+TWO = vorotool.read(DATA / "two-shapes.json")
 ELL = [[0, 0], [40, 0], [40, 12], [14, 12], [14, 30], [0, 30]]
 HOLES_AND_LINES = [
     {"shell": [[0, 0], [30, 0], [30, 20], [0, 20]], "holes": [[[3, 3], [8, 3], [5, 8]], [[20, 9], [25, 9], [22, 12]]]},

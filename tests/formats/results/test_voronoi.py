@@ -3,7 +3,6 @@
 import json
 import warnings
 from dataclasses import replace
-from pathlib import Path
 
 import geopandas
 import numpy as np
@@ -11,12 +10,12 @@ import pytest
 import shapely
 
 import vorotool
+from support.documents import DATA
 from support.readers.written import arrays_of, bytes_of, rows_of, written
 from support.refusals import refused
 from vorotool.errors import InputError
 from vorotool.formats.text.tables import write_arrays
 
-DATA = Path(__file__).parents[3] / "data"
 SHAPES = geopandas.GeoDataFrame(
     {"name": ["Zürich", None, "c", "d", "e"], "count": [1, 2, 3, 4, 2**60]},
     geometry=[

@@ -3,17 +3,16 @@
 import json
 import math
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 
 import vorotool
+from support.documents import DATA
 from support.few import few
 from vorotool.types.skeleton.tables import polygon_table
 
-DATA = Path(__file__).parents[3] / "data"
 NAMES = [
     "great-lakes",
     "ne_110m_lakes",

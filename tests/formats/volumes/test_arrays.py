@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+import zarr
 
 import vorotool
 from support.few import few
@@ -24,7 +25,6 @@ from vorotool.formats.zarr.writer import (
 )
 from vorotool.types.volumes.volume import VoxelGrid
 
-zarr = pytest.importorskip("zarr")
 VALUES = np.random.default_rng(4).integers(0, 200, (11, 40, 33))
 GRID = VoxelGrid(Fraction(13, 40), Fraction(1, 4), Fraction(3, 2), "um", "zarr")
 

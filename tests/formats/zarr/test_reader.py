@@ -7,8 +7,11 @@ import re
 from pathlib import Path
 
 import google_crc32c
+import numcodecs
 import numpy as np
 import pytest
+import zarr
+from zarr import codecs
 
 import vorotool
 from support.few import few
@@ -16,9 +19,6 @@ from support.refusals import refused
 from vorotool.errors import InputError, OutputError
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import check_store
-
-zarr = pytest.importorskip("zarr")
-from zarr import codecs  # noqa: E402
 
 IMAGE = np.random.default_rng(3).integers(0, 200, (70, 50)).astype(np.uint16)
 
@@ -59,21 +59,11 @@ def test_format_3(tmp_path, options):
 @pytest.mark.parametrize("separator", [".", "/"])
 @pytest.mark.parametrize("compressor", [None, "Zlib", "GZip", "BZ2", "LZMA", "LZ4", "Zstd", "Blosc"])
 def test_format_2(tmp_path, order, separator, compressor):
-    import numcodecs
-
     chosen = None if compressor is None else getattr(numcodecs, compressor)()
     filters = [numcodecs.Delta(dtype="<u2"), numcodecs.Shuffle(2)] if order == "F" else None
-    array = zarr.create_array(
-        tmp_path / "a",
-        shape=(70, 50),
-        dtype="u2",
-        chunks=(32, 20),
-        zarr_format=2,
-        compressors=chosen,
-        filters=filters,
-        order=order,
-        chunk_key_encoding={"name": "v2", "separator": separator},
-    )
+    keys = {"name": "v2", "separator": separator}
+    options = {"compressors": chosen, "filters": filters, "order": order, "chunk_key_encoding": keys, "zarr_format": 2}
+    array = zarr.create_array(tmp_path / "a", shape=(70, 50), dtype="u2", chunks=(32, 20), **options)
     array[:60] = IMAGE[:60]
     check(tmp_path / "a", array[:])
 
@@ -83,9 +73,8 @@ def test_format_2(tmp_path, order, separator, compressor):
 @pytest.mark.parametrize("fill", [1, "NaN", "-Infinity"])
 def test_types_and_what_fills(tmp_path, version, dtype, fill):
     value = float(fill) if isinstance(fill, str) and dtype[0] == "f" else 1
-    array = zarr.create_array(
-        tmp_path / "a", shape=(5, 6), chunks=(2, 3), dtype=dtype, fill_value=value, zarr_format=version
-    )
+    options = {"dtype": dtype, "fill_value": value, "zarr_format": version}
+    array = zarr.create_array(tmp_path / "a", shape=(5, 6), chunks=(2, 3), **options)
     array[:2] = np.ones((2, 6))
     expected = array[:]
     np.testing.assert_array_equal(StoredArray("a", tmp_path / "a").read((slice(0, 5), slice(0, 6))), expected)
@@ -93,9 +82,8 @@ def test_types_and_what_fills(tmp_path, version, dtype, fill):
 
 def store(path, metadata, chunks=(), *, version=3):
     path.mkdir()
-    (path / ("zarr.json" if version == 3 else ".zarray")).write_text(
-        metadata if isinstance(metadata, str) else json.dumps(metadata)
-    )
+    text = metadata if isinstance(metadata, str) else json.dumps(metadata)
+    (path / ("zarr.json" if version == 3 else ".zarray")).write_text(text)
     for name, data in dict(chunks).items():
         (path / name).parent.mkdir(parents=True, exist_ok=True)
         (path / name).write_bytes(data)
@@ -129,9 +117,8 @@ class Payload:
 def test_a_pickled_chunk_of_format_2_does_not_run(tmp_path, where):
     codec = {"id": "pickle", "protocol": 5}
     data = {"0.0": pickle.dumps(Payload(tmp_path / "ran"))}
-    path = store(
-        tmp_path / "evil.zarr", version_2(**{where: [codec] if where == "filters" else codec}), data, version=2
-    )
+    metadata = version_2(**{where: [codec] if where == "filters" else codec})
+    path = store(tmp_path / "evil.zarr", metadata, data, version=2)
     refused(InputError, "'pickle'", vorotool.read, path)
     assert not (tmp_path / "ran").exists()
 
@@ -141,13 +128,9 @@ def test_a_codec_of_format_3_that_is_not_known(tmp_path, name):
     inner = [{"name": "bytes"}, {"name": name}]
     index = [{"name": "bytes"}, {"name": "crc32c"}]
     options = {"chunk_shape": [2, 2], "codecs": inner, "index_codecs": index}
-    for number, codec in enumerate(
-        (
-            inner,
-            [{"name": "sharding_indexed", "configuration": options}],
-            [{"name": "sharding_indexed", "configuration": options | {"codecs": index, "index_codecs": inner}}],
-        )
-    ):
+    turned = options | {"codecs": index, "index_codecs": inner}
+    shards = ([{"name": "sharding_indexed", "configuration": each}] for each in (options, turned))
+    for number, codec in enumerate((inner, *shards)):
         path = store(tmp_path / f"{number}.zarr", version_3(codecs=codec))
         refused(InputError, f"'{name}'", vorotool.read, path)
 

@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from PIL import Image
 from scipy import ndimage
 from skimage.color import deltaE_ciede2000, rgb2lab
 
+from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool.errors import LimitError
 from vorotool.formats.images.png_writer import write_png
@@ -42,11 +44,8 @@ HOLED = Polygons(
 
 
 def svg(*layers, width=600, y_up=False, bounds=None):
-    out = io.BytesIO()
-    write_layers_svg(
-        out, layers, Page(bounds or bounds_of(*(layer.points for layer in layers)), width=width, y_up=y_up)
-    )
-    return ET.fromstring(out.getvalue())
+    page = Page(bounds or bounds_of(*(layer.points for layer in layers)), width=width, y_up=y_up)
+    return ET.fromstring(bytes_of(write_layers_svg, layers, page))
 
 
 def picture(*layers, width=160, y_up=False, bounds=None):
@@ -84,9 +83,8 @@ def test_polygons_in_svg():
     (group,) = root.iter(f"{NS}g")
     assert (group.attrib["id"], group.attrib["fill-rule"], group.attrib["stroke-width"]) == ("cells", "evenodd", "3")
     page = Page(bounds_of(HOLED.points), width=1000, y_up=False)
-    for path, name, fill, corners in zip(
-        group, HOLED.ids, HOLED.colors, ([range(4), range(4, 8)], [range(8, 11)]), strict=True
-    ):
+    rings = ([range(4), range(4, 8)], [range(8, 11)])
+    for path, name, fill, corners in zip(group, HOLED.ids, HOLED.colors, rings, strict=True):
         assert (path.attrib["id"], path.attrib["fill"]) == (name, fill)
         assert path.attrib["vector-effect"] == "non-scaling-stroke"
         for ring, expected in zip(rings_of(path), corners, strict=True):
@@ -116,13 +114,8 @@ def test_lines_and_points_and_texts_in_svg(monkeypatch):
 def test_filled_pixels_are_those_inside():
     image = picture(HOLED, width=416, bounds=(0, 0, 16, 8))
     page = Page((0, 0, 16, 8), width=416, y_up=False)
-    for (x, y), color in {
-        (1, 1): (0x77, 0xAA, 0xDD),
-        (8, 7): (0x77, 0xAA, 0xDD),
-        (4, 4): (255, 255, 255),
-        (11, 4): (255, 255, 255),
-        (13, 4): (0xEE, 0x88, 0x66),
-    }.items():
+    first, second = (0x77, 0xAA, 0xDD), (0xEE, 0x88, 0x66)
+    for x, y, color in ((1, 1, first), (8, 7, first), (4, 4, (255,) * 3), (11, 4, (255,) * 3), (13, 4, second)):
         across, down = page.place(np.array([[x, y]], float))[0].astype(int)
         assert tuple(image[down, across]) == color, (x, y)
 
@@ -159,12 +152,11 @@ def test_limits():
 
 
 def test_bands_make_a_png():
-    from PIL import Image
-
     page = Page((0, 0, 16, 8), width=333, y_up=False)
-    out = io.BytesIO()
-    write_png(out, layer_bands([HOLED], page), (page.height, page.width), rgb=True)
-    np.testing.assert_array_equal(np.asarray(Image.open(out)), picture(HOLED, width=333, bounds=(0, 0, 16, 8)))
+    data = bytes_of(write_png, layer_bands([HOLED], page), (page.height, page.width), rgb=True)
+    np.testing.assert_array_equal(
+        np.asarray(Image.open(io.BytesIO(data))), picture(HOLED, width=333, bounds=(0, 0, 16, 8))
+    )
 
 
 def glyph_picture(text):

@@ -20,11 +20,8 @@ from vorotool.types.polygons.shapely_geometry import to_shapely
 SQUARE = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]])
 
 
-def svg_of(layers, page):
-    return bytes_of(write_layers_svg, layers, page)
-
-
-def shapes_of(svg):
+def shapes_of(layers, page):
+    svg = bytes_of(write_layers_svg, layers, page)
     return to_shapely(read_svg(Source("a.svg", svg), ReadOptions(flatten=1e-4)))
 
 
@@ -39,7 +36,7 @@ def test_sizes_return(millimeters, size, y_up):
     if not 1e-3 <= size * millimeters <= 1e5:
         pytest.skip("no page for it")
     page = ScaledPage((0, 0, 3 * size, 2 * size), y_up=y_up, millimeters=millimeters)
-    shape = shapes_of(svg_of([square(size)], page))[-1]  # the first is the ground
+    shape = shapes_of([square(size)], page)[-1]  # the first is the ground
     x, y, right, bottom = shape.bounds
     across = size * millimeters
     assert right - x == pytest.approx(3 * across, rel=1e-6, abs=1e-4)
@@ -51,7 +48,7 @@ def test_arcs_return():
     page = ScaledPage((-1, -1, 1, 1), y_up=True, millimeters=20)
     places = np.array([[1.0, 0.0], [-1.0, 0.0]])
     arcs = Arcs("offset", places, places[::-1], np.zeros((2, 2)), np.array([0, 2]), None, WHITE, 1.0, np.ones(2, bool))
-    circle = shapes_of(svg_of([arcs], page))[-1]
+    circle = shapes_of([arcs], page)[-1]
     assert circle.area == pytest.approx(400 * np.pi, rel=1e-4)
 
 

@@ -1,6 +1,5 @@
 """Pictures of label images and of slices: outlines, PNG and SVG."""
 
-import io
 import itertools
 import re
 import xml.etree.ElementTree as ET
@@ -12,6 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import vorotool
+from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool import LimitError, UsageError
 from vorotool.render.canvas.styles import CELLS, PictureStyle, picture_palette
@@ -118,11 +118,8 @@ def test_each_pixel_shows_the_voxel_that_its_center_is_in(units):
     assert picture.sizes == tuple(sizes)
     drawn = picture.image(volume).labels
     depth, height, width = FRAME.shape
-    voxel = [
-        np.floor((np.arange(size) + 0.5) / size * side).astype(int)
-        for size, side in zip(sizes, FRAME.shape, strict=True)
-    ]
-    z, y, x = voxel
+    pairs = zip(sizes, FRAME.shape, strict=True)
+    z, y, x = (np.floor((np.arange(size) + 0.5) / size * side).astype(int) for size, side in pairs)
     labels = volume.labels
     np.testing.assert_array_equal(drawn[: sizes[1], : sizes[2]], labels[depth // 2][np.ix_(y, x)])
     np.testing.assert_array_equal(drawn[: sizes[1], -sizes[0] :], labels[:, :, width // 2].T[np.ix_(y, z)])
@@ -138,11 +135,7 @@ def test_one_slice_is_chosen_by_its_z():
 
 @pytest.mark.parametrize(
     ("frame", "chosen", "words"),
-    [
-        (FRAME, 1, "slices 2"),
-        (FRAME, 7, "slices 2"),
-        (VoxelFrame(0, 0, 0, 2, 2, 1), 1, "slice 0"),
-    ],
+    [(FRAME, 1, "slices 2"), (FRAME, 7, "slices 2"), (VoxelFrame(0, 0, 0, 2, 2, 1), 1, "slice 0")],
 )
 def test_no_other_slice_is_there(frame, chosen, words):
     refused(UsageError, words, SlicePicture, frame, chosen=chosen)
@@ -187,11 +180,9 @@ IMAGE = LabelImage(FEW_LABELS, Frame(10, 20, 4, 3), FEW_SEEDS)
 
 
 def drawn(image: LabelImage = IMAGE, **options: object) -> bytes:
-    out = io.BytesIO()
     labels = np.unique(image.labels[image.labels > 0])
     picture = LabelPicture(image, (labels, FEW_COLORS[labels]), ("cells", "labels", "seeds"), PictureStyle(), **options)
-    picture.write(out, "svg")
-    return out.getvalue()
+    return bytes_of(picture.write, "svg")
 
 
 def groups(svg: bytes) -> dict[str, ET.Element]:

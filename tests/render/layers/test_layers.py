@@ -6,7 +6,6 @@ import io
 import re
 import xml.etree.ElementTree as ET
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +13,7 @@ import shapely
 from PIL import Image
 
 import vorotool
+from support.documents import DATA
 from support.families.point_families import FAMILIES, draw
 from support.few import few
 from support.readers.written import bytes_of
@@ -163,9 +163,8 @@ def test_layers_come_from_below_in_one_order():
 
 def test_crowded_points_have_fine_lines():
     few, many = (delaunay(draw("uniform", n, 1)) for n in (50, 50_000))
-    for before, after in zip(
-        *(mesh_layers(mesh, page_of(mesh), ["edges", "points"]) for mesh in (few, many)), strict=True
-    ):
+    layers = (mesh_layers(mesh, page_of(mesh), ["edges", "points"]) for mesh in (few, many))
+    for before, after in zip(*layers, strict=True):
         assert getattr(before, "width", 0) > getattr(after, "width", 0) or before.radius > after.radius
 
 
@@ -178,7 +177,7 @@ def test_every_family_can_be_drawn(name):
     assert (image < 200).any()
 
 
-SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
+SHAPES = vorotool.read(DATA / "two-shapes.json")
 MADE = vorotool.skeleton_exact(SHAPES)
 PAGE = page_of(MADE)
 

@@ -1,17 +1,16 @@
 """Pictures of triangulations in space: what is seen, and where."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 
 import vorotool
+from support.documents import ROOT
 from vorotool.render.layers.pages import page_of
 from vorotool.render.layers.space import seen, space_layers, surface_layers
 
-ROOT = Path(__file__).parents[3]
 RNG = np.random.default_rng(3)
 BALL = RNG.normal(size=(80, 3)) * [3, 1, 2]
 

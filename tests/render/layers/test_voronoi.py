@@ -129,14 +129,9 @@ def test_layers_of_all_kinds_of_sites():
 
 
 def test_colors_and_widths_are_those_chosen(tmp_path):
-    vorotool.write(
-        voronoi([shapely.box(0, 0, 2, 2), shapely.Point(8, 1)]),
-        tmp_path / "a.svg",
-        what="edges",
-        color={"edges": "navy", "objects": "red"},
-        line_width={"edges": 3},
-        background="none",
-    )
+    cells = voronoi([shapely.box(0, 0, 2, 2), shapely.Point(8, 1)])
+    style = {"color": {"edges": "navy", "objects": "red"}, "line_width": {"edges": 3}, "background": "none"}
+    vorotool.write(cells, tmp_path / "a.svg", what="edges", **style)
     text = (tmp_path / "a.svg").read_text()
     assert '<g id="edges" fill="none" stroke="#000080" stroke-width="3"' in text
     assert '<g id="objects" fill="none" stroke="#ff0000"' in text

@@ -4,6 +4,7 @@ import json
 import re
 from base64 import b64decode
 from html import unescape
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from support.processes.browser import browse, needs_browser
 from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool import LimitError, voronoi_cells
+from vorotool.cli.main import main
 from vorotool.render.canvas.styles import CELLS
 from vorotool.render.pages.html import (
     MOST_CELLS,
@@ -57,13 +59,8 @@ def polygons_of(data):
 
 
 def test_cells_of_a_map_are_its_shapes():
-    sites = [
-        shapely.box(0, 0, 6, 6),
-        shapely.box(2, 2, 3, 3),
-        shapely.Point(9, 1),
-        shapely.LineString([(8, 4), (9, 6)]),
-    ]
-    cells = vorotool.voronoi(sites, frame=(0, 0, 16, 8), max_distance=2)
+    sites = [shapely.box(0, 0, 6, 6), shapely.box(2, 2, 3, 3), shapely.Point(9, 1)]
+    cells = vorotool.voronoi([*sites, shapely.LineString([(8, 4), (9, 6)])], frame=(0, 0, 16, 8), max_distance=2)
     found = polygons_of(data_of(page_of(shapes_of_map(cells), np.ones(4, int), {"area": cells.areas})))
     assert list(found) == ["1", "2", "3", "4"]
     np.testing.assert_allclose([16 * 16 * found[name].area for name in found], cells.areas, rtol=2e-3)
@@ -94,9 +91,8 @@ def test_nothing_is_loaded_from_elsewhere():
 @needs_browser
 def test_the_browser_names_a_cell(tmp_path):
     path = tmp_path / "page.html"
-    path.write_text(
-        page_of(shapes_of_labels(LABELS), [1, 2, 3, 4], {"area": [3, 3, 4, 1], "name": ["a", "b", "<c>", ""]})
-    )
+    columns = {"area": [3, 3, 4, 1], "name": ["a", "b", "<c>", ""]}
+    path.write_text(page_of(shapes_of_labels(LABELS), [1, 2, 3, 4], columns))
     document = browse("--dump-dom", f"{path.as_uri()}#id=3")
     cells = [unescape(text) for text in re.findall("<td>([^<]*)</td>", document)]
     assert cells == ["id", "3", "area", "4", "name", "<c>"]
@@ -109,12 +105,8 @@ def test_the_browser_names_a_cell(tmp_path):
 def test_the_browser_draws_on_light_and_dark_ground(tmp_path, scheme, ground):
     path, picture = tmp_path / "page.html", tmp_path / "page.png"
     path.write_text(page_of(shapes_of_labels(LABELS), [1, 2, 3, 4], {}))
-    browse(
-        f"--screenshot={picture}",
-        "--window-size=1000,600",
-        f"--blink-settings=preferredColorScheme={scheme}",
-        path.as_uri(),
-    )
+    options = (f"--screenshot={picture}", "--window-size=1000,600", f"--blink-settings=preferredColorScheme={scheme}")
+    browse(*options, path.as_uri())
     with Image.open(picture) as image:
         pixels = np.asarray(image.convert("RGB"))
     assert pixels[2, 2, 0] == ground
@@ -138,35 +130,35 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-def command(*arguments):
-    from vorotool.cli.main import main
-
+def command(line):
     with pytest.raises(SystemExit) as end:
-        main(list(arguments))
+        main(line.split())
     return end.value.code
 
 
-def values_of(path):
-    data = data_of((path).read_text(encoding="utf-8"))
+def shown_by(line):
+    """Ids and columns of the page of a command."""
+    assert command(f"{line} -q -o a.html") == 0
+    data = data_of(Path("a.html").read_text(encoding="utf-8"))
     return data["ids"], {each["name"]: each["values"] for each in data["columns"]}
 
 
 def test_pages_of_commands(folder, capsys):
-    assert command("draw", "labels.png", "-o", "draw.html") == 0
-    ids, columns = values_of(folder / "draw.html")
+    ids, columns = shown_by("draw labels.png")
     assert (ids, columns["area"]) == (["1", "2", "3", "12"], [3, 3, 4, 1])
-    assert command("tessellate", "dots.csv", "--size", "12x10", "-o", "tessellate.html", "--y-up") == 0
-    ids, columns = values_of(folder / "tessellate.html")
-    labels = vorotool.tessellate(vorotool.read("dots.csv", geometry="points"), shape=(10, 12)).labels
+    points = vorotool.read("dots.csv", geometry="points")
+    ids, columns = shown_by("tessellate dots.csv --size 12x10 --y-up")
+    labels = vorotool.tessellate(points, shape=(10, 12)).labels
     assert columns["area"] == [int((labels == int(name)).sum()) for name in ids]
     assert columns["town"] == ["Ulm", "", "Bern"]
-    assert command("delaunay", "dots.csv", "--what", "cells", "--pixel-size", "2mm", "-o", "cells.html") == 0
-    ids, columns = values_of(folder / "cells.html")
-    cells = voronoi_cells(vorotool.read("dots.csv", geometry="points"))
-    np.testing.assert_allclose(columns["area"], [4 * cell.area for cell in cells.to_shapely()])
+    ids, columns = shown_by("delaunay dots.csv --what cells --pixel-size 2mm")
+    np.testing.assert_allclose(columns["area"], [4 * cell.area for cell in voronoi_cells(points).to_shapely()])
     assert columns["unit"] == ["mm"] * 3
+    ids, columns = shown_by("voronoi dots.csv --pixel-size 0.5um")
+    np.testing.assert_allclose(columns["area"], vorotool.voronoi(points).areas / 4)
+    assert columns["town"] == ["Ulm", "", "Bern"]
     (folder / "box.json").write_text("[[[0, 0], [4, 0], [0, 3]]]")
-    assert command("draw", "box.json", "-o", "box.html") == 2
+    assert command("draw box.json -o box.html") == 2
     assert "a page shows cells or labels, but the input is polygons or lines" in capsys.readouterr().err
-    assert command("draw", "labels.png", "-o", "no.html", "--legend") == 2
+    assert command("draw labels.png -o no.html --legend") == 2
     assert "--legend" in capsys.readouterr().err

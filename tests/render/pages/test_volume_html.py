@@ -1,6 +1,5 @@
 """The page of a volume: its runs, and what its script shows of them."""
 
-import io
 import json
 import re
 import shutil
@@ -71,10 +70,9 @@ def labels():
 
 def page_of(labels, **options):
     known = np.unique(labels[labels > 0])
-    out = io.BytesIO()
     volumes = np.bincount(labels.ravel())[known]
-    write_volume_html(out, labels, (known, np.arange(len(known)) % 3 + 1), {"volume": volumes}, **options)
-    return out.getvalue().decode()
+    colors = (known, np.arange(len(known)) % 3 + 1)
+    return bytes_of(write_volume_html, labels, colors, {"volume": volumes}, **options).decode()
 
 
 def test_runs_are_the_volume(labels):
