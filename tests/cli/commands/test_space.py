@@ -80,7 +80,7 @@ def test_a_page_opens_at_the_radius(run, cloud):
     ):
         assert run(f"alphashape cloud.csv --space {options} -q -o page.html").err == ""
         page = (cloud / "page.html").read_text()
-        assert f'const data = {{"r":{r!r},"unit":"{unit}",' in page
+        assert f'"r":{r!r},"unit":"{unit}",' in page
         assert page.count("</script>") == 1
 
 

@@ -12,7 +12,7 @@ def test_a_row_a_feature(run, tmp_path):
     rows = run("skeleton-exact a.json --what discs --verify").rows
     found = [[row[name] for name in ("id", "x", "y", "r", "feet")] for row in rows]
     assert found == [["pool", "5", "1", "1", "2"], ["pond", "2", "7", "2", "4"]]
-    assert (rows[0]["x_1"], rows[0]["y_2"], rows[0]["x_3"]) == ("5", "0", "")
+    assert (rows[0]["x_1"], {rows[0]["y_1"], rows[0]["y_2"]}, rows[0]["x_3"]) == ("5", {"0", "2"}, "")
 
 
 def test_masks_in_units(run, tmp_path):
