@@ -12,11 +12,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.extras import needed
+from vorotool.engines.label_images.names_and_colors import object_colors
 from vorotool.errors import UsageError
+from vorotool.formats.images.png_writer import write_png
 from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.curves.inverse_functions import PI, cosine_and_sine
 from vorotool.products.registry import is_of
-from vorotool.render.canvas.layers import Arcs, CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.canvas.layers import (
+    Arcs,
+    CurvedPolygons,
+    Curves,
+    Layer,
+    Lines,
+    Page,
+    Points,
+    Polygons,
+    Texts,
+    bounds_of,
+)
+from vorotool.render.canvas.styles import PictureStyle, picture_palette
 from vorotool.render.drawing import Drawing, Wanted, drawing_of, drawn_part
 from vorotool.render.label_images.picture import LabelPicture
 from vorotool.types.fields import is_up
@@ -26,8 +40,6 @@ from vorotool.types.table import Table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from vorotool.render.canvas.layers import Layer
 
 MOST_ELEMENTS = 5_000
 """Lines, corners, discs and texts of a picture that notebooks show as SVG; of more they show pixels."""
@@ -45,8 +57,6 @@ ROWS = 10
 # ---- drawings ------------------------------------------------------------------------------------
 def _drawn(value: Any, what: str | None, layers: Sequence[str] | None, width: int) -> Drawing:
     """The picture of a value, also of what is only drawn along with others."""
-    from vorotool.render.canvas.layers import Lines, Page, Points, bounds_of
-
     made: list[Layer]
     value = value.mesh if is_of(value, "AlphaComplex") else value
     if is_of(value, "PlanarGraph"):
@@ -107,9 +117,6 @@ def _step(shape: tuple[int, int]) -> int:
 
 
 def _labels_png(image: LabelImage) -> bytes:
-    from vorotool.engines.label_images.names_and_colors import object_colors
-    from vorotool.render.canvas.styles import PictureStyle
-
     step = _step(image.shape)
     small = LabelImage(np.ascontiguousarray(image.labels[::step, ::step]))
     colors = object_colors(small)
@@ -118,8 +125,6 @@ def _labels_png(image: LabelImage) -> bytes:
 
 
 def _raster_png(raster: Raster) -> bytes:
-    from vorotool.formats.images.png_writer import write_png
-
     step = _step(raster.shape)
     seen = _visible(raster.values[::step, ::step])
     rows = np.repeat(seen[..., None], 3, axis=2) if seen.ndim == 2 else seen
@@ -184,9 +189,6 @@ def _show_image(ax: Axes, image: LabelImage | Raster, style: dict[str, Any]) -> 
 
 def _colored(image: LabelImage) -> NDArray[np.uint8]:
     """(H, W, 3) colors of the pixels, as pictures of label images have them."""
-    from vorotool.engines.label_images.names_and_colors import object_colors
-    from vorotool.render.canvas.styles import picture_palette
-
     labels, classes = object_colors(image)
     palette = picture_palette(int(classes.max(initial=0))).colors
     known, number = np.append(0, labels), np.append(0, classes)

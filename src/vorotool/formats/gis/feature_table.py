@@ -8,6 +8,7 @@ from dataclasses import field
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from vorotool.convert.sites import Sites
@@ -53,8 +54,6 @@ class Features:
     @property
     def holds_shapes(self) -> bool:
         """Whether the first geometry that is not empty is a polygon or a line, or a collection that begins with one."""
-        import shapely
-
         parts = self.geometry[~shapely.is_missing(self.geometry) & ~shapely.is_empty(self.geometry)][:1]
         while len(parts) and shapely.get_type_id(parts[0]) == _COLLECTION:
             parts = shapely.get_parts(parts)
@@ -98,8 +97,6 @@ def read_sites(source: Source, options: ReadOptions) -> Sites:
 
 def _shapes_of(features: Features, kept: NDArray[np.int64], options: ReadOptions) -> PolygonSet:
     """Polygons, lines and points of some of the features."""
-    import shapely
-
     geometry = features.geometry[kept]
     options.note_curves(features.name, features.curves)
     if shapely.has_z(geometry).any():
@@ -125,8 +122,6 @@ def _shapes_of(features: Features, kept: NDArray[np.int64], options: ReadOptions
 
 def _points(features: Features, options: ReadOptions) -> PointRows:
     """Give the points of features, those of several in one as its parts; those without a geometry are left out."""
-    import shapely
-
     kept = _kept(features)
     options.note_left_out(features.name, len(features.geometry) - len(kept))
     geometry = features.geometry[kept]
@@ -167,8 +162,6 @@ def _taken(values: Sequence[Any], index: NDArray[np.integer]) -> list[Any]:
 
 def _kept(features: Features) -> NDArray[np.int64]:
     """Features that have a geometry, which is not empty."""
-    import shapely
-
     return np.flatnonzero(~shapely.is_missing(features.geometry) & ~shapely.is_empty(features.geometry))
 
 
@@ -180,8 +173,6 @@ def _check_kinds(
     advice: Callable[[str], str],
 ) -> None:
     """Refuse geometry of another kind; collections may hold what is expected, at any depth."""
-    import shapely
-
     parts, owners = features.geometry[kept], kept
     if features.texts is not None:  # which names a kind for empty geometry, too
         parts, owners = features.geometry, np.arange(len(features.geometry))
@@ -197,8 +188,6 @@ def _check_kinds(
 
 
 def _check_finite(features: Features, geometry: NDArray[np.object_], kept: NDArray[np.int64]) -> None:
-    import shapely
-
     xy, owners = shapely.get_coordinates(geometry, return_index=True)
     bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
     if bad.size:
@@ -391,7 +380,5 @@ def features_of_binary(source: Source) -> Features:
 
 def crs_of_geometry(name: str, geometry: NDArray[Any], line_of: Callable[[int], int]) -> Any:
     """Give the ``crs`` member for the numbers (SRID) that geometry of extended well-known binary carries."""
-    import shapely
-
     numbers = [0 if each is None else int(shapely.get_srid(each)) for each in geometry]
     return crs_of_numbers(name, numbers, line_of)

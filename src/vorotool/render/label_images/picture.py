@@ -9,15 +9,21 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.label_images.names_and_colors import name_places, outermost_pixels, seed_objects
+from vorotool.engines.label_images.regions import voronoi_diagram
+from vorotool.formats.images.png_writer import write_png
 from vorotool.frozen import frozen
+from vorotool.render.canvas.insets import insets
+from vorotool.render.canvas.layers import Backdrop, ImagePage, Layer, Lines, Page, Points, Polygons, column_texts
+from vorotool.render.canvas.png import layer_bands
+from vorotool.render.canvas.styles import CELLS, EDGE, LINE, SEED, PictureStyle, picture_palette
+from vorotool.render.label_images.png import Names, around, over_image, picture_bands, widened
+from vorotool.render.label_images.svg import aspect_of, has_numbers, write_label_svg
 from vorotool.types.images import LabelImage
 
 if TYPE_CHECKING:
     from vorotool.products.registry import Product
-    from vorotool.render.canvas.layers import Backdrop, Layer, Page
-    from vorotool.render.canvas.styles import PictureStyle
     from vorotool.render.drawing import Wanted
-    from vorotool.render.label_images.png import Names
     from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.volumes.volume import VolumeSeeds
 
@@ -96,9 +102,6 @@ def label_picture(
     sites: SeedSet | VolumeSeeds | None = None,
 ) -> LabelPicture:
     """Prepare the picture of a label image, whose seeds are those of the sites: numbers in the pixels of small ones."""
-    from vorotool.render.canvas.layers import column_texts
-    from vorotool.render.label_images.svg import has_numbers
-
     left_out = {"labels": not has_numbers(image.shape), "seeds": image.seeds is None}
     usual = [layer for layer in product.usual_layers if not left_out.get(layer)]
     sites, column, texts = image.seeds if sites is None else sites, wanted.looks.label_by, None
@@ -113,9 +116,6 @@ def _names(picture: LabelPicture) -> Names | None:
     """Names of regions, deep inside their objects or themselves."""
     if "labels" not in picture.layers:
         return None
-    from vorotool.engines.label_images.names_and_colors import name_places
-    from vorotool.render.label_images.png import Names
-
     labels, places = name_places(picture.image, threads=picture.threads)
     if picture.texts is None:
         return Names([str(label) for label in labels.tolist()], places)
@@ -128,14 +128,10 @@ def _objects(picture: LabelPicture) -> LabelImage | None:
     """The objects that are the seeds, if they are drawn."""
     if not {"objects", "seeds"} & set(picture.layers):
         return None
-    from vorotool.engines.label_images.names_and_colors import seed_objects
-
     return seed_objects(picture.image)
 
 
 def _write_svg(out: BinaryIO, picture: LabelPicture) -> None:
-    from vorotool.render.label_images.svg import has_numbers, write_label_svg
-
     is_numbered = "labels" in picture.layers and has_numbers(picture.image.shape) and picture.texts is None
     objects = None if is_numbered else _objects(picture)
     insets = _insets(picture, _page(picture), has_outlines=objects is not None)
@@ -144,9 +140,6 @@ def _write_svg(out: BinaryIO, picture: LabelPicture) -> None:
 
 def _page(picture: LabelPicture) -> Page:
     """Where pixels are on an SVG."""
-    from vorotool.render.canvas.layers import ImagePage, Page
-    from vorotool.render.label_images.svg import aspect_of
-
     if picture.backdrop is not None:
         return ImagePage(picture.backdrop)
     rows, columns = picture.image.shape
@@ -156,10 +149,6 @@ def _page(picture: LabelPicture) -> Page:
 
 def _insets(picture: LabelPicture, page: Page, *, has_outlines: bool) -> list[Layer]:
     """The legend and the scale bar, if they are asked for."""
-    from vorotool.render.canvas.insets import insets
-    from vorotool.render.canvas.layers import Lines, Points, Polygons
-    from vorotool.render.canvas.styles import CELLS, EDGE, LINE, SEED
-
     page.style = picture.style
     nowhere, none = np.empty((0, 2)), np.empty((0, 2), np.int32)
     corners, rings = np.empty(0, np.int32), np.zeros(1, np.int64)
@@ -178,8 +167,6 @@ def _insets(picture: LabelPicture, page: Page, *, has_outlines: bool) -> list[La
 
 
 def _write_png(out: BinaryIO, picture: LabelPicture) -> None:
-    from vorotool.formats.images.png_writer import write_png
-
     threads, marks = picture.threads, _Marks(picture)
     if picture.backdrop is not None or picture.style.has_insets:
         pixels = _pixels(picture, marks)
@@ -194,8 +181,6 @@ def _write_png(out: BinaryIO, picture: LabelPicture) -> None:
 
 def _indexed(picture: LabelPicture, marks: _Marks) -> Iterator[NDArray[np.uint8]]:
     """Rows of palette indices, in bands from top to bottom."""
-    from vorotool.render.label_images.png import picture_bands
-
     image = picture.image
     number, color_of_number = _numbering(*picture.colors)
     starts = range(0, image.shape[0], BAND_ROWS)
@@ -216,10 +201,6 @@ def _indexed(picture: LabelPicture, marks: _Marks) -> Iterator[NDArray[np.uint8]
 
 def _pixels(picture: LabelPicture, marks: _Marks) -> NDArray[np.uint8]:
     """(H, W, 3) red, green and blue, with the image beneath, and a legend and a scale bar over them."""
-    from vorotool.render.canvas.layers import Backdrop, ImagePage
-    from vorotool.render.canvas.png import layer_bands
-    from vorotool.render.label_images.png import over_image
-
     bands, backdrop = _indexed(picture, marks), picture.backdrop
     if backdrop is None:
         pixels: NDArray[np.uint8] = marks.palette.colors[np.concatenate(list(bands))]
@@ -237,10 +218,6 @@ class _Marks:
     """What is drawn over the cells of a PNG, pixel by pixel, and in which colors."""
 
     def __init__(self, picture: LabelPicture) -> None:
-        from vorotool.engines.label_images.names_and_colors import outermost_pixels
-        from vorotool.render.canvas.styles import picture_palette
-        from vorotool.render.label_images.png import around, widened
-
         layers, style, over = picture.layers, picture.style, picture.backdrop is not None
         objects, self.names = _objects(picture), _names(picture)
         borders = _borders(picture)
@@ -275,9 +252,6 @@ def _borders(picture: LabelPicture) -> NDArray[np.bool_] | None:
 
 def _lines(picture: LabelPicture, width: float) -> NDArray[np.bool_]:
     """Draw the lines between cells."""
-    from vorotool.engines.label_images.regions import voronoi_diagram
-    from vorotool.render.label_images.png import widened
-
     return widened(voronoi_diagram(picture.image, threads=picture.threads).view(bool), width)
 
 
