@@ -9,6 +9,7 @@ from functools import cmp_to_key
 from typing import Any, NamedTuple
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
@@ -21,8 +22,6 @@ _MOST_PAIRS = 2**17
 
 def filled_polygons(rings: Sequence[Floats], rule: str) -> list[list[Floats]]:
     """Give shells, each with its holes, of what closed rings fill."""
-    import shapely
-
     flat = [ring for ring in rings if len(ring) > 2]
     if len(rings) == 1 and (rule == "evenodd" or not flat):
         return [[rings[0]]]
@@ -46,8 +45,6 @@ def filled_polygons(rings: Sequence[Floats], rule: str) -> list[list[Floats]]:
 
 def nested_polygons(rings: Sequence[Floats]) -> list[list[Floats]]:
     """Return shells, each with its holes, of rings of which none is filled by itself."""
-    import shapely
-
     flat = [ring for ring in rings if len(ring) > 2]
     shapes = np.array([shapely.Polygon(ring) for ring in flat], dtype=object)
     if len(rings) < 2 or _nesting(flat, shapes) is None:
@@ -57,8 +54,6 @@ def nested_polygons(rings: Sequence[Floats]) -> list[list[Floats]]:
 
 def _nesting(rings: Sequence[Floats], shapes: Any) -> Nesting | None:
     """How rings lie in one another; None if one is not simple, or two cross or are the same."""
-    import shapely
-
     if not shapely.is_valid(shapes).all():
         return None
     if _meet_often(shapes):
@@ -68,8 +63,6 @@ def _nesting(rings: Sequence[Floats], shapes: Any) -> Nesting | None:
 
 def _meet_often(shapes: Any) -> bool:
     """Whether more pairs of boxes meet than are looked at."""
-    import shapely
-
     count = len(shapes)
     if count * count <= _MOST_PAIRS:
         return False
@@ -84,8 +77,6 @@ def _meet_often(shapes: Any) -> bool:
 
 def _nesting_of_pairs(shapes: Any) -> Nesting | None:
     """Look at every ring that covers another, whose smallest is its parent; None where two cross or are the same."""
-    import shapely
-
     tree = shapely.STRtree(shapes)
     if tree.query(shapes, predicate="overlaps").size:
         return None
@@ -104,8 +95,6 @@ def _nesting_of_pairs(shapes: Any) -> Nesting | None:
 
 def _turns(shapes: Any) -> NDArray[np.int64]:
     """Give 1 for shapes that run counter-clockwise, else -1."""
-    import shapely
-
     return np.where(shapely.is_ccw(shapely.get_exterior_ring(shapes)), 1, -1)
 
 
@@ -131,8 +120,6 @@ def _nested(rings: Sequence[Floats], shapes: Any, nesting: Nesting, rule: str) -
 
 def _of_faces(rings: Sequence[Floats], rule: str) -> list[list[Floats]]:
     """Cut rings where they cross, and join the faces that are filled."""
-    import shapely
-
     lines = shapely.multilinestrings([shapely.LineString(np.concatenate([ring, ring[:1]])) for ring in rings])
     try:
         noded = shapely.node(lines)

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import InputError
 from vorotool.formats.drawing.curves import Arc, Bezier, Curve, Line, Piece, Point, extent_of
-from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.polygons.poly import chains_of
 from vorotool.numeric.length_units import ratio
@@ -110,11 +109,15 @@ class _Rings:
             self.options.check_vertices(self.name, self.vertices)
         self._begin()
         if shape.rule == NESTED:
+            from vorotool.formats.drawing.fill_rules import nested_polygons
+
             for polygon in nested_polygons([_open_end(ring) for ring in flat]):
                 self._polygon(index, polygon)
                 self._begin()
             return
         if shape.rule is not None:
+            from vorotool.formats.drawing.fill_rules import filled_polygons
+
             rings = [_open_end(ring) for ring in flat]
             areas = [ring for ring in rings if len(ring) > 2]
             filled = filled_polygons(areas, shape.rule) if areas else []

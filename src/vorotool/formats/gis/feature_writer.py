@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from vorotool.convert.extras import needed
@@ -93,8 +94,6 @@ class FeatureRows(JsonItems):
 
 
 def _geometries(lines: Sequence[bytes], members: Sequence[Any]) -> NDArray[np.object_]:
-    import shapely
-
     made = np.full(len(lines), None, dtype=object)
     there = [row for row, member in enumerate(members) if member is not None]
     if there:
@@ -159,8 +158,6 @@ class GdalFeatures(FeatureRows):
 
     def gdal_write(self, out: io.BytesIO | Path, columns: Mapping[str, TypedColumn], **options: Any) -> None:
         """Write a file of a driver of GDAL."""
-        import shapely
-
         geometry = self.geometry
         has_times = {name: np.full(len(each.values), _UTC, np.int32) for name, each in columns.items() if each.is_utc}
         with _settings(self._gdal), _explained(self._gdal, self.path):
