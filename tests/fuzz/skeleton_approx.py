@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from fuzz.runner import of_families
+from support.approximations import verify_approximate
 from support.families.skeleton_shapes import FAMILIES
 from vorotool import VorotoolError
 from vorotool.convert.polygons import as_polygons
@@ -14,7 +15,6 @@ from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, Wanted, approximate_skeleton, sampled_graph
 from vorotool.engines.sampled_skeleton.per_feature import skeleton_within
-from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.errors import LimitError
 
 MOST_SEEDS = 10**5

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, VerificationError
-from vorotool.numeric.arrays import Floats, norms
+from vorotool.numeric.arrays import Floats, Indices, following, norms
 from vorotool.numeric.checks import as_array
 
 
@@ -64,6 +64,13 @@ def off_segments(places: Floats, a: Floats, b: Floats) -> Floats:
     square = (way * way).sum(axis=1)
     share = np.divide(((places - a) * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
     return norms(places - a - np.clip(share, 0, 1)[:, None] * way)
+
+
+def twice_areas(xy: Floats, start: Indices) -> Floats:
+    """(r,) of rings, positive counter-clockwise."""
+    first = np.repeat(xy[start[:-1]], np.diff(start), axis=0)
+    (x, y), (u, v) = (xy - first).T, (xy[following(start)] - first).T
+    return np.add.reduceat(x * v - y * u, start[:-1]) if len(xy) else np.zeros(0)
 
 
 def fail(message: str) -> None:

@@ -7,13 +7,13 @@ import pytest
 
 import vorotool
 from fuzz.skeleton_bounds import TOLERANCES, Shape, check_steps, check_tolerances, random_shapes
+from support.approximations import verify_approximate
 from support.families.skeleton_shapes import regular
 from support.few import few
 from support.readers.written import assert_same
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.arrangement.repaired_polygons import placed_shapes
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
 from vorotool.errors import LimitError, UsageError
 

@@ -7,13 +7,13 @@ import pytest
 
 import vorotool
 from fuzz.features import FAMILIES, as_set, chosen, differing, inside_of
+from support.approximations import verify_approximate
 from support.few import few
 from vorotool import _core
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.features import batches as feature_sheets
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, Wanted
 from vorotool.engines.sampled_skeleton.per_feature import approximation_of_sides, feature_approximation
-from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.errors import LimitError
 
 ARRAYS = ("vertices", "radius", "arcs", "sites", "polygon", "side", "branch", "length", "error_bound")

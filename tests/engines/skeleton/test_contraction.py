@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.approximations import verify_approximate
 from support.families.skeleton_shapes import FAMILIES
 from support.few import few
 from vorotool import verify_skeleton
@@ -14,7 +15,6 @@ from vorotool.convert.polygons import as_polygons
 from vorotool.engines.sampled_skeleton import per_feature
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, Wanted
 from vorotool.engines.sampled_skeleton.per_feature import approximation
-from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.engines.skeleton.diagrams import all_edges, diagram_of_all
 from vorotool.engines.skeleton.parts import contraction
 from vorotool.engines.skeleton.verify_skeleton import check_branches

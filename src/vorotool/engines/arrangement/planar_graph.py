@@ -402,7 +402,7 @@ def _first_repair(polygons: PolygonSet, found: Found) -> str:
     names = [name for name in REPAIRS if found[name][0] and name != "moved_edges"]
     name = min(names, key=lambda each: (found[each][1], REPAIRS.index(each)))
     count, edge, other = found[name]
-    ends = " to ".join(_position(polygons, vertex) for vertex in (edge, _next_vertex(polygons, edge)))
+    ends = " to ".join(_position(polygons, vertex) for vertex in (edge, int(polygons.following[edge])))
     where = f"{_edge(polygons, edge)} from {ends}"
     what = {
         "repeated_vertices": f"{polygons.place(edge)} at {_position(polygons, edge)} is repeated by the next one",
@@ -421,8 +421,3 @@ def _edge(polygons: PolygonSet, edge: int) -> str:
 def _position(polygons: PolygonSet, vertex: int) -> str:
     x, y = polygons.xy[vertex].tolist()
     return f"({x!r}, {y!r})"
-
-
-def _next_vertex(polygons: PolygonSet, edge: int) -> int:
-    ring = int(np.searchsorted(polygons.ring_starts, edge, side="right")) - 1
-    return edge + 1 if edge + 1 < polygons.ring_starts[ring + 1] else int(polygons.ring_starts[ring])

@@ -9,7 +9,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common import nearest_on_segments
+from vorotool.engines.common import nearest_on_segments, twice_areas
 from vorotool.engines.from_skeleton.points_along import first_crossings, first_hits
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
@@ -308,7 +308,7 @@ def _outlines(skeleton: Skeleton, sites: Numbers, origin: Floats) -> _Outlines:
     polygons, table = skeleton.polygons, skeleton.site_table
     ring = table.rings(polygons, sites[:, 0])
     # what is inside is on the left of shells that go counterclockwise, and of holes that do not
-    is_forward = (_areas(skeleton)[ring] > 0) == (table.ring[sites[:, 0]] == 0)
+    is_forward = (twice_areas(polygons.xy, polygons.ring_starts)[ring] > 0) == (table.ring[sites[:, 0]] == 0)
     order = np.where(is_forward[:, None], [1, 0], [0, 1])
     rows = np.arange(len(sites))[:, None]
     (begin, end), touched = sites[rows, order].T, touched[rows, order]
@@ -322,16 +322,6 @@ def _outlines(skeleton: Skeleton, sites: Numbers, origin: Floats) -> _Outlines:
     is_vertex = np.ones(len(points), dtype=bool)
     is_vertex[start[:-1]] = is_vertex[start[1:] - 1] = False
     return _Outlines(start, points, vertex, is_vertex, is_forward)
-
-
-def _areas(skeleton: Skeleton) -> Floats:
-    """Twice the signed area of each ring."""
-    polygons = skeleton.polygons
-    start = polygons.ring_starts
-    xy = polygons.xy - np.repeat(polygons.xy[start[:-1]], np.diff(start), axis=0)
-    x, y = xy.T
-    behind = polygons.following
-    return np.add.reduceat(x * y[behind] - x[behind] * y, start[:-1])
 
 
 # ---- shoulders ------------------------------------------------------------------------------------

@@ -67,7 +67,11 @@ class InputOrder:
         """Find it."""
         source = stacked([shapes.batch.polygons[shapes.placed.source] for shapes in parts])
         order = np.argsort(source, kind="stable")
-        places = Places(_inverse(order)), Places.by(_point_keys(whole, parts)), Places.by(_segment_keys(parts))
+        places = (
+            Places(ranks_of(order, len(order))),
+            Places.by(_point_keys(whole, parts)),
+            Places.by(_segment_keys(parts)),
+        )
         counts = [(len(shapes.placed.polygons), len(shapes.graph.points), len(shapes.graph)) for shapes in parts]
         polygons, points, segments = (
             numbers_of_batches(place, [row[k] for row in counts]) for k, place in enumerate(places)
@@ -83,11 +87,6 @@ class InputOrder:
 def stacked(columns: Sequence[NDArray[Any]]) -> NDArray[Any]:
     """One after the other; there may be none."""
     return np.concatenate(columns) if columns else np.empty(0, dtype=np.int64)
-
-
-def _inverse(order: Indices) -> Indices:
-    place = ranks_of(order, len(order))
-    return place
 
 
 def numbers_of_batches(places: Places, counts: Sequence[int]) -> list[NDArray[np.int32]]:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, following, mask_of, owners, ranks_of
+from vorotool.numeric.arrays import Indices, following, mask_of, owners, ranks_of
 from vorotool.numeric.curves.inverse_functions import angle_of
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
@@ -214,8 +214,7 @@ def repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:
     known = np.flatnonzero(point >= 0)
     known = known[np.lexsort((point[known], contour[known]))]
     twice = (np.diff(point[known]) == 0) & (np.diff(contour[known]) == 0)
-    found = mask_of(contour[known[1:][twice]], len(start) - 1)
-    return found
+    return mask_of(contour[known[1:][twice]], len(start) - 1)
 
 
 def cut_at_repetitions(names: list[int]) -> list[list[int]]:
@@ -234,10 +233,3 @@ def cut_at_repetitions(names: list[int]) -> list[list[int]]:
             at[name] = len(path)
         path.append(index)
     return [*parts, path]
-
-
-def twice_areas(xy: Floats, start: Indices) -> Floats:
-    """(r,) of rings, positive counter-clockwise."""
-    first = np.repeat(xy[start[:-1]], np.diff(start), axis=0)
-    (x, y), (u, v) = (xy - first).T, (xy[following(start)] - first).T
-    return np.add.reduceat(x * v - y * u, start[:-1]) if len(xy) else np.zeros(0)

@@ -156,7 +156,7 @@ class _Space(Axis):
         """Give places where edges meet the border, and its corners."""
         corners = np.unique(self.region.xy, axis=0)
         corners = corners[~shapely.intersects_xy(self._shapes, *corners.T)]
-        tree = shapely.STRtree(_elements(self.sites.ends))
+        tree = shapely.STRtree(shapely.linestrings(self.sites.ends))
         radius = np.zeros(len(corners))
         if len(corners) and len(tree):
             _, radius = tree.query_nearest(shapely.points(corners), return_distance=True, all_matches=False)
@@ -188,15 +188,10 @@ class _Space(Axis):
         return Candidates(xy[kept], found.radius(u)[kept], np.zeros(len(kept), dtype=np.intp), arc[kept], node)
 
 
-def _elements(ends: Floats) -> Any:
-    """Sites as points and lines of shapely, all as lines, which may have no length."""
-    return shapely.linestrings(ends)
-
-
 def _with_feet(skeleton: Skeleton, found: Candidates, rank: Numbers, region: PolygonSet) -> Discs:
     """Discs with all elements that they touch: vertices, and edges that they touch between their ends."""
     axis = Axis(skeleton, np.full(len(skeleton), -1, dtype=np.intp), 1)
-    tree = shapely.STRtree(_elements(axis.sites.ends))
+    tree = shapely.STRtree(shapely.linestrings(axis.sites.ends))
     disc, site = tree.query(shapely.points(found.xy), predicate="dwithin", distance=found.radius + axis.rounding)
     order = np.lexsort((site, disc))
     disc, site = disc[order], site[order].astype(np.int32)

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.repaired_polygons import flat_holes
+from vorotool.engines.common import twice_areas
 from vorotool.engines.from_skeleton.contour_walk import (
     Contours,
     contours_of,
     cut_at_repetitions,
     repeats,
     site_points,
-    twice_areas,
 )
 from vorotool.errors import UsageError
 from vorotool.frozen import frozen

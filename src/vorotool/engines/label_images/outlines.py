@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.images import as_raster
+from vorotool.engines.common import twice_areas
 from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
 from vorotool.engines.tessellation.raster_objects import (
     Note,
@@ -436,6 +437,4 @@ def _turned_as(made: PolygonSet, given: PolygonSet) -> PolygonSet:
 
 
 def _area_signs(polygons: PolygonSet) -> NDArray[np.float64]:
-    start, after = polygons.ring_starts[:-1], polygons.following
-    own = polygons.xy - np.repeat(polygons.xy[start], np.diff(polygons.ring_starts), axis=0)
-    return np.sign(np.add.reduceat(own[:, 0] * own[after, 1] - own[:, 1] * own[after, 0], start))
+    return np.sign(twice_areas(polygons.xy, polygons.ring_starts))

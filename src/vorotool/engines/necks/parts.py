@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.common import twice_areas
 from vorotool.engines.from_skeleton.contour_walk import (
     contours_of,
     cut_at_repetitions,
     repeats,
     site_points,
-    twice_areas,
 )
 from vorotool.engines.necks.necks import Feet, FoundNecks, Ways, check_neck, found_necks, whole_skeleton
+from vorotool.engines.skeleton.parts import PER_ARC
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, following, owners, ranges, ranks_of
 from vorotool.numeric.parallel import Progress
@@ -227,13 +228,12 @@ def cut_axis(skeleton: Skeleton, ways: Ways, xy: Floats, width: Floats) -> CutAx
     halves[np.arange(len(inside)), 1 - far_end] = node[inside, 1]
     arcs[cut, ways.end[inside, 0]] = node[inside, 0]
     every = np.concatenate([np.arange(len(skeleton)), cut])
-    own = ("control", "sites", "polygon", "side", "branch", "length", "error_bound")
     made = replace(
         skeleton,
         vertices=np.concatenate([skeleton.vertices, np.repeat(xy, 2, axis=0)]),
         radius=np.concatenate([skeleton.radius, np.repeat(width / 2, 2)]),
         arcs=np.concatenate([arcs, halves]),
-        **{name: getattr(skeleton, name)[every] for name in own},
+        **{name: getattr(skeleton, name)[every] for name in PER_ARC if name != "arcs"},
     )
     return CutAxis(made, node, _parts(made))
 

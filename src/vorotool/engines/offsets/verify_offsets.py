@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.offsets.offsets import listed_distances
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, verify_segment_voronoi
-from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
+from vorotool.engines.skeleton.clearance import ULPS, clearances, largest_coordinate
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.arrays import Floats, following, norms, ranges, ranks_of, starts_of
 from vorotool.numeric.curves.flatten import middles_of
@@ -138,12 +137,7 @@ def _tolerance(offsets: Offsets) -> float:
 
 def _check_chains(offsets: Offsets) -> None:
     if (at := first_wrong((offsets.end != offsets.start[following(offsets.ring_starts)]).any(axis=1))) is not None:
-        fail(f"piece {at} ends at {_place(offsets.end[at])}, but the next one of its ring does not begin there")
-
-
-def _place(xy: Floats) -> tuple[float, float]:
-    x, y = xy.tolist()
-    return (x, y)
+        fail(f"piece {at} ends at {tuple(offsets.end[at].tolist())}, but the next one of its ring does not begin there")
 
 
 def _check_sites(offsets: Offsets, tolerance: float) -> None:
@@ -152,7 +146,7 @@ def _check_sites(offsets: Offsets, tolerance: float) -> None:
     if (at := first_wrong((offsets.site_table.kind[offsets.site] == EDGE) == offsets.is_arc)) is not None:
         fail(f"piece {at} is neither a line along an edge nor an arc about a vertex")
     if (at := first_wrong(offsets.is_arc & (offsets.center != ends[:, 0]).any(axis=1))) is not None:
-        fail(f"arc {at} is about {_place(offsets.center[at])}, which is not its vertex")
+        fail(f"arc {at} is about {tuple(offsets.center[at].tolist())}, which is not its vertex")
     distance = np.abs(offsets.piece_distance)
     for place in (offsets.start, offsets.end):
         apart = np.abs(off_segments(place, *ends.swapaxes(0, 1)) - distance)
@@ -182,7 +176,7 @@ def _check_nothing_nearer(offsets: Offsets, tolerance: float, graph: PlanarGraph
     nearest = _clearances(places, distance, graph, run)
     if (at := first_wrong(nearest < distance - tolerance)) is not None:
         piece = at % len(offsets.site)
-        fail(f"piece {piece} at distance {distance[at]}: a site is {nearest[at]} from {_place(places[at])}")
+        fail(f"piece {piece} at distance {distance[at]}: a site is {nearest[at]} from {tuple(places[at].tolist())}")
 
 
 def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, run: Run) -> Floats:
@@ -190,9 +184,7 @@ def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, run: Run) -> 
     if not len(graph):  # a lattice of single points may have no step
         apart = norms(places[:, None] - graph.coordinates()[None])
         return np.asarray(apart.min(axis=1, initial=np.inf))
-    lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
-    found = _core.spatial.clearances(graph.points, graph.segments, lattice, reach / graph.scale, **run)
-    return np.asarray(graph.scale * found)
+    return clearances(places, reach, graph, run)
 
 
 def _check_orientation(offsets: Offsets, tolerance: float) -> None:
@@ -228,7 +220,7 @@ def _check_regions(offsets: Offsets, distances: set[float], tolerance: float, gr
         held = _holding(shapes, points)
         if (at := first_wrong(clear & (held != wanted))) is not None:
             how = f"is in {held[at]} shapes, not in {'one' if wanted[at] else 'none'},"
-            fail(f"{_place(witnesses[at])}, {clearance[at]} from the polygons, {how} at distance {distance}")
+            fail(f"{tuple(witnesses[at].tolist())}, {clearance[at]} from the polygons, {how} at distance {distance}")
 
 
 def _holding(shapes: Any, points: Any) -> NDArray[np.int64]:

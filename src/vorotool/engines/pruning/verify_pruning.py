@@ -63,8 +63,7 @@ def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
 def are_parts(made: Skeleton, skeleton: Skeleton) -> NDArray[np.bool_]:
     """(a,) whether each arc of a skeleton is a part of an arc of another one, between the same sites."""
     own, other = _candidates(made, skeleton)
-    is_part = mask_of(own[_is_part(made, own, skeleton, other)], len(made))
-    return is_part
+    return mask_of(own[_is_part(made, own, skeleton, other)], len(made))
 
 
 def _candidates(pruned: Skeleton, skeleton: Skeleton) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -10,26 +10,17 @@ from numpy.typing import NDArray
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton, BoundarySamples
 from vorotool.engines.skeleton.verify_bounds import place_error
-from vorotool.engines.skeleton.verify_skeleton import check_arrays, verify_skeleton
+from vorotool.engines.skeleton.verify_skeleton import check_arrays
 from vorotool.numeric.arrays import Floats, norms, owners
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.lazy import shapely
-from vorotool.numeric.parallel import Progress
 
 SEED_ERROR = 2.0**-20
 """Of a lattice step: how far seeds may be from their edges, and gaps from what they should be."""
 
 
-def verify_approximate(
-    found: ApproximateSkeleton, *, step: float | None = None, threads: int = 0, progress: Progress = None
-) -> None:
-    """Check an approximate skeleton from its samples and arrays."""
-    verify_samples(found, step=step)
-    verify_skeleton(found.skeleton, threads=threads, progress=progress)
-
-
 def verify_samples(found: ApproximateSkeleton, *, step: float | None = None) -> None:
-    """Check the samples and the seeds beside arcs as `verify_approximate` does, but nothing that needs no seeds."""
+    """Check the samples and the seeds beside arcs of an approximate skeleton, but nothing that needs no seeds."""
     check_samples(found.shapes.samples, step)
     if len(found.skeleton):
         check_arrays(found.skeleton)

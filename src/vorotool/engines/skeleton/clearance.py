@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.numeric.arrays import Floats, norms
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.parallel import Progress
+from vorotool.numeric.parallel import Progress, Run
+from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.arc_measures import ClearanceCourse
 from vorotool.types.skeleton.segment_voronoi import LATTICE_LIMIT
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
@@ -54,6 +55,13 @@ class SitePlaces:
     def distances(self, site: NDArray[np.int32], place: Floats) -> Floats:
         """How far each place is from its closed site."""
         return norms(place - self.feet(site, place))
+
+
+def clearances(places: Floats, reach: Floats, graph: PlanarGraph, run: Run) -> Floats:
+    """(n,) distances of places from the nearest point or segment of a graph; infinite beyond a reach."""
+    lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
+    far = np.ascontiguousarray(reach / graph.scale)
+    return graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, far, **run)
 
 
 def clearance_course(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ClearanceCourse:

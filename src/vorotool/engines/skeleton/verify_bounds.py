@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.features.batches import BatchShapes, in_batches
+from vorotool.engines.skeleton.clearance import clearances
 from vorotool.engines.skeleton.diagrams import batch_diagram
 from vorotool.engines.skeleton.exact import diagram_of_graph, interior_skeleton, skeleton_of
 from vorotool.engines.skeleton.parts import outside_of, with_arcs, with_polygons
@@ -105,9 +105,7 @@ def _check_sides(skeleton: Skeleton) -> None:
 
 def _check_clearances(skeleton: Skeleton, graph: PlanarGraph, error: float, run: Run) -> None:
     """Raise unless the radius of each node is its distance from the shapes."""
-    lattice = np.ascontiguousarray((skeleton.vertices - graph.origin) / graph.scale)
-    reach = np.ascontiguousarray((skeleton.radius + 2 * error) / graph.scale)
-    least = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, **run)
+    least = clearances(skeleton.vertices, skeleton.radius + 2 * error, graph, run)
     if (at := first_wrong(~(np.abs(skeleton.radius - least) <= error))) is not None:
         place = tuple(skeleton.vertices[at].tolist())
         fail(f"node {at} at {place} is {least[at]} from the shapes, but its radius is {skeleton.radius[at]}")

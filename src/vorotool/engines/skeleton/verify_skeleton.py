@@ -7,11 +7,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.common import fail, first_wrong, nearest_on_segments
 from vorotool.engines.features.batches import BatchShapes, in_batches
-from vorotool.engines.skeleton.clearance import SitePlaces
+from vorotool.engines.skeleton.clearance import SitePlaces, clearances
 from vorotool.engines.skeleton.exact import ShapeDiagram, kept_edges
 from vorotool.engines.skeleton.parts import PER_ARC, outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.verify_bounds import check_approximation, places_on_arcs
@@ -181,9 +180,7 @@ def check_nothing_nearer(skeleton: Skeleton, sites: SitePlaces, graph: PlanarGra
     distance = np.concatenate(
         [skeleton.radius[nodes], *(sites.distances(skeleton.sites[:, 0], place) for place in inner)]
     )
-    lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
-    reach = np.ascontiguousarray(distance / graph.scale)
-    nearest = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, **run)
+    nearest = clearances(places, distance, graph, run)
     if (at := first_wrong(nearest < distance - sites.tolerance)) is not None:
         what = f"node {nodes[at]}" if at < len(nodes) else f"arc {(at - len(nodes)) % len(skeleton)}"
         fail(f"{what}: a site is {nearest[at]} from {tuple(places[at].tolist())}, nearer than {distance[at]}")
