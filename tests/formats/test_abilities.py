@@ -100,14 +100,8 @@ def vector_row(fmt, folder):
         system = "yes" if read.crs is not None and crs_name(read.crs) == "EPSG:2056" else "no"
         if fmt in GEOGRAPHIC:
             system = "degrees"
-        return [
-            "yes",
-            "yes" if is_written else "no",
-            system,
-            carried(read),
-            "–",
-            "yes" if whole and is_written else "–",
-        ]
+        returned = "yes" if whole and is_written else "–"
+        return ["yes", "yes" if is_written else "no", system, carried(read), "–", returned]
     return ["no", "yes" if is_written else "no", "–", "–", "–", "–"]
 
 
@@ -169,13 +163,8 @@ def held(name):
 def endings(name):
     """The extensions of files of a format."""
     read = [each for each in (INPUTS[name].names if name in INPUTS else ()) if each == name or each not in FORMATS]
-    found = dict.fromkeys(
-        [
-            *(f".{each}" for each in read),
-            *(f".{each}" for each in (FORMATS[name].extensions or (name,) if name in FORMATS else ())),
-        ]
-    )
-    return ", ".join(f"`{each}`" for each in found).replace(".csv-wkt", ".csv")
+    written = (FORMATS[name].extensions or (name,)) if name in FORMATS else ()
+    return ", ".join(f"`.{each}`" for each in dict.fromkeys([*read, *written])).replace(".csv-wkt", ".csv")
 
 
 def test_the_documents_have_the_rows_that_were_found(tmp_path):

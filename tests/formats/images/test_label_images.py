@@ -11,10 +11,8 @@ from vorotool.formats.images.label_images import write_label_image, write_label_
 
 
 def written(values: np.ndarray, fmt: str, **options: object) -> bytes:
-    out = io.BytesIO()
     settings = {"shape": values.shape, "dtype": values.dtype, "largest_label": int(values.max()), **options}
-    write_label_image(out, [values], fmt=fmt, **settings)
-    return out.getvalue()
+    return bytes_of(write_label_image, [values], fmt=fmt, **settings)
 
 
 @pytest.mark.parametrize("dtype", ["u1", "u2", "u4", "i4", "?"])

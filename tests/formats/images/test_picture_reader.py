@@ -8,6 +8,7 @@ from PIL import Image, ImageOps, features
 
 from support.few import few
 from support.readers.sources import image_of, picture_of
+from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool import InputError, LimitError
 from vorotool.formats.io.sources import Source
@@ -22,10 +23,8 @@ ORIENTATION = 274
 
 
 def saved(image, kind, **options):
-    out = io.BytesIO()
     image = image if isinstance(image, Image.Image) else Image.fromarray(image)
-    image.save(out, kind.upper(), **options)
-    return out.getvalue()
+    return bytes_of(image.save, kind.upper(), **options)
 
 
 def source(data, name="a"):

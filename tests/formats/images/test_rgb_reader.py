@@ -8,6 +8,7 @@ import tifffile
 from PIL import Image
 
 from support.readers.sources import picture_of
+from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
@@ -18,9 +19,8 @@ GREY = RANDOM.integers(0, 256, (5, 7), dtype=np.uint8)
 
 
 def png(image, **options):
-    out = io.BytesIO()
-    (image if isinstance(image, Image.Image) else Image.fromarray(image)).save(out, "PNG", **options)
-    return Source("a.png", out.getvalue())
+    image = image if isinstance(image, Image.Image) else Image.fromarray(image)
+    return Source("a.png", bytes_of(image.save, "PNG", **options))
 
 
 def tiff(*pages):

@@ -1,6 +1,5 @@
 """What the tags of a TIFF say is checked before a pixel is decoded, whole or band by band."""
 
-import io
 import zlib
 
 import numpy as np
@@ -12,8 +11,10 @@ import vorotool
 from support.families.tiff_files import LONG, SHORT, grey, tiff_file
 from support.few import few
 from support.readers.sources import bands_of
+from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool.errors import InputError, LimitError
+from vorotool.formats.images.tiff_layout import decode_rows
 
 ROWS = bytes(range(60))  # 6 rows of 10 pixels
 
@@ -50,9 +51,8 @@ def test_strips_in_any_order(tmp_path):
 
 def test_an_endless_image_without_strips(tmp_path):
     check_refused(tmp_path, tiff_file(grey(32, 577_990_168), []), "needs 1 strip, but there are offsets of 0")
-    check_refused(
-        tmp_path, tiff_file(grey(32, 577_990_168, 16), [ROWS]), "needs 36124386 strips, but there are offsets of 1"
-    )
+    data = tiff_file(grey(32, 577_990_168, 16), [ROWS])
+    check_refused(tmp_path, data, "needs 36124386 strips, but there are offsets of 1")
 
 
 def test_what_is_left_out_is_background(tmp_path):
@@ -73,9 +73,8 @@ def test_strips_shorter_than_their_rows(tmp_path):
     data = tiff_file(grey(10, 6, 2), [ROWS[:20], ROWS[20:40], ROWS[40:]], counts=[20, 19, 20])
     check_refused(tmp_path, data, "strip 1 has 19 bytes, but its rows need more")
     packed = [zlib.compress(ROWS[:20]), zlib.compress(ROWS[20:39]), zlib.compress(ROWS[40:])]
-    check_refused(
-        tmp_path, tiff_file(grey(10, 6, 2, compression=8), packed), "strip 1 has 19 bytes, but its 2 rows need 20"
-    )
+    data = tiff_file(grey(10, 6, 2, compression=8), packed)
+    check_refused(tmp_path, data, "strip 1 has 19 bytes, but its 2 rows need 20")
     cut = [packed[0], zlib.compress(ROWS[20:40])[:-6], packed[2]]
     check_refused(tmp_path, tiff_file(grey(10, 6, 2, compression=8), cut), "compressed data end too early")
     few = grey(100_000, 20_000, compression=8)
@@ -134,7 +133,6 @@ def test_bits_in_reverse(tmp_path):
 @pytest.mark.parametrize("tile", [None, (16, 32)])
 def test_predictors(tmp_path, dtype, byteorder, tile):
     image = np.random.default_rng(4).integers(0, 100, (37, 41)).astype(dtype)
-    out = io.BytesIO()
     if dtype[0] == "f":
         image /= 3
         parts = np.ascontiguousarray(image.astype(">" + dtype)).view(np.uint8).reshape(37, 41, -1)
@@ -143,18 +141,16 @@ def test_predictors(tmp_path, dtype, byteorder, tile):
         tags = grey(41, 37, bits=8 * image.itemsize, compression=8) | {317: (SHORT, [3]), 339: (SHORT, [3])}
         accepted(tmp_path, tiff_file(tags, [stored]), image)
         return
-    tifffile.imwrite(out, image, byteorder=byteorder, compression="zlib", predictor=2, tile=tile)
-    accepted(tmp_path, out.getvalue(), image)
+    options = {"byteorder": byteorder, "compression": "zlib", "predictor": 2, "tile": tile}
+    accepted(tmp_path, bytes_of(tifffile.imwrite, image, **options), image)
 
 
 @pytest.mark.parametrize("side", [40, 3000])
 def test_a_jpeg_larger_than_its_strip(tmp_path, side):
-    out = io.BytesIO()
-    Image.fromarray(np.zeros((side, side), np.uint8)).save(out, "JPEG")
-    data = tiff_file(grey(8, 8, compression=7), [out.getvalue()])
-    (tmp_path / "a.tif").write_bytes(data)
+    packed = bytes_of(Image.fromarray(np.zeros((side, side), np.uint8)).save, "JPEG")
+    (tmp_path / "a.tif").write_bytes(tiff_file(grey(8, 8, compression=7), [packed]))
     refused(InputError, f"{side}", vorotool.read, tmp_path / "a.tif")
-    (tmp_path / "a.tif").write_bytes(tiff_file(grey(side, side, compression=7), [out.getvalue()]))
+    (tmp_path / "a.tif").write_bytes(tiff_file(grey(side, side, compression=7), [packed]))
     assert vorotool.read(tmp_path / "a.tif").values.shape == (side, side)
 
 
@@ -165,8 +161,6 @@ def test_rows_of_a_strip_are_read_alone(tmp_path):
     tifffile.imwrite(tmp_path / "a.tif", image)  # what is read now was not read before
     np.testing.assert_array_equal(rows.rows(500, 3), image[500:503])
     read = []
-    from vorotool.formats.images.tiff_layout import decode_rows
-
     layout = rows._layout
 
     def pieces(offset, size):

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import vorotool
 from support.families.tiff_files import grey, tiff_file
 from support.processes.peak_memory import memory_below
 from support.refusals import refused
@@ -120,8 +121,6 @@ def test_lzw_with_a_table_that_is_full(tmp_path):
     image = RANDOM.integers(0, 256, (300, 500), dtype=np.uint8)
     strip = by_pillow("tiff_lzw", image.tobytes())
     assert bytes(unpacking.unpack_lzw(strip, image.size)) == image.tobytes()
-    import vorotool
-
     (tmp_path / "a.tif").write_bytes(tiff_file(grey(500, 300, compression=5), [strip]))
     np.testing.assert_array_equal(vorotool.read(tmp_path / "a.tif").values, image)
 

@@ -1,11 +1,10 @@
 """Stores appear whole or not at all, and replace nothing but stores."""
 
 import signal
-import subprocess
-import sys
 
 import pytest
 
+from support.processes.ended import ended_python
 from support.refusals import refused
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.zarr.store import check_store, is_array, is_store, open_store
@@ -131,7 +130,7 @@ def test_the_older_store_comes_back_after_a_kill_between_the_moves(tmp_path):
         "temporaries.Temporary.move_to = lambda self, target: os.kill(os.getpid(), signal.SIGKILL)\n"
         "with stores.open_store('a.zarr') as folder:\n    (folder / 'zarr.json').write_text('{}')\n"
     )
-    assert subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=False).returncode == -signal.SIGKILL
+    assert ended_python("-c", script, cwd=tmp_path).returncode == -signal.SIGKILL
     assert not old.exists()
     write(tmp_path / "b.zarr", "other")
     assert "old" in text_of(old)

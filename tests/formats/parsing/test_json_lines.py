@@ -10,19 +10,14 @@ from support.few import few
 from support.refusals import refused
 from vorotool.errors import InputError, UsageError
 
-POINTS = [
-    {
-        "type": "Feature",
-        "id": k,
-        "properties": {"name": f"n{k}"},
-        "geometry": {"type": "Point", "coordinates": [k, 2.5]},
-    }
-    for k in range(4)
-]
-SHAPES = [
-    {"type": "Feature", "properties": {"k": 1}, "geometry": {"type": "Polygon", "coordinates": [RING]}}
-    for RING in ([[0, 0], [4, 0], [0, 3], [0, 0]], [[9, 9], [14, 9], [9, 13], [9, 9]])
-] + [{"type": "Feature", "properties": {"k": 2}, "geometry": {"type": "LineString", "coordinates": [[1, 1], [2, 5]]}}]
+
+def feature(kind, coordinates, **properties):
+    return {"type": "Feature", "properties": properties, "geometry": {"type": kind, "coordinates": coordinates}}
+
+
+POINTS = [{**feature("Point", [k, 2.5], name=f"n{k}"), "id": k} for k in range(4)]
+SHAPES = [feature("Polygon", [[[x, 9], [x + 4, 9], [x, 12], [x, 9]]], k=1) for x in (0, 9)]
+SHAPES += [feature("LineString", [[1, 1], [2, 5]], k=2)]
 ROWS = [{"label": 3, "x": 1, "y": 0.5, "note": "ä\u2028\x1e"}, {"label": 4, "x": -1e300, "y": 7, "note": None}]
 
 

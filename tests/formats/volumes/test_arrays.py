@@ -1,6 +1,5 @@
 """Volumes as NPY and Zarr arrays: read slice by slice as NumPy and the zarr package do, written so that they do."""
 
-import io
 import os
 import pickle
 import threading
@@ -12,6 +11,7 @@ import zarr
 
 import vorotool
 from support.few import few
+from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool.errors import InputError, OutputError, UsageError
 from vorotool.formats.volumes.opening import open_volume, read_volume
@@ -63,9 +63,8 @@ def test_npy_that_is_no_volume(tmp_path):
     refused(InputError, "holds complex128, not numbers", open_volume, path)
     np.save(path, np.zeros((3, 0, 2)))
     refused(InputError, "is 2 x 0 x 3 voxels: a volume needs at least 1 x 1 x 1", open_volume, path)
-    head = io.BytesIO()
-    np.lib.format.write_array_header_1_0(head, {"descr": "<u2", "fortran_order": False, "shape": (2**20,) * 3})
-    path.write_bytes(head.getvalue() + bytes(100))
+    about = {"descr": "<u2", "fortran_order": False, "shape": (2**20,) * 3}
+    path.write_bytes(bytes_of(np.lib.format.write_array_header_1_0, about) + bytes(100))
     refused(InputError, "is cut off", open_volume, path)
     with pytest.raises(InputError, match='is not a tiff file, it begins as npy: use input_format="npy"'):
         open_volume(path, input_format="tiff")
@@ -92,18 +91,15 @@ def test_a_pipe(tmp_path):
 def test_zarr(tmp_path, dtype, version, leading):
     values = VALUES > 100 if dtype is bool else VALUES.astype(dtype)
     chunks = (*leading, 4, 16, 20)
-    array = zarr.create_array(
-        tmp_path / "a.zarr", shape=leading + VALUES.shape, dtype=dtype, chunks=chunks, zarr_format=version
-    )
-    array[...] = values.reshape(array.shape)
+    data = values.reshape(leading + VALUES.shape)
+    zarr.create_array(tmp_path / "a.zarr", data=data, chunks=chunks, zarr_format=version)
     source = check(tmp_path / "a.zarr", values.astype(np.uint8) if dtype is bool else values)
     assert (source.chunk_depth, source.grid) == (4, None)
 
 
 def pyramid(path, values, version="0.5", *, axes="tczyx", scale=(1, 1, 1.5, 0.25, 0.325), units=("micrometer",) * 3):
     group = zarr.open_group(path, mode="w", zarr_format=2 if version == "0.4" else 3)
-    array = group.create_array("0", shape=values.shape, dtype=values.dtype, chunks=(1,) * (values.ndim - 2) + (16, 16))
-    array[...] = values
+    group.create_array("0", data=values.copy(), chunks=(1,) * (values.ndim - 2) + (16, 16))
     told = [{"name": axis} | ({"unit": units["zyx".index(axis)]} if axis in "zyx" else {}) for axis in axes]
     changes = [{"type": "scale", "scale": scale[-len(axes) :]}]
     about = {"multiscales": [{"axes": told, "datasets": [{"path": "0", "coordinateTransformations": changes}]}]}

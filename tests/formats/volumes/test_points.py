@@ -7,6 +7,7 @@ import pytest
 import shapely
 
 import vorotool
+from support.families.geojson import collection
 from support.refusals import refused
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.volumes.opening import read_xyz
@@ -15,12 +16,10 @@ XYZ = [[1.5, 2, 3], [4, 5, 6.25], [0, 0, 9]]
 LABELS = [7, 9, 7]
 
 
-def collection(points):
-    features = [
-        {"type": "Feature", "properties": {"n": k}, "geometry": {"type": "Point", "coordinates": point}}
-        for k, point in enumerate(points)
-    ]
-    return json.dumps({"type": "FeatureCollection", "features": features})
+def points_of(places):
+    return collection(
+        [{"type": "Point", "coordinates": place} for place in places], [{"n": k} for k, _ in enumerate(places)]
+    )
 
 
 def rows(*names):
@@ -47,7 +46,7 @@ def text(*names, by=",", header=True):
         ("a.json", json.dumps(XYZ), None, False),
         ("a.json", json.dumps([dict(zip("xyz", row, strict=True)) for row in XYZ]), None, False),
         ("a.jsonl", "\n".join(json.dumps(dict(zip("xyz", row, strict=True))) for row in XYZ), "x,y,z=z", False),
-        ("a.geojson", collection(XYZ), None, False),
+        ("a.geojson", points_of(XYZ), None, False),
         ("a.wkt", "\n".join(f"POINT Z ({x} {y} {z})" for x, y, z in XYZ), None, False),
         ("a.csv", "wkt\n" + "\n".join(f'"POINT Z ({x} {y} {z})"' for x, y, z in XYZ), None, False),
         ("a.wkb", shapely.to_wkb(shapely.multipoints(shapely.points(XYZ))), None, False),
@@ -59,8 +58,7 @@ def test_formats(tmp_path, name, data, columns, has_labels):
     points = read_xyz(path, columns=columns)
     assert points.xyz.tolist() == XYZ
     assert (points.labels is not None) == has_labels
-    if has_labels:
-        assert points.labels.tolist() == LABELS
+    assert not has_labels or points.labels.tolist() == LABELS
     assert read_xyz(path, columns=columns, properties=False).properties == {}
     refused(LimitError, "3 points", read_xyz, path, columns=columns, max_sites=2)
 
@@ -122,7 +120,7 @@ def test_npz_and_npy(tmp_path):
         ("a.csv", "x,y,z\n1,2,\n", None, "is empty; fill in a number"),
         ("a.json", "[[1, 2]]", None, r"point 1: \[1"),
         ("a.json", "[[1, 2, 3, 4]]", None, r"has 4 numbers; write \[x, y, z\]"),
-        ("a.geojson", collection([[1, 2]]), None, "is not three finite numbers"),
+        ("a.geojson", points_of([[1, 2]]), None, "is not three finite numbers"),
         ("a.wkt", "POINT Z (1 2 3)\nPOINT (4 5)", None, r"a.wkt, line 2: 'POINT \(4 5\)' has no finite z"),
         ("a.wkb", shapely.to_wkb(shapely.Point(1, 2)), None, "feature 1"),
         ("a.node", "1 2 0 0\n1 5 6\n", None, "a.node, line 1"),
