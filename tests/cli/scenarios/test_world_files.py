@@ -37,18 +37,28 @@ def test_images_keep_their_places(run, tmp_path, geotiff, what):
         assert operator.eq(*([row["area"] for row in rows] for rows in tables))
 
 
+BOUNDS = [2600000, 2600400, 1200000, 1200900]
+
+
 @pytest.mark.parametrize(
-    "command", ["voronoi in.geojson --layers objects", "skeleton-exact in.geojson --layers polygons", "draw in.geojson"]
+    ("command", "bounds"),
+    [
+        ("voronoi in.geojson --layers objects", BOUNDS),
+        ("skeleton-exact in.geojson --layers polygons", BOUNDS),
+        ("draw in.geojson", BOUNDS),
+        ("skeleton-exact in.tif --layers polygons", [2600125, 2601375, 1199100, 1199875]),
+    ],
 )
-def test_pictures_of_vectors(run, tmp_path, command):
+@pytest.mark.usefixtures("geotiff")
+def test_pictures_of_vectors(run, tmp_path, command, bounds):
     """What is drawn lies in the bounds of the shapes, and reaches them."""
     write(tmp_path / "in.geojson", SHAPES)
-    run(f"{command} -o out.png -q --width 200")
+    run(f"{command} -o out.png -q --width 600")
     rows, columns = np.nonzero((pixels("out.png") < 255).any(axis=0))
     transform = about("out.png")[0]
     x, y = transform @ (columns + 0.5, rows + 0.5)
     pixel = 2 * abs(transform.a)
-    assert [x.min(), x.max(), y.min(), y.max()] == pytest.approx([2600000, 2600400, 1200000, 1200900], abs=pixel)
+    assert [x.min(), x.max(), y.min(), y.max()] == pytest.approx(bounds, abs=pixel)
 
 
 def test_what_is_on_no_map_has_none(run, tmp_path):
