@@ -6,19 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/cells_in_space/polyhedra.hpp"
 #include "core/numbers/rounded_quotient.hpp"
-#include "core/tetrahedra/point3.hpp"
 
 namespace vorotool::core::cells_in_space {
-
-using tetrahedra::Point3;
-
-// Less than high along each axis.
-struct Box3 {
-  Point3 low, high;
-};
-
-constexpr std::size_t box_sides = 6;  // low x, high x, low y, high y, low z, high z
 
 // A point where three planes meet, as homogeneous coordinates in floating point with the sums of the absolute terms of
 // each: what filters need. Relative to the site, at (x, y, z) / w.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/monitor.hpp"
-#include "core/cells_in_space/cell_planes.hpp"
+#include "core/cells_in_space/polyhedra.hpp"
 
 namespace vorotool::core::cells_in_space {
 
@@ -39,22 +39,5 @@ struct SpaceCells {
 // are. The triangulation must be one; throws std::invalid_argument where it is found not to be.
 SpaceCells space_cells(const SpaceMesh& mesh, const Box3& box, unsigned threads,
                        const base::Monitor& monitor);
-
-// What is computed of cells.
-struct CellFaces {
-  std::span<const Point3> vertices;
-  std::span<const std::int64_t> face_starts;
-  std::span<const std::int32_t> corners;
-  std::span<const std::array<std::int32_t, 2>> face_cells;
-  std::span<const std::int64_t> cell_starts;
-  std::span<const std::int32_t> cell_faces;
-};
-
-struct SpaceMeasures {
-  std::vector<double> face_areas, volumes, areas;
-};
-
-// Indices must be in range. The error of a volume is about 2^-49 times the cube of the diameter of the cell.
-SpaceMeasures measure_space_cells(const CellFaces& cells, unsigned threads, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::cells_in_space

@@ -14,3 +14,5 @@ def space_cells(points: numpy.typing.NDArray[numpy.float64], tetrahedra: numpy.t
 
 def measures(vertices: numpy.typing.NDArray[numpy.float64], face_starts: numpy.typing.NDArray[numpy.int64], corners: numpy.typing.NDArray[numpy.int32], face_cells: numpy.typing.NDArray[numpy.int32], cell_starts: numpy.typing.NDArray[numpy.int64], cell_faces: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]:
     """face_areas, and volumes and areas of cells."""
+
+def find_fault(sites: numpy.typing.NDArray[numpy.float64], vertices: numpy.typing.NDArray[numpy.float64], face_starts: numpy.typing.NDArray[numpy.int64], corners: numpy.typing.NDArray[numpy.int32], face_cells: numpy.typing.NDArray[numpy.int32], cell_starts: numpy.typing.NDArray[numpy.int64], cell_faces: numpy.typing.NDArray[numpy.int32], box: numpy.typing.NDArray[numpy.float64], threads: int, progress: Callable[[float], object] | None) -> str | None: ...

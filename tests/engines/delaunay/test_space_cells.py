@@ -105,8 +105,19 @@ FAULTS = {
     "outside the box": {"box": CELLS.box * 0.5},
     "not on its side": {"box": CELLS.box * 2},
     "is not closed|three faces": {"corners": changed(CELLS.corners, 0, CORNER + 1)},
-    "two faces lie between": {
+    "two faces lie between|not those that have them": {
         "face_cells": changed(CELLS.face_cells, INNER + 1, CELLS.face_cells[INNER]),
+    },
+    "by the cells across, then the sides": {
+        "cell_faces": changed(CELLS.cell_faces, [0, 1], CELLS.cell_faces[[1, 0]]),
+    },
+    "the surface is not closed": {
+        "corners": np.insert(CELLS.corners, 0, CORNER),
+        "face_starts": np.append(0, CELLS.face_starts[1:] + 1),
+    },
+    "is empty, but its site is the nearest": {
+        "sites": np.vstack([CELLS.sites, [[0.5, 0.5, 0.5]]]),
+        "cell_starts": np.append(CELLS.cell_starts, CELLS.cell_starts[-1]),
     },
 }
 
@@ -115,6 +126,61 @@ FAULTS = {
 def test_faults_are_found(fault):
     with pytest.raises(VerificationError, match=fault):
         verify_cells(replace(CELLS, **FAULTS[fault]))
+
+
+def test_a_face_that_is_divided_is_found():
+    divided = next(face for face in range(len(CELLS.face_cells)) if len(CELLS.face(face)) == 4)
+    at = int(CELLS.face_starts[divided])
+    halves = CELLS.face(divided)[[0, 1, 2, 0, 2, 3]]
+    rings = np.concatenate([CELLS.corners[:at], halves, CELLS.corners[at + 4 :]])
+    sizes = np.diff(CELLS.face_starts).tolist()
+    sizes[divided : divided + 1] = 3, 3
+    face_cells = np.insert(CELLS.face_cells, divided, CELLS.face_cells[divided], axis=0)
+    owners = sorted((cell, face) for face, cells in enumerate(face_cells.tolist()) for cell in cells if cell >= 0)
+    starts = np.searchsorted([cell for cell, _ in owners], range(len(CELLS) + 1))
+    changes = {"corners": rings, "face_starts": np.cumsum([0, *sizes]), "face_cells": face_cells}
+    with pytest.raises(VerificationError, match="two faces lie between the same cells"):
+        verify_cells(replace(CELLS, **changes, cell_faces=[face for _, face in owners], cell_starts=starts))
+
+
+def test_a_vertex_within_an_edge_is_found():
+    points = np.array([[x, y, z] for x in (1, 3, 5) for y in (1, 3, 5) for z in (1, 3, 5)])
+    cells = voronoi_cells(points, frame=(0, 0, 0, 6, 6, 6))
+    a, b = cells.face(0)[:2]
+    rings = [cells.face(face).tolist() for face in range(len(cells.face_cells))]
+    for ring in rings:
+        for i in range(len(ring)):
+            if {ring[i - 1], ring[i]} == {a, b}:
+                ring.insert(i, len(cells.vertices))
+                break
+    changes = {"corners": np.concatenate(rings), "face_starts": np.cumsum([0, *map(len, rings)])}
+    middle = (cells.vertices[a] + cells.vertices[b]) / 2
+    with pytest.raises(VerificationError, match="fewer than three faces"):
+        verify_cells(replace(cells, vertices=np.vstack([cells.vertices, middle]), **changes))
+
+
+@pytest.mark.filterwarnings("ignore:.*lie on an earlier point")
+def test_a_cell_of_a_point_on_an_earlier_one_is_found():
+    cells = voronoi_cells([[1, 1, 1], [1, 1, 1]], frame=(0, 0, 0, 2, 2, 2))
+    second = {"face_cells": np.c_[cells.face_cells[:, 0] + 1, cells.face_cells[:, 1]], "cell_starts": [0, 0, 6]}
+    with pytest.raises(VerificationError, match="point 1 lies on an earlier one, but has a cell"):
+        verify_cells(replace(cells, **second))
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_cells_of_a_triangulation_that_is_not_delaunay_are_found(seed):
+    """An inner point has moved since; not always so that it is in other tetrahedra now."""
+    rng = np.random.default_rng([7, seed])
+    points = rng.random((300, 3))
+    mesh = vorotool.delaunay(points)
+    points[np.argmin(np.abs(points - 0.5).max(axis=1))] += rng.normal(scale=0.01, size=3)
+    cells, right = (voronoi_cells(each, frame=UNIT) for each in (replace(mesh, points=points), points))
+    verify_cells(right)
+    if np.array_equal(cells.face_cells, right.face_cells):
+        verify_cells(cells)
+    else:
+        with pytest.raises(VerificationError, match=r"is not convex|goes round the wrong way"):
+            verify_cells(cells)
 
 
 def test_missing_cells_and_turned_faces_are_found():

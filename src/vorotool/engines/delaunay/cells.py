@@ -251,9 +251,10 @@ def verify_cells(cells: CellSet | SpaceCellSet, *, threads: int = 0, progress: P
     that of the frame; duplicates have no cell. Signs are taken exactly, and what must be allowed for is the rounding
     of vertices alone: each lies at most half a unit in the last place of each coordinate from its exact place.
 
-    Of cells in space every surface is closed, with V - E + F = 2, and in the box; every face lies between two cells,
-    half-way between their sites, or on the box; the volumes add up to that of the box. The bounds of what roundings
-    explain cover those of the vertices and of the check.
+    Of cells in space every surface is closed, with V - E + F = 2, and in the box; every face is convex, and lies
+    half-way between the sites of its two cells, or on the box; the volumes add up to that of the box; no vertex is
+    nearer to the site of an empty cell. The bounds of what roundings explain cover those of the vertices and of the
+    check.
 
     Parameters
     ----------
@@ -282,8 +283,8 @@ def verify_cells(cells: CellSet | SpaceCellSet, *, threads: int = 0, progress: P
     vorotool.errors.VerificationError: vertex (2, 2) of cell 1 is nearer to site 0 by more than rounding explains
     """
     check_value(cells, "cells", "CellSet", "SpaceCellSet")
-    in_space = is_of(cells, "SpaceCellSet")
-    fault = resolved(f"{_IN_SPACE}:fault")(cells) if in_space else _fault(cells, threads, progress)
+    find_fault = resolved(f"{_IN_SPACE}:fault") if is_of(cells, "SpaceCellSet") else _fault
+    fault = find_fault(cells, threads, progress)
     if fault is not None:
         raise VerificationError(fault)
 
