@@ -97,26 +97,34 @@ auto trace_rings(const Matrix<const double>& points, const Indices& a, const Ind
                          to_numpy(std::move(rings.region)), to_numpy(std::move(rings.is_hole)));
 }
 
-Columns alpha_curves(std::size_t spectrum, const Indices& triangle_rank, const Indices& min,
-                     const Indices& mid, const Indices& max, const IndexRows& sides, const Values& area,
-                     const Values& length, const Progress& progress) {
-  const core::alpha::CurveInput input{spectrum,          view(triangle_rank), ranks_of(min, mid, max),
-                                      rows_of(sides, 2), view(area),          view(length)};
-  if (area.size() != triangle_rank.size() || length.size() != min.size() || sides.shape(0) != min.size()) {
+Columns alpha_curves(std::size_t spectrum, const Indices& cell_rank, const IndexRows& sides,
+                     const Indices& wall_rank, const Values& cell_size, const Values& wall_size,
+                     const Progress& progress) {
+  const core::alpha::CurveInput input{spectrum,        view(cell_rank), rows<core::base::IndexPair>(sides),
+                                      view(wall_rank), view(cell_size), view(wall_size)};
+  if (cell_size.size() != cell_rank.size() || wall_size.size() != wall_rank.size() ||
+      input.sides.size() != wall_rank.size())
     throw std::invalid_argument("columns differ in length");
-  }
-  for (const auto ranks : {input.triangle_rank, input.edges.min, input.edges.mid, input.edges.max}) {
-    check_indices(ranks, 0, spectrum + 1);
-  }
-  check_indices(input.sides, -1, triangle_rank.size());
+  for (const auto ranks : {input.cell_rank, input.wall_rank}) check_indices(ranks, 0, spectrum + 1);
+  check_indices(view(sides), -1, cell_rank.size());
   core::alpha::Curves found = run_interruptible(progress, core::alpha::alpha_curves, input);
   Columns out;
-  out["area"] = to_numpy(std::move(found.area), {spectrum});
-  out["perimeter"] = to_numpy(std::move(found.perimeter), {spectrum});
+  out["content"] = to_numpy(std::move(found.content), {spectrum});
+  out["border"] = to_numpy(std::move(found.border), {spectrum});
   out["regions"] = to_numpy(std::move(found.regions), {spectrum});
   out["cavities"] = to_numpy(std::move(found.cavities), {spectrum});
-  out["edges"] = to_numpy(std::move(found.edges), {spectrum});
   return out;
+}
+
+auto part_counts(std::size_t spectrum, std::size_t points, const IndexRows& edges, const Indices& edge_rank,
+                 const Progress& progress) {
+  const auto ends = rows<core::base::IndexPair>(edges);
+  if (ends.size() != edge_rank.size()) throw std::invalid_argument("columns differ in length");
+  check_indices(view(edges), 0, std::size_t{1} << 31);
+  check_indices(view(edge_rank), 0, spectrum + 1);
+  return to_numpy(
+      run_interruptible(progress, core::alpha::part_counts, spectrum, points, ends, view(edge_rank)),
+      {spectrum});
 }
 
 Columns region_persistence(std::size_t spectrum, std::size_t points, const IndexRows& triangles,
@@ -163,8 +171,11 @@ void bind_alpha(nb::module_& room) {
   room.def("connected_triangles", &connected_triangles, "inside"_a, "sides"_a, "progress"_a.none());
   room.def("trace_rings", &trace_rings, "points"_a, "a"_a, "b"_a, "region"_a, "progress"_a.none(),
            "Vertices of all rings, where each begins, its region, and whether it is a hole.");
-  room.def("alpha_curves", &alpha_curves, "spectrum"_a, "triangle_rank"_a, "rank_min"_a, "rank_mid"_a,
-           "rank_max"_a, "sides"_a, "area"_a, "length"_a, "progress"_a.none());
+  room.def("alpha_curves", &alpha_curves, "spectrum"_a, "cell_rank"_a, "sides"_a, "wall_rank"_a,
+           "cell_size"_a, "wall_size"_a, "progress"_a.none(),
+           "Content, border, regions and cavities of the shape of each rank, in the plane or in space.");
+  room.def("part_counts", &part_counts, "spectrum"_a, "points"_a, "edges"_a, "edge_rank"_a,
+           "progress"_a.none());
   room.def("region_persistence", &region_persistence, "spectrum"_a, "points"_a, "triangles"_a,
            "triangle_rank"_a, "rank_max"_a, "sides"_a, "area"_a, "progress"_a.none(),
            "Ranks of birth and death of regions, what each becomes part of, and its sizes before that.");

@@ -8,12 +8,9 @@
 #include "bindings/support/monitor.hpp"
 #include "core/base/indices.hpp"
 #include "core/tetrahedral_alpha/space_complex.hpp"
-#include "core/tetrahedral_alpha/space_curves.hpp"
 
 namespace vorotool::bindings {
 namespace {
-
-using Values = Vector<const double>;
 
 Columns space_complex(const Places& points, const IndexRows& tetrahedra, const IndexRows& neighbors,
                       const IndexRows& triangles, const IndexRows& edges, unsigned threads,
@@ -48,45 +45,12 @@ Columns space_complex(const Places& points, const IndexRows& tetrahedra, const I
   return out;
 }
 
-Columns space_curves(std::size_t spectrum, std::size_t places, const Indices& tetrahedron_rank,
-                     const IndexRows& sides, const Indices& triangle_min, const IndexRows& edges,
-                     const Indices& edge_min, const Values& volume, const Values& area,
-                     const Progress& progress) {
-  using core::base::IndexPair;
-  const core::tetrahedral_alpha::SpaceCurveInput input{spectrum,
-                                                       places,
-                                                       view(tetrahedron_rank),
-                                                       rows<IndexPair>(sides),
-                                                       view(triangle_min),
-                                                       rows<IndexPair>(edges),
-                                                       view(edge_min),
-                                                       view(volume),
-                                                       view(area)};
-  if (tetrahedron_rank.size() != volume.size() || sides.shape(0) != triangle_min.size() ||
-      sides.shape(0) != area.size() || edges.shape(0) != edge_min.size())
-    throw std::invalid_argument("columns differ in length");
-  for (const Indices& ranks : {tetrahedron_rank, triangle_min, edge_min})
-    core::base::check_range(view(ranks), 0, spectrum + 1, "a rank is out of range");
-  core::base::check_range(view(sides), -1, tetrahedron_rank.size(), "an index is out of range");
-  core::base::check_range(view(edges), 0, std::size_t{1} << 31, "an index is out of range");
-  auto found = run_interruptible(progress, core::tetrahedral_alpha::space_curves, input);
-  Columns out;
-  out["volume"] = to_numpy(std::move(found.volume), {spectrum});
-  out["area"] = to_numpy(std::move(found.area), {spectrum});
-  out["regions"] = to_numpy(std::move(found.regions), {spectrum});
-  out["parts"] = to_numpy(std::move(found.parts), {spectrum});
-  out["cavities"] = to_numpy(std::move(found.cavities), {spectrum});
-  return out;
-}
-
 }  // namespace
 
 void bind_tetrahedral_alpha(nb::module_& room) {
   room.def("space_complex", &space_complex, "points"_a, "tetrahedra"_a, "neighbors"_a, "triangles"_a,
            "edges"_a, "threads"_a, "progress"_a.none(),
            "Ranks in the spectrum: of tetrahedra, triangles and edges; facet is 4 t + k of each triangle.");
-  room.def("space_curves", &space_curves, "spectrum"_a, "places"_a, "tetrahedron_rank"_a, "sides"_a,
-           "triangle_min"_a, "edges"_a, "edge_min"_a, "volume"_a, "area"_a, "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings

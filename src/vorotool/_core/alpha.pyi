@@ -30,7 +30,12 @@ def trace_rings(points: numpy.typing.NDArray[numpy.float64], a: numpy.typing.NDA
     Vertices of all rings, where each begins, its region, and whether it is a hole.
     """
 
-def alpha_curves(spectrum: int, triangle_rank: numpy.typing.NDArray[numpy.int32], rank_min: numpy.typing.NDArray[numpy.int32], rank_mid: numpy.typing.NDArray[numpy.int32], rank_max: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], area: numpy.typing.NDArray[numpy.float64], length: numpy.typing.NDArray[numpy.float64], progress: Callable[[float], object] | None) -> dict[str, Any]: ...
+def alpha_curves(spectrum: int, cell_rank: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], wall_rank: numpy.typing.NDArray[numpy.int32], cell_size: numpy.typing.NDArray[numpy.float64], wall_size: numpy.typing.NDArray[numpy.float64], progress: Callable[[float], object] | None) -> dict[str, Any]:
+    """
+    Content, border, regions and cavities of the shape of each rank, in the plane or in space.
+    """
+
+def part_counts(spectrum: int, points: int, edges: numpy.typing.NDArray[numpy.int32], edge_rank: numpy.typing.NDArray[numpy.int32], progress: Callable[[float], object] | None) -> numpy.typing.NDArray[numpy.int32]: ...
 
 def region_persistence(spectrum: int, points: int, triangles: numpy.typing.NDArray[numpy.int32], triangle_rank: numpy.typing.NDArray[numpy.int32], rank_max: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], area: numpy.typing.NDArray[numpy.float64], progress: Callable[[float], object] | None) -> dict[str, Any]:
     """

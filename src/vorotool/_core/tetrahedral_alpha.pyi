@@ -11,5 +11,3 @@ def space_complex(points: numpy.typing.NDArray[numpy.float64], tetrahedra: numpy
     """
     Ranks in the spectrum: of tetrahedra, triangles and edges; facet is 4 t + k of each triangle.
     """
-
-def space_curves(spectrum: int, places: int, tetrahedron_rank: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], triangle_min: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], edge_min: numpy.typing.NDArray[numpy.int32], volume: numpy.typing.NDArray[numpy.float64], area: numpy.typing.NDArray[numpy.float64], progress: Callable[[float], object] | None) -> dict[str, Any]: ...

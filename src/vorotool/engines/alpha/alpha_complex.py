@@ -262,18 +262,21 @@ def alpha_curves(family: AlphaComplex | SpaceAlphaComplex, *, progress: Progress
         return in_space
     if family.rule != "corrected":
         raise UsageError("curves and the automatic radius need the corrected rule: leave out rule=printed")
-    curves = _core.alpha.alpha_curves(
-        len(family.spectrum),
-        family.triangle_rank,
-        family.rank_min,
-        family.rank_mid,
-        family.rank_max,
-        family.sides,
-        family.mesh.areas,
-        family.lengths,
-        progress,
+    count = len(family.spectrum)
+    walls = family.sides, family.rank_mid
+    sizes = family.mesh.areas, family.lengths
+    found = _core.alpha.alpha_curves(count, family.triangle_rank, *walls, *sizes, progress)
+    changes = [np.bincount(ranks, minlength=count + 1)[:count] for ranks in (family.rank_min, family.rank_max)]
+    return Table(
+        {
+            "r": family.spectrum,
+            "area": found["content"],
+            "perimeter": found["border"],
+            "regions": found["regions"],
+            "cavities": found["cavities"],
+            "edges": np.cumsum(changes[0] - changes[1], dtype=np.int32),
+        }
     )
-    return Table({"r": family.spectrum, **curves})
 
 
 def linked_digital(found: DigitalTriangulation) -> tuple[Triangulation, NDArray[np.int32], NDArray[np.int32]]:

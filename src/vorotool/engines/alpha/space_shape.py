@@ -98,21 +98,21 @@ def space_curves(family: SpaceAlphaComplex, *, progress: Progress = None) -> Tab
     """Compute measures of the alpha shapes of all radii in one sweep, as `vorotool.alpha_curves` does."""
     mesh, count = family.mesh, len(family.spectrum)
     places = len(mesh.points) - mesh.duplicates
-    ranks = {"edges": family.edge_min, "triangles": family.triangle_min, "tetrahedra": family.tetrahedron_rank}
-    found = _core.tetrahedral_alpha.space_curves(
-        count,
-        places,
-        family.tetrahedron_rank,
-        np.ascontiguousarray(family.sides),
-        family.triangle_min,
-        family.edges,
-        family.edge_min,
-        mesh.volumes,
-        family.areas(family.triangles),
-        progress,
-    )
-    edges, triangles, tetrahedra = (np.cumsum(np.bincount(rank, minlength=count)[:count]) for rank in ranks.values())
+    ranks = family.edge_min, family.triangle_min, family.tetrahedron_rank
+    walls = np.ascontiguousarray(family.sides), family.triangle_min
+    sizes = mesh.volumes, family.areas(family.triangles)
+    found = _core.alpha.alpha_curves(count, family.tetrahedron_rank, *walls, *sizes, progress)
+    parts = _core.alpha.part_counts(count, places, family.edges, family.edge_min, None)
+    edges, triangles, tetrahedra = (np.cumsum(np.bincount(rank, minlength=count)[:count]) for rank in ranks)
     euler = places - edges + triangles - tetrahedra
-    tunnels = (found["parts"] + found["cavities"] - euler).astype(np.int32)
-    sizes = {name: found[name] for name in ("volume", "area", "regions", "parts", "cavities")}
-    return Table({"r": family.spectrum, **sizes, "tunnels": tunnels})
+    return Table(
+        {
+            "r": family.spectrum,
+            "volume": found["content"],
+            "area": found["border"],
+            "regions": found["regions"],
+            "parts": parts,
+            "cavities": found["cavities"],
+            "tunnels": (parts + found["cavities"] - euler).astype(np.int32),
+        }
+    )
