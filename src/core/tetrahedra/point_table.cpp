@@ -10,7 +10,6 @@
 #include "core/base/indices.hpp"
 #include "core/base/large_array.hpp"
 #include "core/base/parallel.hpp"
-#include "core/base/radix_sort.hpp"
 #include "core/numbers/sign.hpp"
 #include "core/tetrahedra/exact_measures.hpp"
 #include "core/tetrahedra/predicates.hpp"
@@ -80,52 +79,48 @@ class Nearest {
   std::vector<std::int32_t> close_;  // each once, and the nearest among them
 };
 
-// The corners of simplices at each point, numbered through all simplices of so many corners.
+// The corners of simplices at each point, numbered through all simplices of so many corners. Points come in the order in
+// which simplices first have them, so that those near each other come together.
 template <std::size_t corners>
 class Stars {
  public:
   using Simplex = std::array<std::int32_t, corners>;
 
-  Stars(std::span<const Point3> points, std::span<const Simplex> simplices,
-        std::span<const std::int64_t> labels)
-      : points_(points), simplices_(simplices), labels_(labels), stars_(group()) {}
+  Stars(std::span<const Point3> points, std::span<const Simplex> simplices)
+      : points_(points.size()), simplices_(simplices), stars_(group()) {}
 
-  // Calls body(point, its star, the nearest other point, -1 if the star is empty), neighbors soon after each other.
-  template <class Body>
-  void for_points(unsigned threads, const Monitor& monitor, const Body& body) const {
-    std::vector<base::Keyed> order(points_.size());
-    for (std::size_t v = 0; v < order.size(); ++v)
-      order[v] = {stars_[v].empty() ? 0 : stars_[v][0], static_cast<std::uint32_t>(v)};
-    base::radix_sort(order, 32, threads);
+  // Calls body(point, its star) for points that have one, from several threads; `make_body` makes one for each piece.
+  template <class MakeBody>
+  void for_points(unsigned threads, const Monitor& monitor, const MakeBody& make_body) const {
     const auto run = [&](std::size_t, std::size_t begin, std::size_t end) {
-      Nearest nearest(points_, labels_);
-      for (std::size_t i = begin; i < end; ++i) {
-        const std::size_t v = order[i].value;
-        nearest.begin(v);
-        for (const std::size_t corner : stars_[v]) {
-          for (const std::int32_t w : simplices_[corner / corners]) nearest.meet(w);
-        }
-        body(v, stars_[v], nearest.found());
-      }
+      auto body = make_body();
+      for (std::size_t i = begin; i < end; ++i) body(at(order_[i]), stars_[i]);
     };
-    base::for_pieces(order.size(), items_a_piece, threads, monitor, run);
+    base::for_pieces(order_.size(), items_a_piece, threads, monitor, run);
   }
 
  private:
-  base::Groups<std::uint32_t> group() const {
-    for (const Simplex& simplex : simplices_)
-      base::check_range(simplex, 0, points_.size(), "a simplex names a point that does not exist");
-    return {points_.size(), [this](const auto& add) {
+  base::Groups<std::uint32_t> group() {
+    std::vector<std::int32_t> place(points_, base::no_index);
+    for (const Simplex& simplex : simplices_) {
+      base::check_range(simplex, 0, points_, "a simplex names a point that does not exist");
+      for (const std::int32_t v : simplex) {
+        if (place[at(v)] != base::no_index) continue;
+        place[at(v)] = static_cast<std::int32_t>(order_.size());
+        order_.push_back(v);
+      }
+    }
+    return {order_.size(), [&](const auto& add) {
               std::uint32_t number = 0;
               for (const Simplex& simplex : simplices_) {
-                for (const std::int32_t v : simplex) add(v, number++);
+                for (const std::int32_t v : simplex) add(place[at(v)], number++);
               }
             }};
   }
 
-  std::span<const Point3> points_;
+  std::size_t points_;
   std::span<const Simplex> simplices_;
-  std::span<const std::int64_t> labels_;
+  std::vector<std::int32_t> order_;
   base::Groups<std::uint32_t> stars_;
 };
 
@@ -181,23 +176,31 @@ class Cells {
         std::span<const Corners> neighbors, const Centers& centers)
       : points_(points), tetrahedra_(tetrahedra), neighbors_(neighbors), centers_(centers) {}
 
-  // Sides of the hull at a point.
-  std::size_t hull_sides(std::span<const std::uint32_t> star) const {
-    std::size_t sides = 0;
-    for_faces(star, [&](std::size_t, std::int32_t other, std::int32_t, std::int32_t) { sides += other < 0; });
-    return sides;
-  }
+  struct Measure {
+    std::size_t hull_sides = 0;  // at the point
+    double volume = 0;           // infinite on the hull
+  };
 
-  double volume(std::size_t v, std::span<const std::uint32_t> star) const {
+  // Meets all corners of the star.
+  Measure measure(std::size_t v, std::span<const std::uint32_t> star, Nearest& nearest) const {
+    Measure result;
     Sum sum;
     const Point3& site = points_[v];
     for (const std::uint32_t& corner : star) {
       const auto center = centers_.from(site, corner / 4);
       for_faces({&corner, 1}, [&](std::size_t t, std::int32_t other, std::int32_t b, std::int32_t c) {
-        if (at(other) > t) sum.add(center, centers_.from(site, at(other)), points_[at(b)], points_[at(c)]);
+        nearest.meet(b);
+        if (other < 0) ++result.hull_sides;
+        if (other >= 0 && at(other) > t)
+          sum.add(center, centers_.from(site, at(other)), points_[at(b)], points_[at(c)]);
       });
     }
-    return sum.is_close() ? sum.twelve_volumes / 12 : careful_volume(v, star);
+    if (result.hull_sides > 0) {
+      result.volume = std::numeric_limits<double>::infinity();
+    } else {
+      result.volume = sum.is_close() ? sum.twelve_volumes / 12 : careful_volume(v, star);
+    }
+    return result;
   }
 
  private:
@@ -281,25 +284,27 @@ PointTable point_table(std::span<const Point3> points, std::span<const Corners> 
                        unsigned threads, const Monitor& monitor) {
   for (const Corners& row : neighbors)
     base::check_range(row, -1, tetrahedra.size(), "a neighbor is no tetrahedron");
-  const Stars<4> stars(points, tetrahedra, labels);
+  const Stars<4> stars(points, tetrahedra);
   const Monitor first = [&](double part) { return !monitor || monitor(0.2 + 0.3 * part); };
   const Monitor second = [&](double part) { return !monitor || monitor(0.5 + 0.5 * part); };
   const Centers centers(points, tetrahedra, threads, first);
   const Cells cells(points, tetrahedra, neighbors, centers);
   const std::size_t n = points.size();
-  PointTable result{std::vector<std::int32_t>(n), std::vector<double>(n), std::vector<std::int32_t>(n),
+  PointTable result{std::vector<std::int32_t>(n), std::vector<double>(n), std::vector<std::int32_t>(n, -1),
                     std::vector<std::uint8_t>(n)};
-  stars.for_points(
-      threads, second, [&](std::size_t v, std::span<const std::uint32_t> star, std::int32_t nearest) {
-        result.nearest[v] = nearest;
-        if (star.empty()) return;
-        const std::size_t sides = cells.hull_sides(star);
-        result.on_hull[v] = sides > 0;
-        // By Euler's relation: the triangles around a point are a sphere, or a disk with so many edges around it.
-        const std::size_t degree = sides > 0 ? 1 + (star.size() + sides) / 2 : 2 + star.size() / 2;
-        result.neighbors[v] = static_cast<std::int32_t>(degree);
-        result.cell_volume[v] = sides > 0 ? std::numeric_limits<double>::infinity() : cells.volume(v, star);
-      });
+  stars.for_points(threads, second, [&] {
+    return
+        [&, nearest = Nearest(points, labels)](std::size_t v, std::span<const std::uint32_t> star) mutable {
+          nearest.begin(v);
+          const auto [sides, volume] = cells.measure(v, star, nearest);
+          result.nearest[v] = nearest.found();
+          result.on_hull[v] = sides > 0;
+          // By Euler's relation: the triangles around a point are a sphere, or a disk with so many edges around it.
+          const std::size_t degree = sides > 0 ? 1 + (star.size() + sides) / 2 : 2 + star.size() / 2;
+          result.neighbors[v] = static_cast<std::int32_t>(degree);
+          result.cell_volume[v] = volume;
+        };
+  });
   return result;
 }
 
@@ -308,11 +313,17 @@ std::vector<std::int32_t> nearest_corners(std::span<const Point3> points,
                                           std::span<const std::array<std::int32_t, corners>> simplices,
                                           std::span<const std::int64_t> labels, unsigned threads,
                                           const Monitor& monitor) {
-  std::vector<std::int32_t> result(points.size());
-  Stars<corners>(points, simplices, labels)
-      .for_points(threads, monitor, [&](std::size_t v, std::span<const std::uint32_t>, std::int32_t nearest) {
-        result[v] = nearest;
-      });
+  std::vector<std::int32_t> result(points.size(), -1);
+  Stars<corners>(points, simplices).for_points(threads, monitor, [&] {
+    return
+        [&, nearest = Nearest(points, labels)](std::size_t v, std::span<const std::uint32_t> star) mutable {
+          nearest.begin(v);
+          for (const std::size_t corner : star) {
+            for (const std::int32_t w : simplices[corner / corners]) nearest.meet(w);
+          }
+          result[v] = nearest.found();
+        };
+  });
   return result;
 }
 
