@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <utility>
@@ -16,6 +17,7 @@ namespace vorotool::core::alpha {
 using base::LargeArray;
 using base::Monitor;
 using base::parallel_for;
+using numbers::DoubleDouble;
 
 namespace {
 
@@ -70,10 +72,11 @@ class Buckets {
 class Sorter {
  public:
   Sorter(std::span<const double> values, const CompareItems& compare, unsigned threads,
-         const Monitor& monitor, int open_bits)
+         const Monitor& monitor, int open_bits, const RefineItem& refine)
       : values_(values),
         open_bits_(open_bits),
         compare_(compare),
+        refine_(refine),
         threads_(threads),
         monitor_(monitor),
         buckets_(sample(), values.size()),
@@ -204,46 +207,96 @@ class Sorter {
   }
 
   void settle_equal(Words words) {
-    if (words.size() > long_run) {
+    if (words.size() == 1) {
+      words[0] |= starts;
+    } else if (words.size() <= long_run) {
+      settle_run(words, 1, {});
+    } else {
       const std::lock_guard lock(mutex_);
       long_runs_.push_back(words);
-      return;
-    }
-    std::vector<std::int8_t> signs;
-    while (!words.empty()) {
-      std::swap(words[0], words[words.size() / 2]);
-      signs.resize(words.size());
-      for (std::size_t i = 0; i < words.size(); ++i) signs[i] = compared(words, i);
-      const auto [before, after] = part(words, signs);
-      // The smaller part by recursion: its depth is logarithmic.
-      settle_equal(before.size() < after.size() ? before : after);
-      words = before.size() < after.size() ? after : before;
     }
   }
 
   // On all threads together, since there may be but one such run; and the monitor is served.
   void settle_long_runs() {
+    for (const Words words : long_runs_) settle_run(words, threads_, monitor_);
+  }
+
+  // Sorts a run by the exact values, by fine estimates first if there are some, and marks where values begin.
+  void settle_run(Words words, unsigned threads, const Monitor& monitor) {
+    const auto compare_exactly = [&](std::uint32_t i, std::uint32_t j) {
+      const auto item = [&](std::uint32_t k) { return static_cast<std::uint32_t>(item_[words[k]]); };
+      return compare_(item(i), item(j));
+    };
+    std::vector<std::uint32_t> order(words.size());
+    std::iota(order.begin(), order.end(), 0U);
+    if (!refine_ || words.size() < short_run) {
+      sort_exactly(order, compare_exactly, threads, monitor);
+    } else {
+      std::vector<std::uint32_t> sorted = order, place(words.size());
+      for (const auto& [begin, end] : sort_finely(words, sorted, threads, monitor))
+        sort_exactly(Words(sorted).subspan(begin, end - begin), compare_exactly, threads, monitor);
+      std::uint32_t last = 0;
+      for (const std::uint32_t i : sorted) place[i & ~starts] = last += (i & starts) != 0;
+      const auto compare_places = [&](std::uint32_t i, std::uint32_t j) {
+        return (place[i] > place[j]) - (place[i] < place[j]);
+      };
+      sort_exactly(order, compare_places, 1, {});
+    }
+    const std::vector<std::uint32_t> given(words.begin(), words.end());
+    for (std::size_t i = 0; i < words.size(); ++i) words[i] = given[order[i] & ~starts] | (order[i] & starts);
+  }
+
+  // Sorts numbers of words by fine estimates. Gives the parts of which no two words are in doubt.
+  std::vector<std::pair<std::size_t, std::size_t>> sort_finely(Words words, Words order, unsigned threads,
+                                                               const Monitor& monitor) const {
+    std::vector<FineRadius> fine(words.size());
+    base::for_items(words.size(), long_run, threads, monitor,
+                    [&](std::size_t i) { fine[i] = refine_(static_cast<std::uint32_t>(item_[words[i]])); });
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+      const auto &p = fine[i].square, &q = fine[j].square;
+      return p < q || (!(q < p) && i < j);
+    });
+    const auto bound = [&](std::size_t k, double side) {
+      const FineRadius& p = fine[order[k]];
+      const DoubleDouble error(side * p.error);
+      return p.error < std::numeric_limits<double>::infinity() ? p.square + error : error;
+    };
+    std::vector<DoubleDouble> least(order.size());  // of what comes there or later
+    for (std::size_t k = order.size(); k-- > 0;) {
+      least[k] = bound(k, -1);
+      if (k + 1 < order.size() && least[k + 1] < least[k]) least[k] = least[k + 1];
+    }
+    std::vector<std::pair<std::size_t, std::size_t>> parts;
+    DoubleDouble most;  // of what comes before
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      if (k == 0 || most < least[k]) parts.emplace_back(k, k);
+      parts.back().second = k + 1;
+      if (most < bound(k, 1)) most = bound(k, 1);
+    }
+    return parts;
+  }
+
+  // Sorts numbers of words by what compare(i, j) tells of them, and marks where others begin. Parts of them are sorted by
+  // their middle ones; the smaller part by recursion, so that its depth is logarithmic.
+  template <class Compare>
+  void sort_exactly(Words order, const Compare& compare, unsigned threads, const Monitor& monitor) const {
     std::vector<std::int8_t> signs;
-    while (!long_runs_.empty()) {
-      const Words words = long_runs_.back();
-      long_runs_.pop_back();
-      std::swap(words[0], words[words.size() / 2]);
-      signs.resize(words.size());
-      base::for_items(words.size(), long_run, threads_, monitor_,
-                      [&](std::size_t i) { signs[i] = compared(words, i); });
-      const auto [before, after] = part(words, signs);
-      settle_equal(before);
-      settle_equal(after);
+    while (!order.empty()) {
+      std::swap(order[0], order[order.size() / 2]);
+      signs.assign(order.size(), 0);
+      const auto find = [&](std::size_t i) {
+        if (i > 0) signs[i] = static_cast<std::int8_t>(compare(order[i], order[0]));
+      };
+      base::for_items(order.size(), long_run, threads, monitor, find);
+      const auto [before, after] = part(order, signs);
+      sort_exactly(before.size() < after.size() ? before : after, compare, threads, monitor);
+      order = before.size() < after.size() ? after : before;
     }
   }
 
-  std::int8_t compared(Words words, std::size_t i) const {
-    const auto item = [&](std::uint32_t word) { return static_cast<std::uint32_t>(item_[word]); };
-    return i == 0 ? std::int8_t{0} : static_cast<std::int8_t>(compare_(item(words[i]), item(words[0])));
-  }
-
   // Words whose values are less than, equal to and greater than that of the first one, by the signs; the
-  // first and the last part remain to be settled.
+  // first and the last part remain to be sorted.
   static std::pair<Words, Words> part(Words words, const std::vector<std::int8_t>& signs) {
     std::array<std::vector<std::uint32_t>, 3> parts;
     for (std::size_t i = 0; i < words.size(); ++i)
@@ -302,11 +355,13 @@ class Sorter {
   }
 
   static constexpr std::size_t long_run = std::size_t{1} << 12;  // some milliseconds of exact comparisons
+  static constexpr std::size_t short_run = 8;                    // which fine estimates would not make faster
   static constexpr std::uint32_t starts = std::uint32_t{1} << word_bits;
 
   std::span<const double> values_;
   int open_bits_;
   const CompareItems& compare_;
+  const RefineItem& refine_;
   unsigned threads_;
   const Monitor& monitor_;
   Buckets buckets_;
@@ -324,8 +379,8 @@ class Sorter {
 }  // namespace
 
 RadiusRanks rank_radii(std::span<const double> values, const CompareItems& compare, unsigned threads,
-                       const Monitor& monitor, int open_bits) {
-  return Sorter(values, compare, threads, monitor, open_bits).run();
+                       const Monitor& monitor, int open_bits, const RefineItem& refine) {
+  return Sorter(values, compare, threads, monitor, open_bits, refine).run();
 }
 
 }  // namespace vorotool::core::alpha

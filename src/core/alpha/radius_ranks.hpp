@@ -8,6 +8,7 @@
 
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
+#include "core/numbers/double_double.hpp"
 
 namespace vorotool::core::alpha {
 
@@ -20,6 +21,13 @@ struct RadiusRanks {
 // Sign of the difference of the exact values of two items whose doubles, as far as they count, are equal.
 using CompareItems = std::function<int(std::uint32_t, std::uint32_t)>;
 
+// The square of the exact value of an item, within an error that may be infinite.
+struct FineRadius {
+  numbers::DoubleDouble square;
+  double error = 0;
+};
+using RefineItem = std::function<FineRadius(std::uint32_t)>;
+
 // A positive double rounded so that its last bits are 0.
 inline double rounded_by(int bits, double value) {
   const std::uint64_t unit = std::uint64_t{1} << bits;
@@ -29,8 +37,8 @@ inline double rounded_by(int bits, double value) {
 // The items are 0 ... n - 1, n < 2^31, and values[i] is the double nearest to the exact value of item i, not
 // a NaN; items with negative values are left out. Time is linear for values spread like radii, n log n at
 // worst. Where `open_bits` is more than 0, a value need only be such that rounded by these it is what the exact one is,
-// and the values given back may not increase.
+// and the values given back may not increase. With `refine` fewer are compared exactly.
 RadiusRanks rank_radii(std::span<const double> values, const CompareItems& compare, unsigned threads,
-                       const base::Monitor& monitor, int open_bits = 0);
+                       const base::Monitor& monitor, int open_bits = 0, const RefineItem& refine = {});
 
 }  // namespace vorotool::core::alpha

@@ -11,6 +11,7 @@
 #include "core/alpha/radius_ranks.hpp"
 #include "core/base/indices.hpp"
 #include "core/numbers/big_integer.hpp"
+#include "core/numbers/double_double.hpp"
 #include "core/numbers/dyadic_grid.hpp"
 #include "core/numbers/fixed_integer.hpp"
 #include "core/numbers/int128.hpp"
@@ -21,6 +22,7 @@ namespace vorotool::core::tetrahedral_alpha {
 using alpha::rounded_by;
 using alpha::SquaredRadius;
 using numbers::BigInteger;
+using numbers::DoubleDouble;
 using numbers::DyadicGrid;
 using numbers::FixedInteger;
 using numbers::int128;
@@ -224,6 +226,12 @@ struct WideSquare {
   BigInteger numerator, denominator;
 
   static WideSquare of(const BigInteger& n, const BigInteger& d) { return {n, d}; }
+};
+
+struct FineSquare {
+  DoubleDouble numerator, denominator;
+
+  static FineSquare of(const DoubleDouble& n, const DoubleDouble& d) { return {n, d}; }
 };
 
 // The square of a radius, from the ways from the first corner to the others.
@@ -441,6 +449,23 @@ int compare_radii(const Simplex& p, const Simplex& q, bool are_integers) {
   return compare(wide_square(p), wide_square(q));
 }
 
+// The formulas are those of the estimates, with exact differences, and operations that err by 15 u^2 where those err by
+// u; and of squares errors are twice as large.
+alpha::FineRadius refine_radius(const Simplex& simplex) {
+  const Estimate found = estimate(simplex, false);
+  if (!(found.error < infinity)) return {found.radius, infinity};
+  std::array<Vector<DoubleDouble>, 3> ways{};
+  const Point3& a = *simplex.corner[0];
+  for (std::size_t k = 1; k < simplex.size; ++k) {
+    const Point3& p = *simplex.corner[k];
+    ways[k - 1] = {numbers::two_difference(p.x, a.x), numbers::two_difference(p.y, a.y),
+                   numbers::two_difference(p.z, a.z)};
+  }
+  const FineSquare square = square_of<FineSquare>(simplex.size, ways, DoubleDouble(1.0));
+  const DoubleDouble quotient = square.numerator / square.denominator;
+  return {quotient, 48 * u * found.error * quotient.head};
+}
+
 bool is_inside_diametral_sphere(const Point3& a, const Point3& b, const Point3& v, bool are_integers) {
   const Vector<double> p = from_to(v, a), q = from_to(v, b);
   const double value = dot(p, q), terms = dot(absolute(p), absolute(q));
@@ -448,6 +473,11 @@ bool is_inside_diametral_sphere(const Point3& a, const Point3& b, const Point3& 
   if (std::abs(value) > 8 * u * terms + 0x1p-1000 && terms < infinity) return value < 0;
   const Simplex corners{{&v, &a, &b, nullptr}, 3};
   const DyadicGrid grid = grid_of(corners, corners);
+  if (grid.bits <= word_bits) {  // differences are below 2^62, and sums of three products below 2^126
+    const auto [s, t, none] =
+        integer_ways<int128>(corners, [&](double x) { return int128{grid.integer(x)}; });
+    return dot(s, t) < 0;
+  }
   const auto [s, t, none] = integer_ways<BigInteger>(corners, [&](double x) { return integer_of(grid, x); });
   return dot(s, t).sign() < 0;
 }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/alpha/radius_ranks.hpp"
 #include "core/tetrahedra/point3.hpp"
 
 namespace vorotool::core::tetrahedral_alpha {
@@ -41,6 +42,9 @@ double ranked_radius(const Simplex& simplex, bool are_integers);
 
 // Sign of the difference of the exact radii.
 int compare_radii(const Simplex& p, const Simplex& q, bool are_integers);
+
+// The square of a radius of points that are not integers, in twice as many digits.
+alpha::FineRadius refine_radius(const Simplex& simplex);
 
 // The radius of a tetrahedron, the facets whose smallest spheres hold the opposite corner inside: those that divide it
 // from the center of its sphere, and the corners at which facets are obtuse. Bit k is the facet opposite to corner k, and

@@ -61,8 +61,10 @@ class Builder {
     const auto compare = [&](std::uint32_t p, std::uint32_t q) {
       return compare_radii(simplex_of(p), simplex_of(q), scaled_.are_integers);
     };
+    alpha::RefineItem refine;  // integers, where ties are many, are compared as quickly
+    if (!scaled_.are_integers) refine = [&](std::uint32_t item) { return refine_radius(simplex_of(item)); };
     const std::span<const double> values(value_.data(), value_.size());
-    return write(alpha::rank_radii(values, compare, threads_, monitor_, open_bits));
+    return write(alpha::rank_radii(values, compare, threads_, monitor_, open_bits, refine));
   }
 
  private:
