@@ -35,8 +35,14 @@ class TetrahedronStars {
   using Row = std::array<std::int32_t, 4>;
 
   // With the neighbors opposite to the corners, -1 outside.
-  TetrahedronStars(std::span<const Row> tetrahedra, std::span<const Row> neighbors)
-      : tetrahedra_(tetrahedra), neighbors_(neighbors) {}
+  TetrahedronStars(std::span<const Row> tetrahedra, std::span<const Row> neighbors, unsigned threads,
+                   const base::Monitor& monitor);
+
+  // The same facet of the tetrahedron across facet 4 t + k: 4 u + l, or -1.
+  std::int32_t across(std::size_t facet) const {
+    const std::int32_t u = neighbors_[facet / 4][facet % 4];
+    return u < 0 ? -1 : 4 * u + static_cast<std::int32_t>(place_across(facet, facet % 4));
+  }
 
   // Calls visit(t, out, apex) for all facets at an edge, each once: that opposite to corner `out` of a tetrahedron t
   // around it, whose corner off the edge is `apex`. So it is called for all tetrahedra around it. Gives false as soon as
@@ -57,6 +63,7 @@ class TetrahedronStars {
     base::for_pieces(tetrahedra_.size(), tetrahedra_a_piece, threads, monitor,
                      [&](std::size_t piece, std::size_t begin, std::size_t end) {
                        std::vector<std::uint8_t> seen(end - begin);  // sides of each tetrahedron
+                       found[piece].reserve(end - begin + (end - begin) / 4);
                        for (std::size_t t = begin; t < end; ++t) {
                          for (unsigned left = ~unsigned{seen[t - begin]} & 63; left != 0; left &= left - 1) {
                            Edge edge = edge_of(t, static_cast<std::size_t>(std::countr_zero(left)));
@@ -95,8 +102,9 @@ class TetrahedronStars {
     });
   }
 
-  static std::size_t position(const Row& row, std::int32_t value) {
-    return static_cast<std::size_t>((row[1] == value) + 2 * (row[2] == value) + 3 * (row[3] == value)) & 3;
+  // Where the neighbor across a facet has a corner of it, and for the opposite corner its own.
+  std::size_t place_across(std::size_t facet, std::size_t corner) const {
+    return places_[facet] >> 2 * corner & 3U;
   }
 
   template <class Visit>
@@ -107,17 +115,19 @@ class TetrahedronStars {
       const std::int32_t next = neighbors_[t][out];
       if (next < 0) return End::outside;
       if (at(next) == first) return End::closed;
-      const std::int32_t shared = tetrahedra_[t][apex];
-      apex = position(neighbors_[at(next)], static_cast<std::int32_t>(t));
+      const std::size_t facet = 4 * t + out, from = place_across(facet, out);
       t = at(next);
-      out = position(tetrahedra_[t], shared);
-      if (tetrahedra_[t][out] != shared || out == apex || steps > tetrahedra_.size()) refuse();
+      out = place_across(facet, apex);
+      apex = from;
+      if (out == apex || steps > tetrahedra_.size()) refuse();
     }
   }
 
+  void match_facets(std::size_t t);
   [[noreturn]] static void refuse();
 
   std::span<const Row> tetrahedra_, neighbors_;
+  LargeArray<std::uint8_t> places_;  // [4 t + k] two bits for each corner
 };
 
 // Of triangles (width 3), or edges that are the cells themselves (2).

@@ -42,8 +42,8 @@ class Builder {
         threads_(threads),
         monitor_(monitor),
         cells_(cells.size()),
-        stars_(stars_of(cells_, neighbors)),
         order_(number_vertices(cells, points.size())),
+        stars_(stars_of_cells()),
         scaled_(points, order_),
         cut_(width == 4 ? count_ : 0),
         obtuse_(cut_.size()) {}
@@ -70,10 +70,10 @@ class Builder {
  private:
   using Stars = std::conditional_t<width == 4, TetrahedronStars, PlanarStars<width>>;
 
-  static Stars stars_of(const LargeArray<Cell>& cells, std::span<const Row> neighbors) {
-    const std::span<const Cell> all(cells.data(), cells.size());
+  Stars stars_of_cells() const {
+    const std::span<const Cell> all(cells_.data(), cells_.size());
     if constexpr (width == 4) {
-      return {all, neighbors};
+      return {all, neighbors_, threads_, monitor_};
     } else {
       return Stars(all);
     }
@@ -140,13 +140,9 @@ class Builder {
                });
   }
 
-  // The same facet of the tetrahedron across, or -1.
   std::int32_t across(std::size_t facet) const {
-    const std::int32_t u = neighbors_[facet / 4][facet % 4];
-    if (u < 0) return -1;
-    const Row& back = neighbors_[at(u)];
-    const auto k = std::find(back.begin(), back.end(), static_cast<std::int32_t>(facet / 4)) - back.begin();
-    return 4 * u + static_cast<std::int32_t>(k & 3);
+    if constexpr (width == 4) return stars_.across(facet);
+    return -1;
   }
 
   LargeArray<double> measure_cells() {
@@ -251,9 +247,9 @@ class Builder {
   std::span<const Row> neighbors_;
   unsigned threads_;
   const Monitor& monitor_;
-  LargeArray<Cell> cells_;  // by the new numbers
-  Stars stars_;
+  LargeArray<Cell> cells_;           // by the new numbers
   std::vector<std::int32_t> order_;  // the old numbers
+  Stars stars_;
   ScaledPoints scaled_;
   LargeArray<std::uint8_t> cut_, obtuse_;  // [tetrahedra] TetrahedronMeasure
   LargeArray<std::int32_t> facet_;
