@@ -85,9 +85,10 @@ class Sorter {
         distinct_(buckets_.size()),
         bucket_(values.size()) {}
 
-  RadiusRanks run() {
+  RadiusRanks run(LargeArray<double>&& values) {
     count();
     fill();
+    values = {};
     words_ = LargeArray<std::uint32_t>(start_.back());
     for_buckets([&](std::size_t b) { sort_bucket(b); });
     settle_long_runs();
@@ -380,7 +381,13 @@ class Sorter {
 
 RadiusRanks rank_radii(std::span<const double> values, const CompareItems& compare, unsigned threads,
                        const Monitor& monitor, int open_bits, const RefineItem& refine) {
-  return Sorter(values, compare, threads, monitor, open_bits, refine).run();
+  return Sorter(values, compare, threads, monitor, open_bits, refine).run({});
+}
+
+RadiusRanks rank_radii(LargeArray<double>&& values, const CompareItems& compare, unsigned threads,
+                       const Monitor& monitor, int open_bits, const RefineItem& refine) {
+  const std::span<const double> all(values.data(), values.size());
+  return Sorter(all, compare, threads, monitor, open_bits, refine).run(std::move(values));
 }
 
 }  // namespace vorotool::core::alpha

@@ -41,4 +41,8 @@ inline double rounded_by(int bits, double value) {
 RadiusRanks rank_radii(std::span<const double> values, const CompareItems& compare, unsigned threads,
                        const base::Monitor& monitor, int open_bits = 0, const RefineItem& refine = {});
 
+// The same, and the values are gone as soon as they are no longer needed.
+RadiusRanks rank_radii(base::LargeArray<double>&& values, const CompareItems& compare, unsigned threads,
+                       const base::Monitor& monitor, int open_bits, const RefineItem& refine);
+
 }  // namespace vorotool::core::alpha

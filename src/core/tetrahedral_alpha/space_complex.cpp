@@ -63,8 +63,10 @@ class Builder {
     };
     alpha::RefineItem refine;  // integers, where ties are many, are compared as quickly
     if (!scaled_.are_integers) refine = [&](std::uint32_t item) { return refine_radius(simplex_of(item)); };
-    const std::span<const double> values(value_.data(), value_.size());
-    return write(alpha::rank_radii(values, compare, threads_, monitor_, open_bits, refine));
+    alpha::RadiusRanks ranks =
+        alpha::rank_radii(std::move(value_), compare, threads_, monitor_, open_bits, refine);
+    cells_ = {}, scaled_.points = {};
+    return write(std::move(ranks));
   }
 
  private:
@@ -191,7 +193,6 @@ class Builder {
   SpaceArrays write(alpha::RadiusRanks&& ranks) {
     SpaceArrays out;
     const auto last = static_cast<std::int32_t>(ranks.value.size());
-    value_ = {};
     LargeArray<std::int32_t> facet_min(4 * count_);  // of each facet
     out.triangle_min = LargeArray<std::int32_t>(facet_.size());
     for_items(facet_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t m) {
