@@ -1,10 +1,10 @@
 """Measure triangulations in space beside their peers, in one run: `make bench`.
 
 Nanoseconds a point, the least of several runs; ratios are what to compare, since machines differ. `delaunay` is the
-function of the library; Peers give tetrahedra: scipy (Qhull),
-GUDHI, and CGAL, which is given its own points; some are left out where they would take minutes. A
-peer that is not installed is left out. Bytes a point are those that a process of its own takes at its peak, above what
-it had with the points loaded.
+function of the library; `alpha` what all alpha values and `table` what the table of the points take beyond it, on the
+most threads. Peers give tetrahedra: scipy (Qhull), GUDHI, and CGAL, which is given its own points; some are left out
+where they would take minutes. A peer that is not installed is left out. Bytes a point are those that a process of its
+own takes at its peak, above what it had with the points, or the triangulation, loaded.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
 from benchmarks.timing import best, in_own_process, options, peak_of, print_head
+from vorotool.engines.delaunay.space_table import space_table
 
 
 def lattice(_rng: np.random.Generator, n: int) -> np.ndarray:
@@ -92,6 +93,29 @@ def memory(who: str, points: np.ndarray) -> int:
     return peak_of(call_of(who, points))
 
 
+RESULTS: dict[str, Callable[[vorotool.Tetrahedralization, int], object]] = {
+    "alpha": lambda mesh, threads: vorotool.alpha_complex(mesh, threads=threads),
+    "table": lambda mesh, _threads: space_table(mesh),
+}
+"""What is made of a triangulation."""
+
+
+def memory_beyond(what: str, points: np.ndarray) -> int:
+    """Bytes that a result of a triangulation takes beside it."""
+    RESULTS[what](vorotool.delaunay(np.random.default_rng(0).random((10, 3))), 1)
+    mesh = vorotool.delaunay(points)
+    return peak_of(lambda: RESULTS[what](mesh, 1))
+
+
+def beyond(what: str, points: np.ndarray, threads: int, runs: int) -> str:
+    """Cells of the table for a result; triangulations do not keep it."""
+    least = np.inf
+    for _ in range(runs):
+        mesh = vorotool.delaunay(points, threads=threads)
+        least = min(least, best(lambda mesh=mesh: RESULTS[what](mesh, threads), 1))
+    return f" {1e9 * least / len(points):,.0f} | {in_own_process(memory_beyond, what, points) / len(points):,.0f} |"
+
+
 def measure(name: str, n: int, arguments: argparse.Namespace, peers: list[str]) -> str:
     """One row of the table."""
     points = np.ascontiguousarray(INPUTS[name](np.random.default_rng(n), n))
@@ -101,6 +125,7 @@ def measure(name: str, n: int, arguments: argparse.Namespace, peers: list[str]) 
         whole = 1e9 * best(call_of("vorotool", points, threads), arguments.runs) / n
         row += f" {whole:,.0f} |"
     row += f" {in_own_process(memory, 'vorotool', points) / n:,.0f} |"
+    row += "".join(beyond(what, points, arguments.threads, arguments.runs) for what in RESULTS)
     for peer in peers:
         if n > PEERS[peer][1] or (name, peer) in SLOW:
             row += " – | – |"
@@ -118,7 +143,14 @@ def main() -> None:
     peers = [] if arguments.no_peers else [name for name, (module, _) in PEERS.items() if find_spec(module)]
     print("nanoseconds a point; in brackets: how many times ours on the most threads; B: bytes a point\n")
     ours = [f"delaunay, {each} threads" for each in sorted({1, arguments.threads})]
-    print_head("points", "n", *ours, "B", *(name for peer in peers for name in (peer, "B")))
+    print_head(
+        "points",
+        "n",
+        *ours,
+        "B",
+        *(name for what in RESULTS for name in (what, "B")),
+        *(name for peer in peers for name in (peer, "B")),
+    )
     for n in arguments.points:
         for name in INPUTS:
             print(measure(name, n, arguments, peers), flush=True)
