@@ -22,7 +22,7 @@ from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.triangulation import TRIANGULATE, digital_mesh, seeds_of
-from vorotool.jobs.units import length_in_units, measured
+from vorotool.jobs.units import Amount, length_in_units, measured, unit_text
 from vorotool.numeric.numbers import nearest_double
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
@@ -71,6 +71,8 @@ class ShapeProducts(Results):
             if self.radius is None and not self.is_unjoined:
                 regions = "one region" if o.regions in (None, 1) else f"at most {o.regions} regions"
                 r = radius_text(self.shape.r)
+                if o.pixel_size is not None:
+                    r = f"{r} ({length_in_units(o.pixel_size, float(self.shape.r)):g}{unit_text(o.pixel_size)})"
                 run.note(f"r = {r}, the smallest radius whose shape is {regions} covering every point")
 
     def _triangulation(self, points: PointSet | SeedSet) -> Any:
@@ -220,7 +222,7 @@ class ShapeProducts(Results):
         if not self.has_shape:
             return counts
         shape, is_known = self.shape, not self.is_unjoined
-        counts |= {"r": json_number(shape.r) if is_known else None, "alpha": shape.alpha if is_known else None}
+        counts |= radius_stats(shape) if is_known else {"r": None, "alpha": None}
         counts["automatic"] = self.radius is None
         counts |= {"singular_edges": int((shape.kind == 1).sum()), "boundary_edges": int((shape.kind == 2).sum())}
         if o.method == "digital":
@@ -231,8 +233,8 @@ class ShapeProducts(Results):
             **counts,
             "isolated_points": len(shape.isolated),
             **measures,
-            "area": shape.area,
-            "perimeter": shape.perimeter,
+            "area": Amount(shape.area, 2),
+            "perimeter": Amount(shape.perimeter),
         }
 
 
@@ -243,6 +245,11 @@ def radius_text(r: Radius) -> str:
     with localcontext() as context:
         context.prec = 60
         return f"{(Decimal(r.numerator) / Decimal(r.denominator)).normalize()}"
+
+
+def radius_stats(shape: Any) -> dict[str, Any]:
+    """What statistics say of the radius of a shape."""
+    return {"r": Amount(json_number(shape.r)), "alpha": Amount(shape.alpha, -1)}
 
 
 def json_number(r: Radius) -> float | str:

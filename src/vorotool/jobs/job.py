@@ -12,7 +12,7 @@ from vorotool.jobs.inputs import JobInput, naming, read_backdrop, refuse_several
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets
-from vorotool.jobs.units import shows_units, unit_stats
+from vorotool.jobs.units import in_stated_unit, shows_units, unit_stats
 from vorotool.products.formats import FORMATS, format_named, resolved
 from vorotool.signals import end_by_exceptions
 
@@ -92,7 +92,8 @@ def process_input(run: Run, options: Options, path: str, targets: Sequence[Targe
         _note_no_system(run, in_crs)
     if options.stats is not None:
         with run.phase("count"):
-            run.stats.update({**products.stats(), **unit_stats(options.unit)})
+            found = in_stated_unit(products.options.unit, products.stats())
+            run.stats.update({**found, **unit_stats(options.unit)})
             if deviation:
                 run.stats["deviation"] = deviation
 

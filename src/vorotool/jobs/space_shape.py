@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from vorotool.engines.alpha.alpha_shape import chosen_radius
 from vorotool.engines.alpha.space_shape import space_curves, unjoined
-from vorotool.jobs.alpha_shape import ShapeProducts, json_number, radius_text
+from vorotool.jobs.alpha_shape import ShapeProducts, radius_stats, radius_text
 from vorotool.jobs.inputs import (
     JobInput,
     check_columns,
@@ -20,7 +20,7 @@ from vorotool.jobs.options import Options
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.triangulation import TRIANGULATE
-from vorotool.jobs.units import measured
+from vorotool.jobs.units import Amount, measured
 from vorotool.numeric.parallel import Progress
 from vorotool.products.registry import OF_ONE_SHAPE
 from vorotool.types.table import Table
@@ -112,16 +112,15 @@ class SpaceShapeProducts(Results):
         shape = self.shape
         return {
             **counts,
-            "r": json_number(shape.r),
-            "alpha": shape.alpha,
+            **radius_stats(shape),
             "automatic": self.radius is None,
             "tetrahedra": len(shape.tetrahedra),
             "surface": len(shape.surface),
             "singular_triangles": len(shape.singular),
             "singular_edges": len(shape.singular_edges),
             "isolated_points": len(shape.isolated),
-            "volume": shape.volume,
-            "area": shape.area,
+            "volume": Amount(shape.volume, 3),
+            "area": Amount(shape.area, 2),
             "regions": shape.region_count,
             "parts": shape.part_count,
             "cavities": shape.cavity_count,

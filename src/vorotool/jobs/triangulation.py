@@ -23,7 +23,7 @@ from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import in_steps, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.units import in_units, refuse_lengths, sides_of, table_in_units, unit_columns
+from vorotool.jobs.units import Amount, box_amounts, in_units, refuse_lengths, sides_of, table_in_units, unit_columns
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.types.points.point_set import PointSet
@@ -226,7 +226,7 @@ class MeshProducts(Results):
         mesh, o = self.mesh, self.options
         found: dict[str, Any] = {}
         if "cells" in vars(self):  # a result shows them
-            found = {"frame": self.cells.frame.extent, "empty_cells": int(self.cells.is_empty.sum())}
+            found = {"frame": box_amounts(self.cells.frame.extent), "empty_cells": int(self.cells.is_empty.sum())}
         found |= {"points": len(mesh.points), "duplicates": mesh.duplicates}
         found |= {name: len(getattr(mesh, name)) for name in ("edges", "triangles", "hull")}
         found["collinear"] = len(mesh.triangles) == 0
@@ -362,6 +362,10 @@ class TetrahedraProducts(Results):
         }
         if "cells" in vars(self):  # a result shows them
             low, high = self.cells.box.tolist()
-            counts |= {"low": low, "high": high, "empty_cells": int(self.cells.is_empty.sum())}
+            counts |= {
+                "low": list(map(Amount, low)),
+                "high": list(map(Amount, high)),
+                "empty_cells": int(self.cells.is_empty.sum()),
+            }
             counts |= {"faces": len(self.cells.face_cells), "vertices": len(self.cells.vertices)}
         return counts | {"threads": self.options.threads}

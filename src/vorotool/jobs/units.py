@@ -333,6 +333,43 @@ def length_in_units(size: PixelSize | None, length: Any) -> Any:
     return length * (size.factor if isinstance(length, Fraction) else float(size.factor))
 
 
+class Amount(NamedTuple):
+    """A length among statistics, in the coordinates of the input; an area by the power of 2, a place by its axis."""
+
+    value: Any  # a number, or None
+    power: int = 1
+    axis: int | None = None
+
+
+def lengths_among(found: Any, *names: str) -> Any:
+    """Give statistics in which numbers of some names are lengths, and x and y a place."""
+    if not isinstance(found, dict):
+        return found
+    axes = {"x": 0, "y": 1}
+    return {
+        name: Amount(value, axis=axes.get(name)) if name in names or name in axes else lengths_among(value, *names)
+        for name, value in found.items()
+    }
+
+
+def box_amounts(frame: Sequence[float]) -> list[Amount]:
+    """Give x, y, width and height as amounts."""
+    return [Amount(side, axis=axis) for side, axis in zip(frame, (0, 1, None, None), strict=True)]
+
+
+def in_stated_unit(size: PixelSize | None, found: Any) -> Any:
+    """Give statistics with their amounts in the unit that they state, that of files."""
+    if isinstance(found, Amount):
+        value = found.value
+        if size is None or size.is_auto or value is None or isinstance(value, str):
+            return value
+        made = float(value) * float(size.factor) ** found.power
+        return made + size.origin[found.axis] if size.origin is not None and found.axis is not None else made
+    if isinstance(found, dict):
+        return {name: in_stated_unit(size, value) for name, value in found.items()}
+    return [in_stated_unit(size, value) for value in found] if isinstance(found, list) else found
+
+
 def unit_stats(size: PixelSize | None) -> dict[str, Any]:
     """What statistics say of the size."""
     if size is None or size.is_auto:

@@ -28,7 +28,7 @@ from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, unit_columns
+from vorotool.jobs.units import Amount, box_amounts, in_units, unit_columns
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.products.registry import is_of
@@ -157,12 +157,12 @@ class VoronoiProducts(Results):
             "arcs": len(cells.arcs),
             **{f"{name}s": int(getattr(cells, f"is_{name}").sum()) for name in ("border", "parabola", "circle")},
             **resolved("engines.voronoi.voronoi:ties")(cells),
-            "frame": list(cells.frame),
+            "frame": box_amounts(cells.frame),
             "threads": o.threads,
         }
         if "discs" in o.what:
             radius = self.discs.radius
-            found |= {"discs": len(radius), "largest_radius": float(radius.max()) if len(radius) else None}
+            found |= {"discs": len(radius), "largest_radius": Amount(float(radius.max())) if len(radius) else None}
         if self.image is not None:
             found |= {"outline": o.outline or "crack", "connectivity": int(o.connectivity or 8)}
         return found

@@ -100,3 +100,41 @@ def test_ome_xml_that_is_hostile(run, tmp_path):
         tifffile.imwrite(tmp_path / "in.tif", MASK, description=body, metadata=None)
         run("tessellate in.tif --what table --pixel-size auto", code=3, says="states no pixel size")
         run("tessellate in.tif -o out.png")
+
+
+# ---- statistics --------------------------------------------------------------------------------
+SHAPE = "0 0,60 0,60 20,30 30,20 60,0 60"
+STATED = (
+    "alphashape p.csv",
+    "alphashape p.csv -r RR",
+    "delaunay p.csv --what cells",
+    "voronoi s.wkt --what discs",
+    "skeleton-exact s.wkt --what points,skeleton --every RR --prune length=RR -o o --gap RR",
+    "skeleton-exact s.wkt --what offset --distance RR",
+    "skeleton-exact s.wkt --smooth RR",
+    "skeleton-approx s.wkt --step RR --compare",
+    "alphashape q.csv --space",
+    "delaunay q.csv --space --what cells",
+)
+
+
+@pytest.mark.parametrize("line", STATED)
+def test_statistics_are_in_the_unit_that_they_name(run, tmp_path, line):
+    """Those of an input that is twice as large, where a pixel has two units: lengths of options are in the input's."""
+    scattered = np.random.default_rng(5).integers(0, 64, (12, 3)).tolist()
+    found = {}
+    for times, more in ((2, ""), (1, "--pixel-size 2um")):
+        rows = [[times * x for x in row] for row in scattered]
+        (tmp_path / "p.csv").write_text("\n".join(["x,y", *(f"{x},{y}" for x, y, _ in rows)]))
+        (tmp_path / "q.csv").write_text("\n".join(["x,y,z", *(f"{x},{y},{z}" for x, y, z in rows)]))
+        ring = ",".join(" ".join(str(times * int(x)) for x in place.split()) for place in f"{SHAPE},0 0".split(","))
+        (tmp_path / "s.wkt").write_text(f"POLYGON (({ring}))\n")
+        given = line.replace("RR", str(8 * times))
+        out = "" if " -o " in given else f"-o o.{'npz' if 'space' in given else 'geojson'}"
+        run(f"{given} {more} {out} --overwrite --stats s{times}.json -q")
+        found[times] = json.loads((tmp_path / f"s{times}.json").read_text())
+    stated = {name: found[1].pop(name) for name in ("pixel_size", "unit")}
+    assert stated == {"pixel_size": 2, "unit": "um"}
+    for each in found.values():
+        del each["seconds"]
+    assert found[1] == found[2]

@@ -24,11 +24,14 @@ from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeletons.products import SkeletonProducts
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import table_in_units
+from vorotool.jobs.units import Amount, lengths_among, table_in_units
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import Skeleton
+
+OF_ERRORS = ("largest", "mean", "largest_estimate", "largest_bound")
+"""Statistics of errors that are lengths."""
 
 ALL_TOGETHER = {"diagram", "elements"}
 """What is of all features together, however they are taken."""
@@ -115,17 +118,18 @@ class ApproximateProducts(SkeletonProducts):
     def _more_stats(self) -> dict[str, Any]:
         o = self.options
         found: dict[str, Any] = {
-            "step": o.step,
-            "tolerance": o.tolerance,
+            "step": Amount(o.step),
+            "tolerance": Amount(o.tolerance),
             "sampling": "symmetric" if SamplingOptions(o.step, o.tolerance, o.sampling).is_symmetric else "paper",
             "complete": self._complete,
             "open_corners": self.found.open_corners,
         }
         if o.stats is None and not o.compare:
             return found
-        found["error"] = resolved("engines.sampled_skeleton.hausdorff:error_summary")(self.found, step=o.step)
+        error_summary = resolved("engines.sampled_skeleton.hausdorff:error_summary")
+        found["error"] = lengths_among(error_summary(self.found, step=o.step), *OF_ERRORS)
         if o.compare:
-            found["comparison"] = self._apart
+            found["comparison"] = lengths_among(self._apart, *OF_ERRORS)
         return found
 
     def check(self, target: Target) -> None:

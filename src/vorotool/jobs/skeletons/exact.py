@@ -20,6 +20,7 @@ from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeletons.products import SKELETON_INSIDE, SkeletonProducts
+from vorotool.jobs.units import Amount
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -132,9 +133,9 @@ class ExactProducts(SkeletonProducts):
             return {"border": "open"}
         if not o.gap:
             return {}
-        found: dict[str, Any] = {"gap": o.gap, "complete": o.complete is not False}
+        found: dict[str, Any] = {"gap": Amount(o.gap), "complete": o.complete is not False}
         if o.stats is not None:
-            found["gap_deviation"] = self._gap_deviation()
+            found["gap_deviation"] = Amount(self._gap_deviation())
         return found
 
     def _gap_deviation(self) -> float:

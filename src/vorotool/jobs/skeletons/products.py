@@ -24,7 +24,15 @@ from vorotool.jobs.refusals import refuse
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, length_in_units, sides_of, unit_text
+from vorotool.jobs.units import (
+    Amount,
+    box_amounts,
+    in_units,
+    length_in_units,
+    lengths_among,
+    sides_of,
+    unit_text,
+)
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.products.registry import DERIVED, Made, is_of
@@ -244,18 +252,18 @@ class SkeletonProducts(Results, ABC):
         o, made, value = self.options, DERIVED[what], self.derived(what)
         if what == "offset":
             counts = {"shapes": len(value), "rings": len(value.ring_kind), "pieces": len(value.site)}
-            return {"distances": list(o.distance or ()), **counts}
+            return {"distances": list(map(Amount, o.distance or ())), **counts}
         if what == "discs":
-            return {"discs": len(value), "largest_radius": float(value.radius.max()) if len(value) else None}
+            return {"discs": len(value), "largest_radius": Amount(float(value.radius.max())) if len(value) else None}
         if made.by == "points_along":
-            return {"every": o.every, "along": o.along or "branches", "points": len(value)}
+            return {"every": Amount(o.every), "along": o.along or "branches", "points": len(value)}
         if what == "parts":
             neck = resolved("engines.necks.parts:NARROWEST") if o.neck is None else float(o.neck)
             return {"neck": neck, "pieces": len(value), "cuts": len(value.necks)}
         if what == "thickness":
             values = value.values[value.values > 0]
             found = {"mean": values.mean(), "sd": values.std(), "largest": values.max()} if len(values) else {}
-            sizes = {f"thickness_{name}": length_in_units(o.pixel_size, float(each)) for name, each in found.items()}
+            sizes = {f"thickness_{name}": Amount(float(each)) for name, each in found.items()}
             return {"pixels": len(values), **sizes}
         return {made.counted_as: len(value)} if made.counted_as else {}
 
@@ -380,7 +388,8 @@ class SkeletonProducts(Results, ABC):
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        o, found = self.options, self._shape_stats() | self._diagram_stats()
+        o, shapes = self.options, lengths_among(self._shape_stats(), "lattice_step", "largest_move")
+        found = shapes | self._diagram_stats()
         found |= {"side": o.side, "threads": o.threads}
         if self.is_mask:
             found |= {"outline": o.outline or "crack", "connectivity": int(o.connectivity or 8)}
@@ -388,8 +397,9 @@ class SkeletonProducts(Results, ABC):
             found |= self._skeleton_stats(self.joined)
         if o.smooth is not None:
             made = self._all_lines()
-            found |= {"smooth": o.smooth, "curves": sum(len(each.control) for each in made)}
-            found["largest_error"] = max((float(each.error.max(initial=0.0)) for each in made), default=0.0)
+            found |= {"smooth": Amount(o.smooth), "curves": sum(len(each.control) for each in made)}
+            error = max((float(each.error.max(initial=0.0)) for each in made), default=0.0)
+            found["largest_error"] = Amount(error)
         for what in self._all_derived():
             found |= self._derived_stats(what)
         return found
@@ -414,13 +424,13 @@ class SkeletonProducts(Results, ABC):
             "exterior_arcs": int(np.count_nonzero(skeleton.side == EXTERIOR)),
             "branches": int(skeleton.branch[-1]) + 1 if len(skeleton) else 0,
             "nodes": len(skeleton.vertices),
-            "prune": self.pruning.stats(),
+            "prune": lengths_among(self.pruning.stats(), *LENGTHS),
         }
         if self.options.join_junctions:
             junctions = [int(np.count_nonzero(value.degree > 2)) for value in (self.skeleton, skeleton)]
             found["junctions_joined"] = junctions[0] - junctions[1]
         if skeleton.frame is not None:
-            found["frame"] = list(skeleton.frame)
+            found["frame"] = box_amounts(skeleton.frame)
         return found | self._more_stats()
 
     @abstractmethod

@@ -91,6 +91,7 @@ def cubic_polylines(control: Floats, tolerance: float | Floats) -> tuple[Floats,
     second = control[:, 2:] - 2 * control[:, 1:-1] + control[:, :-2]
     bend = np.sqrt((second * second).sum(axis=2)).max(axis=1, initial=0.0)
     pieces = np.clip(np.ceil(np.sqrt(0.75 * bend / tolerance)), 1, MOST_PIECES).astype(np.int64)
+    record_deviation(0.75 * bend / (pieces * pieces))
     curve = owners(pieces + 1)
     points = places_at(control[curve], within(pieces + 1) / pieces[curve])
     start = starts_of(pieces + 1)
