@@ -14,8 +14,7 @@ def test_quiet_wins(run, folder):
 
 def test_an_input_whose_name_begins_the_message_is_named(run, tmp_path):
     (tmp_path / "there").write_text("x,y\n")
-    outcome = run("tessellate there -f text", code=3)
-    assert outcome.err.startswith("error: there: no seeds")
+    assert run("tessellate there -f text", code=3).err.startswith("error: there: no seeds")
 
 
 def test_an_input_of_a_batch_whose_name_is_in_the_warning_is_named_all_the_same(run, tmp_path):

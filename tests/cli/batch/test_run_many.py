@@ -66,8 +66,7 @@ def check_that_many_give_what_each_gives(run, inputs, command):
     folder, *options = COMMANDS[command]
     if command == "draw":
         run("tessellate points --out-dir pictures -q -f npy")
-    done = run(command, folder, "--out-dir", "many", "-j", "2", *options)
-    lines = done.err.splitlines()
+    lines = run(command, folder, "--out-dir", "many", "-j", "2", *options).err.splitlines()
     assert sorted(line.split("/")[0] for line in lines) == ["1", "2", "3"]
     assert all(line.endswith(": done") for line in lines)
     for path in [path for path in (inputs / folder).rglob("*.*") if path.is_file() and path.suffix != ".jsonl"]:
@@ -150,8 +149,7 @@ def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
     run(*shared, "--out-dir", "parts", "--resume", "-q")  # the whole, of the tables that are kept
     whole = (inputs / "all.csv").read_text().splitlines()
     assert sorted(whole) == sorted([*tables[0], *tables[1][1:]])
-    done = run("delaunay points --table - --shard 1/2 -q")
-    assert done.out.splitlines() == tables[0]
+    assert run("delaunay points --table - --shard 1/2 -q").out.splitlines() == tables[0]
     run("delaunay points --table part.1-of-2.csv --shard 1/2 -q")
     assert (inputs / "part.1-of-2.csv").read_text().splitlines() == tables[0]
 
@@ -177,8 +175,7 @@ def test_what_another_version_did_is_done_again(run, inputs, monkeypatch):
     options = ("delaunay", "points", "--out-dir", "out", "--resume")
     for version in ("0.1.0", "0.2.0"):
         monkeypatch.setattr("vorotool.batch.plan.__version__", version)
-        done = run(*options)
-        assert {line.split(": ")[1] for line in done.err.splitlines()} == {"done"}
+        assert {line.split(": ")[1] for line in run(*options).err.splitlines()} == {"done"}
 
 
 def test_a_terminal_shows_a_bar(inputs):
@@ -301,8 +298,7 @@ def test_a_manifest_that_somebody_else_wrote(run, inputs, lines):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("x")
     (inputs / "out/delaunay.manifest.jsonl").write_text(f"{lines}\n", encoding="latin-1")
-    done = run("delaunay points --out-dir out --resume -q")
-    assert done.err == ""
+    assert run("delaunay points --out-dir out --resume -q").err == ""
     assert all(path.exists() for path in victims)
 
 

@@ -76,8 +76,7 @@ def test_the_radius_that_is_named_has_a_region(run, what, rule):
 
 
 def test_an_infinite_radius_is_in_the_statistics(run, folder):
-    done = run("alphashape dots.csv -r inf -o shape.csv --stats -")
-    assert json.loads(done.out)["r"] == "inf"
+    assert json.loads(run("alphashape dots.csv -r inf -o shape.csv --stats -").out)["r"] == "inf"
 
 
 def test_holes_mean_one_thing_and_cavities_another(run, folder):
@@ -91,8 +90,7 @@ def test_holes_mean_one_thing_and_cavities_another(run, folder):
         stats = json.loads((folder / "s.json").read_text())
         tables = json.loads((folder / "a.table.json").read_text())
         polygons = json.loads((folder / "a.polygons.json").read_text())["polygons"]
-        curves = run("alphashape p.csv --what curves").rows
-        reached = [row for row in curves if float(row["r"]) <= r][-1]
+        reached = [row for row in run("alphashape p.csv --what curves").rows if float(row["r"]) <= r][-1]
         assert stats["holes"] == sum(row["holes"] for row in tables)
         assert stats["holes"] == sum(len(polygon["holes"]) for polygon in polygons)
         assert stats["cavities"] == int(reached["cavities"])

@@ -64,8 +64,7 @@ def test_verify_notices_a_wrong_triangulation(run, monkeypatch):
     wrong = replace(MESH, triangles=MESH.triangles[:, ::-1])
     monkeypatch.setattr("vorotool.engines.delaunay.delaunay.delaunay", lambda *_, **__: wrong)
     run(f"delaunay {DOTS}")
-    done = run(f"delaunay {DOTS} --verify", code=1)
-    assert done.err.startswith("error: ")
+    assert run(f"delaunay {DOTS} --verify", code=1).err.startswith("error: ")
 
 
 @pytest.mark.parametrize(

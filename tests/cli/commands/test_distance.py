@@ -47,8 +47,7 @@ def test_what_is_chosen(run, two):
 def test_standard_input_is_one_of_them(run, two):
     expected = run("distance", *two).out
     for names, text in ((["-", "b.wkt"], A), (["a.wkt", "-"], B)):
-        done = run("distance", *names, data=text.encode())
-        assert done.out == expected
+        assert run("distance", *names, data=text.encode()).out == expected
 
 
 def test_two_systems(run, folder):
@@ -70,8 +69,7 @@ def expected():
 
 
 def thickness(run, *arguments):
-    done = run(f"skeleton-exact {BLOBS} --what thickness", *arguments)
-    assert done.err == ""
+    assert run(f"skeleton-exact {BLOBS} --what thickness", *arguments).err == ""
 
 
 def test_files_hold_floats(run, folder, expected):

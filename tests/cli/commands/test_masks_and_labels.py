@@ -78,8 +78,7 @@ def test_distances_to_nothing_do_not_exist(run, fields, what):
     ],
 )
 def test_what_follows_from_an_image_without_foreground_is_empty(run, fields, arguments):
-    done = run(f"{arguments} empty.npy --stats stats.json")
-    lines = done.err.splitlines()
+    lines = run(f"{arguments} empty.npy --stats stats.json").err.splitlines()
     assert lines[0] == NO_FOREGROUND
     assert all(line.startswith("warning: ") for line in lines)
     assert lines[0].removeprefix("warning: ") in json.loads((fields / "stats.json").read_text())["warnings"]
@@ -157,8 +156,7 @@ def test_a_flat_image_has_no_foreground_by_otsu(run, fields_of_few_objects, comm
     assert warning.startswith("warning: ")
     assert json.loads((fields_of_few_objects / "stats.json").read_text())["threshold"] is None
     assert set(done.out.split()) == {"0"} or len(done.out.splitlines()) < 7
-    done = run(*command, *options, "--strict", code=3)
-    assert done.err.count("error: ") == 1
+    assert run(*command, *options, "--strict", code=3).err.count("error: ") == 1
 
 
 # ---- masks of skeletons ----------------------------------------
@@ -180,8 +178,7 @@ def test_batches_of_objects_give_the_same_bytes(run, monkeypatch, what):
 
 def test_a_label_image_has_an_object_a_label(run):
     counts = {str(k): float(n) for k, n in enumerate(np.bincount(np.asarray(Image.open(CELLS)).ravel())) if k}
-    table = run(f"skeleton-exact {CELLS} --what table").rows
-    assert {row["id"]: float(row["area"]) for row in table} == counts
+    assert {row["id"]: float(row["area"]) for row in run(f"skeleton-exact {CELLS} --what table").rows} == counts
     parts = run(f"skeleton-exact {CELLS} --what parts -f csv --verify").rows
     assert sum(float(row["area"]) for row in parts) == pytest.approx(sum(counts.values()))
 

@@ -103,8 +103,7 @@ def test_magnitudes_at_the_limits(run, folder, factor):
 # ---- repairs, features, curves ----------------------------------------
 def test_repairs_are_told(run, folder):
     (folder / "a.json").write_text("[[0, 0], [4, 4], [4, 0], [0, 4]]")
-    done = run("skeleton-exact a.json --stats s.json -o b.csv")
-    assert done.err.startswith("warning: repaired: 1 crossing")
+    assert run("skeleton-exact a.json --stats s.json -o b.csv").err.startswith("warning: repaired: 1 crossing")
     stats = json.loads((folder / "s.json").read_text())
     assert stats["repairs"]["crossings"] == 1
     assert len(stats["warnings"]) == 1
@@ -123,8 +122,7 @@ def test_the_inside_of_lines_is_missed_once_and_where_it_is_asked_for(run, folde
     done = run(*command, "a.wkt", "-o", "a.json")
     [warning] = [line for line in done.err.splitlines() if line.startswith("warning")]
     assert "--side" in warning
-    done = run(*command, "a.wkt", "--side", "both", "-o", "a.json")
-    assert "warning" not in done.err
+    assert "warning" not in run(*command, "a.wkt", "--side", "both", "-o", "a.json").err
 
 
 def test_features_are_separate_unless_they_are_together(run, folder):
@@ -133,8 +131,7 @@ def test_features_are_separate_unless_they_are_together(run, folder):
     arguments = ("skeleton-exact", "nested.json", "--what", "table", "--strict", "--verify")
     rows = [run(*arguments, *more).rows for more in ((), ("--features", "together"))]
     assert [[row["ends"] for row in table] for table in rows] == [["4", "3"], ["7", "0"]]
-    drawn = run("skeleton-exact nested.json -f svg --layers polygons").out
-    assert drawn.count("<path") == 2
+    assert run("skeleton-exact nested.json -f svg --layers polygons").out.count("<path") == 2
     drawings = {
         run("skeleton-exact nested.json --gap 0.1", *more, "-f", "csv", "--verify").out
         for more in ((), ("--features", "separate"), ("--features", "together"))
@@ -172,8 +169,7 @@ def test_pruning_is_named_where_curves_are_flattened(run, folder, name):
     done = run(f"skeleton-exact {name} --what branches", says=f"{name}: 1 curve")
     advice = "--prune angle=20"
     assert advice in done.err
-    pruned = run(f"skeleton-exact {name} --what branches {advice}")
-    assert len(pruned.rows) < 10 < len(done.rows)
+    assert len(run(f"skeleton-exact {name} --what branches {advice}").rows) < 10 < len(done.rows)
     for more in (advice.split(), ("--what", "discs"), ("--prune", "none")):
         assert advice not in run(f"skeleton-exact {name}", *more).err
 
@@ -241,8 +237,7 @@ def test_closed_is_as_without(run, outline):
     command = ("skeleton-exact", BLOBS, "--outline", outline, "-f", "json")
     closed, usual = run(*command, "--border", "closed"), run(*command)
     assert closed.out == usual.out
-    opened = run(*command, "--border", "open", "--verify")
-    assert opened.out != usual.out
+    assert run(*command, "--border", "open", "--verify").out != usual.out
 
 
 # ---- centerlines ----------------------------------------

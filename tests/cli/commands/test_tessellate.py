@@ -23,17 +23,14 @@ def test_table_has_the_columns_of_the_input(run, folder):
     squares = nearest_squares(X, Y, (0, 0, 8, 7))
     for k, row in enumerate(rows, start=1):
         assert float(row[9]) == np.sqrt(squares[k == LABELS].max())
-    done = run("tessellate dots.csv --columns x,y --what table --no-properties")
-    assert "name" not in done.out
+    assert "name" not in run("tessellate dots.csv --columns x,y --what table --no-properties").out
 
 
 def test_components_of_a_mask(run, folder):
-    done = run("tessellate mask.pbm --what table -f json")
-    rows = json.loads(done.out)
+    rows = json.loads(run("tessellate mask.pbm --what table -f json").out)
     assert [row["object_area"] for row in rows] == [2, 2]
     assert [(row["x"], row["y"]) for row in rows] == [(0.5, 0), (5.5, 1.5)]
-    done = run("tessellate mask.pbm --what table -f json --connectivity 4")
-    assert len(json.loads(done.out)) == 3
+    assert len(json.loads(run("tessellate mask.pbm --what table -f json --connectivity 4").out)) == 3
     done = run("tessellate mask.pbm --seeds pixels -f text")
     assert int(np.loadtxt(io.StringIO(done.out), dtype=int).max()) == 4
     done = run("tessellate mask.pbm --seeds centroids --what table -f json")

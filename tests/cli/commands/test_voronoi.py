@@ -91,8 +91,7 @@ def test_points_lines_and_polygons_of_each_format(run, folder, right, name):
 )
 def test_each_kind_of_text(run, folder, name, text, count):
     (folder / name).write_text(text)
-    done = run(f"voronoi {name} --what table -q --verify")
-    assert len(done.rows) == count
+    assert len(run(f"voronoi {name} --what table -q --verify").rows) == count
 
 
 def test_maps_and_skeletons_are_read_for_what_they_are_made_of(run, folder, mixed):
@@ -124,8 +123,7 @@ def test_masks_have_a_site_a_component(run, labels):
     assert (stats["sites"], stats["outline"], stats["connectivity"]) == (4, "crack", 8)
     by_contour = run(f"voronoi {labels} --outline contour --seeds labels --what table")
     assert float(by_contour.rows[0]["own_area"]) < 120
-    alone = run(f"voronoi {labels} --threshold 0 --min-area 2 --what table -q")
-    assert len(alone.rows) == 3
+    assert len(run(f"voronoi {labels} --threshold 0 --min-area 2 --what table -q").rows) == 3
 
 
 # ---- what is computed --------------------------------------------------------------------------------
@@ -216,8 +214,7 @@ def test_cuts_of_images_on_maps_are_on_the_map(run, folder, labels):
 # ---- few sites ---------------------------------------------------------------------------------------
 def test_nothing_to_share_out(run, folder):
     (folder / "none.geojson").write_text('{"type": "FeatureCollection", "features": []}')
-    done = run("voronoi none.geojson")
-    assert json.loads(done.out)["features"] == []
+    assert json.loads(run("voronoi none.geojson").out)["features"] == []
     assert run("voronoi none.geojson --what table").out.count("\n") == 1
     (folder / "one.wkt").write_text("POINT (3 4)")
     done = run("voronoi one.wkt --what edges")

@@ -66,8 +66,7 @@ def test_results_and_layers_accumulate(run, tmp_path):
 def test_distances_accumulate(run, tmp_path):
     (tmp_path / "s.json").write_text(SQUARE)
     several = run("skeleton-exact s.json --what offset -d -1,2,-3")
-    again = run("skeleton-exact s.json --what offset -d -1 -d 2,-3 -d -1")
-    assert again.out == several.out
+    assert run("skeleton-exact s.json --what offset -d -1 -d 2,-3 -d -1").out == several.out
     assert json.loads(several.out) != json.loads(run("skeleton-exact s.json --what offset -d -1").out)
 
 

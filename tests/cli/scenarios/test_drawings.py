@@ -39,13 +39,11 @@ def test_streams_give_the_same_bytes(run, folder):
     feeder.start()
     assert run("skeleton-exact pipe -f dxf").out == from_file.out
     feeder.join()
-    again = run("draw - -f svg", data=from_file.out.encode())
-    assert "<path" in again.out
+    assert "<path" in run("draw - -f svg", data=from_file.out.encode()).out
 
 
 def test_from_a_logo_to_the_way_of_a_bit(run, folder):
-    done = run("skeleton-exact logo.svg --prune angle=40 --what points --every 0.5 -o a.dxf")
-    assert done.err == ""
+    assert run("skeleton-exact logo.svg --prune angle=40 --what points --every 0.5 -o a.dxf").err == ""
     drawing = ezdxf.readfile("a.dxf")
     places = np.array([point.dxf.location for point in drawing.modelspace().query("POINT")])
     shapes = vorotool.read("logo.svg")

@@ -10,8 +10,7 @@ from vorotool.formats.zarr.store import is_folder, is_store
 
 @pytest.mark.parametrize(("device", "fmt"), [("/dev/null", "tiff"), ("/dev/zero", "npy")])
 def test_devices_are_written_in_order(run, folder, device, fmt):
-    done = run(f"tessellate dots.csv -f {fmt} -o {device}")
-    assert done.err == ""
+    assert run(f"tessellate dots.csv -f {fmt} -o {device}").err == ""
 
 
 def test_what_must_not_be_looked_at_is_no_folder_and_no_store(run, folder, monkeypatch):
@@ -27,6 +26,5 @@ def test_what_must_not_be_looked_at_is_no_folder_and_no_store(run, folder, monke
     monkeypatch.setattr(os, "stat", sealed)
     assert not is_folder("sealed/a")
     assert not is_store("sealed")
-    done = run("tessellate sealed/dots.csv --what table")
-    assert done.err == ""
+    assert run("tessellate sealed/dots.csv --what table").err == ""
     run("tessellate dots.csv -o sealed/x.png", code=4, says="sealed/x.png")

@@ -76,8 +76,7 @@ def test_layers_of_files_that_have_none_and_of_two_options_are_refused(run, town
         ["draw", "lakes.geojson", "--overlay", "c.png:a", "-o", "s.svg"],
         ["skeleton-exact", "m.gpkg:lakes", "--input-layer", "lakes"],
     ):
-        done = run(*arguments, code=2)
-        assert "--input-layer" in done.err, arguments
+        assert "--input-layer" in run(*arguments, code=2).err, arguments
 
 
 def test_a_layer_without_geometry_is_told_from_none(run, folder):

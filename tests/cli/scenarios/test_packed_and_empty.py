@@ -47,8 +47,7 @@ def test_packed_inputs_give_what_the_others_give(run, tmp_path, monkeypatch, com
     (tmp_path / f"a.{ending}").write_bytes(data)
     (tmp_path / f"a.{ending}.gz").write_bytes(gzip.compress(data[:9]) + gzip.compress(data[9:]))
     plain = run(command, f"a.{ending}")
-    packed = run(command, f"a.{ending}.gz")
-    assert packed.out.replace(".gz", "") == plain.out
+    assert run(command, f"a.{ending}.gz").out.replace(".gz", "") == plain.out
     feed(monkeypatch, gzip.compress(data))
     assert run(command, "-").out.partition("\n")[2] == plain.out.partition("\n")[2]
 
@@ -127,8 +126,7 @@ def test_a_file_with_nothing_in_it_is_a_warning(run, tmp_path, command, name):
 @pytest.mark.parametrize("name", ["e.wkt", "null.geojson"])
 def test_the_picture_of_an_empty_file_is_empty(run, tmp_path, name):
     (tmp_path / name).write_bytes(EMPTY_FILES[name])
-    done = run(f"draw {name} -o a.svg")
-    assert done.err.count("warning: ") == 1
+    assert run(f"draw {name} -o a.svg").err.count("warning: ") == 1
     assert b"<path" not in (tmp_path / "a.svg").read_bytes()
     run(f"info {name} --json")
 
@@ -138,8 +136,7 @@ def test_an_empty_layer_is_as_an_empty_file(run, tmp_path, command):
     nothing = geopandas.GeoDataFrame({"n": []}, geometry=geopandas.GeoSeries([], crs=2056))
     nothing.to_file(tmp_path / "a.gpkg", layer="none")
     begin, *options = command.split()
-    done = run(begin, "a.gpkg", *options)
-    assert done.err.count("warning: ") == (command != "info")
+    assert run(begin, "a.gpkg", *options).err.count("warning: ") == (command != "info")
 
 
 def test_a_tessellation_of_nothing_needs_a_frame(run, tmp_path):
@@ -148,8 +145,7 @@ def test_a_tessellation_of_nothing_needs_a_frame(run, tmp_path):
         done = run("tessellate e.csv", *options, code=3)
         assert (done.err.startswith("error: e.csv: "), "--size" in done.err) == (True, True)
     assert [path.name for path in tmp_path.iterdir()] == ["e.csv"]
-    done = run("tessellate e.csv --size 2x3x4 --volume -o a.npy --verify")
-    assert done.err.count("warning: ") == 1
+    assert run("tessellate e.csv --size 2x3x4 --volume -o a.npy --verify").err.count("warning: ") == 1
     labels = np.load(tmp_path / "a.npy")
     assert (labels.shape, labels.any()) == ((4, 3, 2), False)
     run("tessellate e.csv --size 4x3 --what distance -o d.npy", code=3, says="e.csv")

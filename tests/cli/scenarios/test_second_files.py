@@ -57,8 +57,7 @@ def test_a_file_in_another_unit(run, tmp_path, first, second, option):
 def test_drawings_state_theirs(run, tmp_path):
     (tmp_path / "in.geojson").write_text(text(SITES, "mm"))
     dxf(tmp_path / "clip.dxf", scaled(CLIP, METERS["mm"] / METERS["in"]), "in")
-    done = run("voronoi in.geojson --clip clip.dxf --what table -f csv")
-    assert sum(areas(done)) == pytest.approx(40 * 50)
+    assert sum(areas(run("voronoi in.geojson --clip clip.dxf --what table -f csv"))) == pytest.approx(40 * 50)
     points = [shapely.Point(xy) for xy in [(1, 2), (20, 30), (5, 40)]]
     (tmp_path / "points.geojson").write_text(text(points, "mm"))
     done = run("delaunay points.geojson --clip clip.dxf --what table -f csv")
@@ -106,8 +105,7 @@ def test_a_unit_that_cannot_be_converted(run, tmp_path):
     assert sum(areas(done)) == pytest.approx(40 * 50)
     assert "warning: clip.geojson is in mm, but the unit of in.wkt is unknown" in done.err
     run(*words, "--strict", code=3)
-    known = run(*words, "--strict", "--pixel-size", "1cm")
-    assert sum(areas(known)) == pytest.approx(4 * 5)
+    assert sum(areas(run(*words, "--strict", "--pixel-size", "1cm"))) == pytest.approx(4 * 5)
 
 
 # ---- distances -----------------------------------------------------------------------------------

@@ -150,8 +150,7 @@ def test_pipes_in_a_folder_are_left_out(run, folder):
     (folder / "dots.csv").rename(folder / "inputs/dots.csv")
     os.mkfifo(folder / "inputs/pipe.csv")
     note = "note: inputs/pipe.csv is a pipe: skipped\n"
-    done = run("tessellate inputs --out-dir out -f npy")
-    assert done.err == f"{note}1/1 inputs/dots.csv: done\n"
+    assert run("tessellate inputs --out-dir out -f npy").err == f"{note}1/1 inputs/dots.csv: done\n"
     done = run("tessellate inputs/* --out-dir out -f npy --dry-run")
     assert (done.err, len(done.out.splitlines())) == (note, 1)
     assert run("tessellate inputs --out-dir out -f npy -q").err == ""

@@ -175,8 +175,7 @@ def test_a_stack_carries_its_spacing_on(run, stack):
 
 def test_what_the_file_says_is_told(run, stack):
     run("tessellate --volume stack.tif -o out.tif", says="--spacing")
-    done = run("tessellate --volume stack.tif --spacing auto -o out.tif --stats -")
-    stats = json.loads(done.out)
+    stats = json.loads(run("tessellate --volume stack.tif --spacing auto -o out.tif --stats -").out)
     assert (stats["spacing"], stats["unit"], stats["unit_of_distance2"]) == ([0.325, 0.325, 1.5], "µm", "(1/40 µm)²")
     assert (stats["frame"], stats["voxels"], stats["labels"]) == ([0, 0, 0, 11, 9, 7], 693, 3)
     assert stats["arithmetic"].startswith("float64")
@@ -220,8 +219,7 @@ def test_a_cluster_writes_the_same_store(run, stack, what):
     options = ["tessellate", "--volume", "stack.tif", "--what", what, "--spacing", "auto", "--chunk", "4x4x2", "-q"]
     options += ["--max-distance", "1.5um"] if what == "labels" else []
     run(*options, "-o", "a.ome.zarr", "--levels", "1")
-    done = run(*options, "-o", "b.ome.zarr", "--levels", "1", "--cluster", "local", "-j", "2")
-    assert done.err == ""
+    assert run(*options, "-o", "b.ome.zarr", "--levels", "1", "--cluster", "local", "-j", "2").err == ""
     made = [contents(stack / name) for name in ("a.ome.zarr", "b.ome.zarr")]
     assert {each.pop("zarr.json") for each in made}
     assert made[0] == made[1]
@@ -275,8 +273,7 @@ def test_a_folder_of_stacks(run, tmp_path):
     (tmp_path / "stacks/rgb.tif").unlink()
     plan = [json.loads(line) for line in run(*options, "--resume", "--dry-run").out.splitlines()]
     assert [each["status"] for each in plan] == ["kept"] * 3
-    again = run(*options[:-3], "--table", "all.csv", "-j", "2", "-q", "--what", "labels")
-    assert again.err == ""
+    assert run(*options[:-3], "--table", "all.csv", "-j", "2", "-q", "--what", "labels").err == ""
     assert len(rows_of((tmp_path / "all.csv").read_text())) == 11
 
 

@@ -136,8 +136,7 @@ def test_tiles_give_what_an_image_gives(run, tmp_path, tiles, source, options):
     run("tessellate seeds.npy", *options, "-o", "held.tif", "-q")
     expected = tifffile.imread(tmp_path / "held.tif")
     for name in ("a.zarr", "b.tif", "c.npy"):
-        done = run(f"tessellate {source}", *options, "-o", name, "-q", "--stats", "s.json")
-        assert done.err == ""
+        assert run(f"tessellate {source}", *options, "-o", name, "-q", "--stats", "s.json").err == ""
     assert json.loads((tmp_path / "s.json").read_text())["seeds"] == tiles.sum()
     np.testing.assert_array_equal(pixels(tmp_path / "a.zarr"), expected)
     assert (tmp_path / "b.tif").read_bytes() == (tmp_path / "held.tif").read_bytes()

@@ -15,7 +15,7 @@ from vorotool.formats.images.image_header import page_count
 from vorotool.formats.volumes.opening import open_volume
 
 CLASSIC, BIG = ("H", "HHI", "I"), ("Q", "HHQ", "Q")
-SHORT, LONG, ASCII = 3, 4, 2
+LONG, ASCII = 4, 2
 PIXEL = {256: 1, 257: 1, 258: 8, 259: 1, 262: 1, 277: 1, 278: 1, 279: 1}
 
 
