@@ -12,7 +12,7 @@ import pytest
 from scipy.spatial import ConvexHull, Delaunay, Voronoi, cKDTree
 
 import vorotool
-from vorotool.engines.delaunay.space_table import space_table
+from vorotool.engines.delaunay.tetrahedralization import space_table
 
 
 def det(rows):

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, norms
+from vorotool.numeric.arrays import Columns, Floats, Indices, norms
 from vorotool.types.polygons.planar_graph import PlanarGraph
 
 FAR = 2.0**34
@@ -32,7 +30,7 @@ ROUNDING_GIVEN = 2.0**-51
 
 
 @frozen(eq=False)
-class CutCurves:
+class CutCurves(Columns):
     """Curves on the lattice, from one parameter to another."""
 
     base: Floats  # (k, 2) float64 array: a place of a line; the focus of a parabola; the center of a circle
@@ -45,10 +43,6 @@ class CutCurves:
     origin: Floats  # (k, 2) float64 array: a point that distances are measured from; NaN where that is a segment
     # (k, 3) float64 array: normal form of the segment that they are measured from otherwise; 0 along walls
     line: Floats
-
-    def __getitem__(self, rows: NDArray[Any]) -> CutCurves:
-        """Some of the curves, which may be repeated."""
-        return CutCurves(*(getattr(self, name)[rows] for name in self.__dataclass_fields__))
 
     def place(self, t: Floats) -> Floats:
         """(k, 2) where each is at its parameter."""

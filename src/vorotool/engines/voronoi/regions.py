@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import Placement, arranged
 from vorotool.engines.arrangement.repaired_polygons import given_shapes
+from vorotool.engines.common import nearest_on_segments
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi_of_groups
 from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.cut_curves import NO_REGION, CutEdges
@@ -446,10 +447,7 @@ def _squared(way: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _squared_of_segments(points: NDArray[np.float64], segments: Any, place: NDArray[np.float64]) -> NDArray[np.float64]:
-    a, b = points[segments[:, 0]], points[segments[:, 1]]
-    way = b - a
-    t = ((place - a) * way).sum(axis=1) / _squared(way)
-    return _squared(a + t.clip(0, 1)[:, None] * way - place)
+    return _squared(nearest_on_segments(place, points[segments[:, 0]], points[segments[:, 1]]) - place)
 
 
 def _exact_distance(graph: Any, element: int, at: Exact) -> Fraction:

@@ -161,14 +161,14 @@ class Tetrahedralization(OfPoints, Tabular):
     @cached_property
     def _spheres(self) -> tuple[Floats, Floats]:
         """Ways to centers within 2^-43 of their lengths, and volumes within 2^-44 of theirs."""
-        return resolved("engines.delaunay.space_table:spheres")(self)
+        return resolved("engines.delaunay.tetrahedralization:spheres")(self)
 
     # ---- tables
     def _rows(self, what: str | None = None) -> Rows:
         parts = {"tetrahedra": "abcd", "triangles": "abc", "hull": "abc", "edges": "ab"}
         name = what or "tetrahedra"
         if name == "table":
-            return Rows(resolved("engines.delaunay.space_table:space_table")(self))
+            return Rows(resolved("engines.delaunay.tetrahedralization:space_table")(self))
         if name not in parts:
             raise UsageError(f"invalid what {what!r}: expected {', '.join([*parts, 'table'])} of a Tetrahedralization")
         corners: NDArray[np.int32] = getattr(self, name)
