@@ -20,7 +20,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
 from benchmarks.timing import best, in_own_process, options, peak_of, print_head
-from vorotool.engines.delaunay.space_table import space_table
+from vorotool.engines.delaunay.tetrahedralization import space_table
 
 
 def lattice(_rng: np.random.Generator, n: int) -> np.ndarray:
