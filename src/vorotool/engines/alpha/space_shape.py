@@ -66,8 +66,8 @@ def _regions(family: SpaceAlphaComplex, reached: int) -> NDArray[np.int32]:
     """(t,) regions of tetrahedra that are joined through triangles, numbered in the order of their first ones."""
     inside = family.tetrahedron_rank < reached
     sides = family.sides
-    is_joined = np.append(inside, False)[sides].all(axis=1)  # side -1 is none
-    root = _core.graphs.connected_components(np.ascontiguousarray(sides[is_joined]), len(inside))
+    here, there = np.append(inside, False)[sides.T]  # side -1 is none
+    root = _core.graphs.connected_components(np.ascontiguousarray(sides[here & there]), len(inside))
     is_first = inside & (root == np.arange(len(root)))
     numbers = np.cumsum(is_first, dtype=np.int32) - np.int32(1)
     return np.where(inside, numbers[root], np.int32(-1))

@@ -132,8 +132,8 @@ class SpaceAlphaComplex(Value, RankedRadii, Tabular):
         if what == "edges":
             return np.stack([self.edge_min, self.edge_mid, self.edge_max], axis=1)
         if what == "triangles":
-            both = np.append(self.tetrahedron_rank, np.int32(len(self.spectrum)))[self.sides]
-            return np.column_stack([self.triangle_min, both.min(axis=1), both.max(axis=1)])
+            here, there = np.append(self.tetrahedron_rank, np.int32(len(self.spectrum)))[self.sides.T]
+            return np.stack([self.triangle_min, np.minimum(here, there), np.maximum(here, there)], axis=1)
         mid, last = self._least_ranks, len(self.spectrum)
         high = np.full(len(mid), -1, dtype=np.int32)
         np.maximum.at(high, self.edges, self.edge_max[:, None])
