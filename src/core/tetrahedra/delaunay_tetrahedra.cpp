@@ -4,6 +4,7 @@
 #include <atomic>
 #include <bit>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -179,7 +180,8 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
   result.dimension = static_cast<int>(start.size()) - 1;
   if (result.dimension < 3) return result;
   const SetPredicates predicates(order.points);
-  order.points.push_back(order.points.front());  // in place of that at infinity
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  order.points.push_back({nan, nan, nan});  // that at infinity
   TetrahedralMesh mesh(std::span(order.points).first(order.index.size()), predicates);
   CanonicalRows rows;
   try {

@@ -12,6 +12,7 @@ namespace {
 // The other places of each place, an even permutation with it; the last one is last unless it is the place.
 constexpr std::array<std::array<std::size_t, 3>, 4> others{{{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}}};
 
+constexpr std::uint8_t unnumbered = 255;
 constexpr std::size_t lanes = 4;  // tetrahedra that are tested together
 
 }  // namespace
@@ -78,70 +79,72 @@ bool PointInserter::holds(std::size_t slot, const Point3& p) const {
   return mesh_.predicates().in_sphere(point(a), point(b), point(c), point(d), p) > 0;
 }
 
+// Lists the neighbors of a slot that were not seen before.
+template <bool is_alone>
+bool PointInserter::look_around(std::size_t inner) {
+  Sides* sides = sides_.room(4);
+  std::uint32_t* seen = seen_.room(4);
+  const Row across = mesh_.across(inner);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t outer = TetrahedralMesh::slot_of(across[i]);
+    Mark& mark = mesh_.mark(outer);
+    const bool is_new = mark == Mark::live, is_removed = mark == Mark::removed;
+    if constexpr (!is_alone) {  // or else there is a branch
+      if (is_new && !owns_slot(outer)) {
+        seen_.end_at(seen);
+        return false;
+      }
+    }
+    *sides = {TetrahedralMesh::facet(inner, i), across[i]};
+    sides += !is_removed;
+    *seen = static_cast<std::uint32_t>(outer);
+    seen += is_new;
+    mark = is_removed ? Mark::removed : Mark::seen;
+  }
+  sides_.end_at(sides);
+  seen_.end_at(seen);
+  return true;
+}
+
 // Marks what is removed; false where that is not known without slots of others.
 bool PointInserter::dig(const Point3& p) {
   seen_.size = sides_.size = 0;
   mesh_.mark(cavity_[0]) = Mark::removed;
   std::size_t looked = 0, tested = 0;
   do {
-    const std::size_t count = std::min(lanes, seen_.size - tested);
-    if (count > 0) test(tested, count, p);
-    tested += count;
-    while (looked < cavity_.size && seen_.size - tested < lanes) {
-      if (!look_around(cavity_[looked++])) return false;
+    for (const std::size_t end = cavity_.size; looked < end; ++looked) {
+      if (!(is_alone_ ? look_around<true>(cavity_[looked]) : look_around<false>(cavity_[looked])))
+        return false;
     }
-  } while (tested < seen_.size);
+    for (const std::size_t end = seen_.size; tested < end; tested += lanes)
+      test(tested, std::min(lanes, end - tested), p);
+    tested = seen_.size;
+  } while (looked < cavity_.size);
   return true;
 }
 
-// Lists the neighbors of a slot that were not seen before.
-bool PointInserter::look_around(std::size_t inner) {
-  Sides* sides = sides_.room(4);
-  std::uint32_t* seen = seen_.room(4);
-  const Row& across = mesh_.across(inner);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t outer = TetrahedralMesh::slot_of(across[i]);
-    Mark& mark = mesh_.mark(outer);
-    const bool is_new = mark == Mark::live, is_removed = mark == Mark::removed;
-    if (!is_alone_ && is_new && !owns_slot(outer)) return false;
-    *sides = {TetrahedralMesh::facet(inner, i), across[i]};
-    sides += !is_removed;
-    *seen = static_cast<std::uint32_t>(outer);
-    seen += is_new;
-    mark = is_removed ? Mark::removed : Mark::seen;
-    seen_.size += is_new;
-  }
-  sides_.size = static_cast<std::size_t>(sides - sides_.items.data());
-  return true;
-}
-
-// Decides which of some slots are in the cavity.
+// Decides which of at most four slots are in the cavity.
 void PointInserter::test(std::size_t begin, std::size_t count, const Point3& p) {
-  const int* rows[lanes];
-  unsigned ghosts = 0;
-  for (std::size_t k = 0; k < lanes; ++k) {
-    const Row& row = mesh_.row(seen_[begin + std::min(k, count - 1)]);
-    rows[k] = row.data();
-    ghosts |= static_cast<unsigned>(row[3] == mesh_.infinity()) << k;
-  }
-  const SphereSides sides = batch_(mesh_.points().data(), rows, p, mesh_.predicates().sphere_bound());
-  const unsigned all = (1U << count) - 1;
+  std::uint32_t* end = seen_.room(lanes);
+  for (std::size_t k = count; k < lanes; ++k)
+    *end++ = seen_[begin];  // what more there is to test changes nothing
+  const std::uint32_t* slots = &seen_[begin];
+  const SphereSides sides =
+      batch_(mesh_.points().data(), mesh_.records(), slots, p, mesh_.predicates().sphere_bound());
   unsigned inside = sides.inside;
-  for (unsigned unsure = (ghosts | ~(sides.inside | sides.outside)) & all; unsure != 0;
-       unsure &= unsure - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(unsure));
-    const unsigned is_inside = holds(seen_[begin + k], p);
-    inside = (inside & ~(1U << k)) | is_inside << k;
+  const unsigned all = (1U << count) - 1;
+  for (unsigned unsure = ~(sides.inside | sides.outside) & all; unsure != 0; unsure &= unsure - 1) {
+    const int k = std::countr_zero(unsure);
+    inside |= static_cast<unsigned>(holds(slots[k], p)) << k;
   }
   std::uint32_t* cavity = cavity_.room(lanes);
   for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t slot = seen_[begin + k];
     const bool is_inside = (inside >> k & 1) != 0;
-    mesh_.mark(slot) = is_inside ? Mark::removed : Mark::seen;
-    *cavity = slot;
+    mesh_.mark(slots[k]) = is_inside ? Mark::removed : Mark::seen;
+    *cavity = slots[k];
     cavity += is_inside;
   }
-  cavity_.size = static_cast<std::size_t>(cavity - cavity_.items.data());
+  cavity_.end_at(cavity);
 }
 
 void PointInserter::undo() {
@@ -150,16 +153,24 @@ void PointInserter::undo() {
 }
 
 void PointInserter::list_walls() {
+  Sides* wall_sides = sides_.items.data();
+  for (const Sides sides : sides_.all()) {
+    *wall_sides = sides;
+    wall_sides += mesh_.mark(TetrahedralMesh::slot_of(sides.outside)) != Mark::removed;
+  }
+  sides_.end_at(wall_sides);
   walls_.size = 0;
-  Wall* wall = walls_.room(sides_.size + 1);
+  Wall* wall = walls_.room(sides_.size);
+  walls_.size = sides_.size;
+  const Index infinity = mesh_.infinity();
   for (const auto [inside, outside] : sides_.all()) {
     const Row& row = mesh_.row(TetrahedralMesh::slot_of(inside));
     const auto& [k, l, m] = others[TetrahedralMesh::place_of(inside)];
-    wall->a = row[k], wall->b = row[l], wall->c = row[m];
-    wall->outside = outside;
-    wall += mesh_.mark(TetrahedralMesh::slot_of(outside)) != Mark::removed;
+    *wall++ = {row[k], row[l], row[m], outside, {}};
+    for (const std::size_t place : {k, l, m}) {
+      if (row[place] != infinity) numbers_[static_cast<std::size_t>(row[place])] = unnumbered;
+    }
   }
-  walls_.size = static_cast<std::size_t>(wall - walls_.items.data());
 }
 
 bool PointInserter::reserve() {
@@ -171,63 +182,57 @@ bool PointInserter::reserve() {
 
 // A tetrahedron at each wall, with the new vertex as its first.
 void PointInserter::fill(Index v) {
-  for (const std::uint32_t slot : seen_.all()) {
-    Mark& mark = mesh_.mark(slot);
-    mark = mark == Mark::removed ? Mark::removed : Mark::live;
+  for (const std::uint32_t slot : seen_.all()) mesh_.mark(slot) = Mark::live;
+  mesh_.mark(cavity_[0]) = Mark::live;
+  while (cavity_.size > walls_.size) {
+    const std::uint32_t slot = cavity_[--cavity_.size];
+    mesh_.mark(slot) = Mark::removed;
+    free_.push_back(slot);
   }
+  std::uint32_t* slots = cavity_.room(walls_.size - cavity_.size);
+  for (; cavity_.size < walls_.size; ++cavity_.size, free_.pop_back()) {
+    mesh_.mark(free_.back()) = Mark::live;
+    *slots++ = static_cast<std::uint32_t>(free_.back());
+  }
+  const bool are_few = walls_.size / 2 + 2 <= few;  // by Euler's relation, as many vertices
+  if (are_few) number_edges();
   for (std::size_t w = 0; w < walls_.size; ++w) {
-    Wall& wall = walls_[w];
-    if (w < cavity_.size) {
-      wall.slot = cavity_[w];
-    } else {
-      wall.slot = static_cast<std::uint32_t>(free_.back());
-      free_.pop_back();
-    }
-    mesh_.mark(wall.slot) = Mark::live;
-    mesh_.row(wall.slot) = {v, wall.a, wall.b, wall.c};
-    mesh_.link(TetrahedralMesh::facet(wall.slot, 0), wall.outside);
-    if (wall.c != mesh_.infinity()) last_ = wall.slot;
+    const Wall& wall = walls_[w];
+    const std::size_t slot = cavity_[w];
+    const Row beside =
+        are_few ? Row{wall.outside, facets_[wall.edges[0]], facets_[wall.edges[1]], facets_[wall.edges[2]]}
+                : Row{wall.outside, 0, 0, 0};
+    mesh_.tetrahedron(slot) = {{v, wall.a, wall.b, wall.c}, beside};
+    mesh_.across(TetrahedralMesh::slot_of(wall.outside))[TetrahedralMesh::place_of(wall.outside)] =
+        TetrahedralMesh::facet(slot, 0);
+    if (wall.c != mesh_.infinity()) last_ = slot;
   }
-  for (std::size_t k = walls_.size; k < cavity_.size; ++k) free_.push_back(cavity_[k]);
-  if (walls_.size / 2 + 2 <= few) {  // by Euler's relation, as many vertices
-    link_few();
-  } else {
-    link_many();
-  }
-}
-
-// A number below `few` for each vertex of the insertion: that which is at the vertex, if the list agrees.
-std::size_t PointInserter::number_of(Index v) {
-  if (v == mesh_.infinity()) return few - 1;
-  std::uint8_t& at_vertex = numbers_[static_cast<std::size_t>(v)];
-  const std::size_t known = at_vertex;
-  const bool is_new = (known >= numbered_count_) | (numbered_[known] != v);
-  const std::size_t number = is_new ? numbered_count_ : known;
-  at_vertex = static_cast<std::uint8_t>(number);
-  numbered_[number] = v;
-  numbered_count_ += is_new;
-  return number;
+  if (!are_few) link_many();
 }
 
 // The walls are a sphere around the new vertex. Each edge of theirs is in two of them, in opposite directions: once
-// all have left in a table which facet is beside it, each finds the other.
-void PointInserter::link_few() {
-  numbered_count_ = 0;
-  const auto edge = [](std::size_t from, std::size_t to) {
-    return static_cast<std::uint16_t>(from * few + to);
+// all have left in a table which facet is beside it, each finds the other. Its vertices are numbered below `few` for
+// that, in bytes which list_walls has cleared.
+void PointInserter::number_edges() {
+  const auto byte_of = numbers_.data();
+  const Index infinity = mesh_.infinity();
+  constexpr std::uint32_t side = few, infinite = few - 1;
+  std::uint32_t count = 0;
+  const auto number_of = [&](Index v) {
+    const std::uint32_t known = byte_of[v], number = known == unnumbered ? count : known;
+    byte_of[v] = static_cast<std::uint8_t>(number);
+    count += known == unnumbered;
+    return number;
   };
   for (std::size_t w = 0; w < walls_.size; ++w) {
-    Wall& wall = walls_[w];
-    const std::size_t a = number_of(wall.a), b = number_of(wall.b), c = number_of(wall.c);
-    const Index facet = TetrahedralMesh::facet(wall.slot, 0);
-    facets_[edge(b, c)] = facet + 1;
-    facets_[edge(c, a)] = facet + 2;
-    facets_[edge(a, b)] = facet + 3;
-    wall.edges = {edge(c, b), edge(a, c), edge(b, a)};
-  }
-  for (const Wall& wall : walls_.all()) {
-    Row& across = mesh_.across(wall.slot);
-    for (std::size_t k = 0; k < 3; ++k) across[k + 1] = facets_[wall.edges[k]];
+    Wall& wall = walls_.items[w];
+    const std::uint32_t a = number_of(wall.a), b = number_of(wall.b);
+    const std::uint32_t c = wall.c == infinity ? infinite : number_of(wall.c);
+    const Index facet = TetrahedralMesh::facet(cavity_[w], 0);
+    facets_[b * side + c] = facet + 1;
+    facets_[c * side + a] = facet + 2;
+    facets_[a * side + b] = facet + 3;
+    wall.edges = {c * side + b, a * side + c, b * side + a};
   }
 }
 
@@ -242,8 +247,9 @@ void PointInserter::link_many() {
       mesh_.link(facet, static_cast<Index>(other - 1));
     }
   };
-  for (const Wall& wall : walls_.all()) {
-    const Index facet = TetrahedralMesh::facet(wall.slot, 0);
+  for (std::size_t w = 0; w < walls_.size; ++w) {
+    const Wall& wall = walls_[w];
+    const Index facet = TetrahedralMesh::facet(cavity_[w], 0);
     meet(wall.b, wall.c, facet + 1);
     meet(wall.c, wall.a, facet + 2);
     meet(wall.a, wall.b, facet + 3);

@@ -45,12 +45,12 @@ class PointInserter {
     std::vector<T> items;
     std::size_t size = 0;
 
-    // Room behind the end for so many more.
+    // The end, with room for so many more; and a new end.
     T* room(std::size_t more) {
       if (items.size() < size + more) items.resize(2 * (size + more));
       return items.data() + size;
     }
-    T& operator[](std::size_t k) { return items[k]; }
+    void end_at(const T* end) { size = static_cast<std::size_t>(end - items.data()); }
     const T& operator[](std::size_t k) const { return items[k]; }
     std::span<const T> all() const { return {items.data(), size}; }
   };
@@ -59,13 +59,12 @@ class PointInserter {
   struct Sides {
     Index inside, outside;
   };
-  // A facet of the cavity, its vertices counter-clockwise seen from the new vertex, an infinite one last; the facet
-  // outside; and once it is filled the tetrahedron, and its three edges in the table of pairs.
+  // A facet of the cavity: its vertices, counter-clockwise seen from the new vertex, an infinite one last; the facet
+  // outside; and where its three edges are in the table of pairs.
   struct Wall {
     Index a, b, c;
     Index outside;
-    std::uint32_t slot;
-    std::array<std::uint16_t, 3> edges;
+    std::array<std::uint32_t, 3> edges;
   };
 
   bool owns(Index v) const {
@@ -81,15 +80,15 @@ class PointInserter {
   bool locate(const Point3& p);
   bool holds(std::size_t slot, const Point3& p) const;
   bool dig(const Point3& p);
+  template <bool is_alone>
   bool look_around(std::size_t inner);
   void test(std::size_t begin, std::size_t count, const Point3& p);
   void undo();
   void list_walls();
   bool reserve();
   void fill(Index v);
-  void link_few();
+  void number_edges();
   void link_many();
-  std::size_t number_of(Index v);
 
   TetrahedralMesh& mesh_;
   std::span<std::uint8_t> numbers_;
@@ -106,9 +105,7 @@ class PointInserter {
   List<Sides> sides_;           // facets of the cavity whose other side was not yet known to be in it
   List<Wall> walls_;
   static constexpr std::size_t few = 64;  // vertices of a cavity with a table of pairs
-  std::array<Index, 256> numbered_{};     // by the number that numbers_ has
-  std::size_t numbered_count_ = 0;
-  std::array<Index, few * few> facets_;  // by the numbers of a directed edge
+  std::array<Index, few * few> facets_;   // by the numbers of a directed edge
 };
 
 }  // namespace vorotool::core::tetrahedra

@@ -11,8 +11,9 @@ namespace vorotool::core::tetrahedra {
 
 namespace {
 
-// The determinant of in_sphere is exact in doubles where all sums and products are integers below this.
-constexpr double exact_below = 0x1p52;
+// The determinant of in_sphere is exact in doubles where all sums and products are integers below 2^53: with
+// differences of at most x, y, z they are at most 24 x y z (x^2 + y^2 + z^2).
+constexpr double exact_product = 0x1p52 / 24;
 
 bool is_integer(double value) { return std::abs(value) <= 0x1p53 && std::trunc(value) == value; }
 
@@ -48,14 +49,14 @@ SetPredicates::SetPredicates(std::span<const Point3> points) {
   const bool in_range = largest <= 0x1p189;
   const double none = std::numeric_limits<double>::infinity();
   orient_bound_ = in_range ? orient_factor * above * (6 * x * y * z + orient_guard * (1 + 3 * z)) : none;
-  sphere_bound_ = {none, in_range ? sphere_factor * above * 24 : none, sphere_guard};
-  sphere_bound_.all = sphere_bound_.of(x, y, z);
+  sphere_bound_ = {none, in_range ? sphere_factor * above * 24 : none, sphere_guard, 0};
+  sphere_bound_.all = sphere_bound_.of(SphereBound::product(x, y, z));
   const auto whole = [](const Point3& p) { return is_integer(p.x) && is_integer(p.y) && is_integer(p.z); };
-  integers_ = std::all_of(points.begin(), points.end(), whole);
-  if (largest >= 0x1p16 || !integers_) return;
-  orient_exact_ = true;
-  orient_bound_ = 0.5;
-  if (largest < 0x1p9) sphere_bound_ = {0.5, 0, 0.5};
+  if (!std::all_of(points.begin(), points.end(), whole)) return;
+  sphere_bound_.exact = exact_product;
+  if (SphereBound::product(x, y, z) < exact_product) sphere_bound_.all = 0.5;
+  orient_exact_ = largest < 0x1p16;
+  if (orient_exact_) orient_bound_ = 0.5;
 }
 
 int SetPredicates::near_sphere(const std::array<const Point3*, 5>& points) const {
@@ -64,12 +65,9 @@ int SetPredicates::near_sphere(const std::array<const Point3*, 5>& points) const
   const double x = largest_of(p[0].x, p[1].x, p[2].x, p[3].x);
   const double y = largest_of(p[0].y, p[1].y, p[2].y, p[3].y);
   const double z = largest_of(p[0].z, p[1].z, p[2].z, p[3].z);
-  if (integers_ && 24 * x * y * z * (x * x + y * y + z * z) < exact_below) {
-    const double value = in_sphere_determinant(p);
-    return value != 0 ? numbers::sign_of(value) : exact_tie(points, p);
-  }
-  const double value = in_sphere_determinant(p);
-  if (std::abs(value) > sphere_bound_.of(x, y, z)) return numbers::sign_of(value);
+  const double product = SphereBound::product(x, y, z), value = in_sphere_determinant(p);
+  if (product < sphere_bound_.exact) return value != 0 ? numbers::sign_of(value) : exact_tie(points, p);
+  if (std::abs(value) > sphere_bound_.of(product)) return numbers::sign_of(value);
   return in_sphere_or_tie(*a, *b, *c, *d, *e);
 }
 

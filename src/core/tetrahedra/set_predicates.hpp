@@ -36,7 +36,6 @@ class SetPredicates {
   double orient_bound_;
   SphereBound sphere_bound_;
   bool orient_exact_ = false;  // what is within the bound is 0
-  bool integers_ = false;      // all coordinates are, and below 2^53
 };
 
 }  // namespace vorotool::core::tetrahedra

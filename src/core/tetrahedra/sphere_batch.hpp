@@ -8,25 +8,31 @@
 
 namespace vorotool::core::tetrahedra {
 
-// Bounds of the error of the determinant: one for all points of a set; and, times x y z (x^2 + y^2 + z^2) + guard, where
-// no differences are larger than x, y, z along the axes, one of a call.
+// Bounds of the error of the determinant: one for all points of a set; and, times x y z (x^2 + y^2 + z^2) + guard,
+// where no differences are larger than x, y, z along the axes, one of a call. Where x y z (x^2 + y^2 + z^2) is below
+// the last number there is no error: that is 0 unless all coordinates are integers.
 struct SphereBound {
   double all;
   double factor, guard;
+  double exact;
 
-  double of(double x, double y, double z) const {
-    return factor * (x * y * z * (x * x + y * y + z * z) + guard);
-  }
+  // Where differences are below this and exact, the keys of kernels are in lexicographic order.
+  static constexpr double largest_key = 0x1p11;
+
+  static double product(double x, double y, double z) { return x * y * z * (x * x + y * y + z * z); }
+  double of(double product) const { return factor * (product + guard); }
 };
 
-// Bit k is that of tetrahedron k: whether the sphere certainly holds the point, and whether it certainly does not.
+// Bit k is that of tetrahedron k: whether the sphere certainly holds the point, and whether it certainly does not,
+// ties broken.
 struct SphereSides {
   unsigned inside, outside;
 };
 
-// The numbers of the vertices of four positive tetrahedra, and all points.
-using SphereBatch = SphereSides (*)(const Point3* points, const int* const (&tetrahedra)[4], const Point3& p,
-                                    const SphereBound& bound);
+// Four tetrahedra of an array that has the numbers of their vertices at the front of records of eight. Of one that has
+// a vertex with coordinates that are NaN nothing is certain.
+using SphereBatch = SphereSides (*)(const Point3* points, const int (*records)[8], const unsigned* tetrahedra,
+                                    const Point3& p, const SphereBound& bound);
 
 // That for the widest vectors of this machine.
 SphereBatch sphere_batch();

@@ -17,9 +17,10 @@ struct SphereKernel {
   };
 
   // The differences of a vertex of each tetrahedron to a point.
-  static Points differences(const Point3* points, const int* const* tetrahedra, int vertex, const Point3& p) {
+  static Points differences(const Point3* points, const int* const (&rows)[width], int vertex,
+                            const Point3& p) {
     const auto gather = [&](double Point3::* axis) {
-      const auto of = [&](int k) { return points[tetrahedra[k][vertex]].*axis; };
+      const auto of = [&](int k) { return points[rows[k][vertex]].*axis; };
       if constexpr (width == 4)
         return Vector{of(0), of(1), of(2), of(3)};
       else
@@ -35,11 +36,27 @@ struct SphereKernel {
     return larger(larger(larger(a, -a), larger(b, -b)), larger(larger(c, -c), larger(d, -d)));
   }
 
+  // Exact ties, as exact_tie (set_predicates.cpp): the sign is that of the first point in lexicographic order whose
+  // lift tells in the sum. Keys are those of differences.
+  static Vector key(const Points& v) { return v.x * 0x1p24 + v.y * 0x1p12 + v.z; }
+  struct Tie {
+    static constexpr double after_all = 0x1p60;
+    Vector first = Vector{} + after_all, sign{};
+
+    void add(const Vector& key, const Vector& lowered) {
+      const Vector counted = lowered != 0 ? key : Vector{} + after_all;
+      sign = counted < first ? lowered : sign;
+      first = counted < first ? counted : first;
+    }
+  };
+
   // in_sphere_determinant (predicates.hpp) in the same order.
-  static SphereSides sides(const Point3* points, const int* const* tetrahedra, const Point3& p,
-                           const SphereBound& bound) {
-    const Points a = differences(points, tetrahedra, 0, p), b = differences(points, tetrahedra, 1, p);
-    const Points c = differences(points, tetrahedra, 2, p), d = differences(points, tetrahedra, 3, p);
+  static SphereSides sides(const Point3* points, const int (*records)[8], const unsigned* tetrahedra,
+                           const Point3& p, const SphereBound& bound) {
+    const int* rows[width];
+    for (int k = 0; k < width; ++k) rows[k] = records[tetrahedra[k]];
+    const Points a = differences(points, rows, 0, p), b = differences(points, rows, 1, p);
+    const Points c = differences(points, rows, 2, p), d = differences(points, rows, 3, p);
     const Vector ab = a.x * b.y - b.x * a.y, bc = b.x * c.y - c.x * b.y, cd = c.x * d.y - d.x * c.y;
     const Vector da = d.x * a.y - a.x * d.y, ac = a.x * c.y - c.x * a.y, bd = b.x * d.y - d.x * b.y;
     const Vector abc = a.z * bc - b.z * ac + c.z * ab, bcd = b.z * cd - c.z * bd + d.z * bc;
@@ -49,15 +66,25 @@ struct SphereKernel {
     if ((sides.inside | sides.outside) + 1 == 1U << width) return sides;
     const Vector x = largest(a.x, b.x, c.x, d.x), y = largest(a.y, b.y, c.y, d.y);
     const Vector z = largest(a.z, b.z, c.z, d.z);
-    const Vector near = bound.factor * (x * y * z * (x * x + y * y + z * z) + bound.guard);
-    return {sides.inside | Level::mask(value > near), sides.outside | Level::mask(value < -near)};
+    const Vector product = x * y * z * (x * x + y * y + z * z), near = bound.factor * (product + bound.guard);
+    const SphereSides nearer{sides.inside | Level::mask(value > near),
+                             sides.outside | Level::mask(value < -near)};
+    const unsigned exact =
+        Level::mask(product < bound.exact) & Level::mask(larger(larger(x, y), z) < bound.largest_key);
+    if (exact == 0) return nearer;
+    Tie tie;
+    tie.add(0 * x, (bcd - cda) + (dab - abc));
+    tie.add(key(a), -bcd), tie.add(key(b), cda), tie.add(key(c), -dab), tie.add(key(d), abc);
+    const Vector sign = value == 0 ? tie.sign : value;
+    return {nearer.inside | (exact & Level::mask(sign > 0)),
+            nearer.outside | (exact & Level::mask(sign < 0))};
   }
 
-  static SphereSides all(const Point3* points, const int* const (&tetrahedra)[4], const Point3& p,
-                         const SphereBound& bound) {
+  static SphereSides all(const Point3* points, const int (*records)[8], const unsigned* tetrahedra,
+                         const Point3& p, const SphereBound& bound) {
     SphereSides result{0, 0};
     for (int k = 0; k < 4; k += width) {
-      const SphereSides some = sides(points, tetrahedra + k, p, bound);
+      const SphereSides some = sides(points, records, tetrahedra + k, p, bound);
       result.inside |= some.inside << k;
       result.outside |= some.outside << k;
     }

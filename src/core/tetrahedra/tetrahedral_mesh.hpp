@@ -33,15 +33,16 @@ inline constexpr std::array<std::array<std::size_t, 3>, 4> facet_vertices{
 struct alignas(32) Tetrahedron {
   Row vertices, across;
 };
+static_assert(sizeof(Tetrahedron) == 8 * sizeof(Index));
 
-// What a slot holds: a tetrahedron; none, or one that is about to be removed; one that is looked at.
-enum class Mark : std::uint8_t { live, removed, seen };
+// What a slot holds: a tetrahedron; one that is looked at; none, or one that is about to be removed.
+enum class Mark : std::uint8_t { live, seen, removed };
 
 // Tetrahedra lie in slots; their facets are numbered 4 slot + place. A facet of the hull has a ghost beyond it, whose last vertex is infinite; its
 // three others are counter-clockwise seen from outside. Several threads may change slots that they do not share.
 class TetrahedralMesh {
  public:
-  // Distinct points, behind whose end another one can be read.
+  // Distinct points, and behind their end that at infinity, whose coordinates are NaN: no filter tells anything of it.
   TetrahedralMesh(std::span<const Point3> points, const SetPredicates& predicates);
 
   // The first tetrahedron, of vertices that are not coplanar.
@@ -67,6 +68,8 @@ class TetrahedralMesh {
     across(slot_of(b))[place_of(b)] = a;
   }
 
+  // Of each slot four vertices and four facets.
+  const Index (*records() const)[8] { return reinterpret_cast<const Index(*)[8]>(tetrahedra_.data()); }
   Tetrahedron& tetrahedron(std::size_t slot) { return tetrahedra_[slot]; }
   Row& row(std::size_t slot) { return tetrahedra_[slot].vertices; }
   const Row& row(std::size_t slot) const { return tetrahedra_[slot].vertices; }
