@@ -1,61 +1,103 @@
-"""Masks without holes and small objects: by scikit-image and scipy, as far as they have the same rules."""
+"""Masks and volumes without holes and small objects: by scipy, whatever the slabs are in which volumes are read."""
 
 import numpy as np
 import pytest
 from scipy import ndimage
 
 from support.few import few
-from vorotool import outlines, seeds_from_raster
-from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_mask
+from vorotool import outlines, seeds_from_raster, seeds_from_volume
+from vorotool.engines.tessellation.cleaned_masks import CleanedSlices, Cleaning, cleaned_mask
+from vorotool.engines.tessellation.raster_objects import PartwiseObjects
+from vorotool.engines.tessellation.volume_seeding import seeds_of_slabs
 from vorotool.errors import UsageError
 from vorotool.types.images import Raster
+from vorotool.types.volumes.volume import Volume
 
 RNG = np.random.default_rng(3)
-CORNERS = {4: ndimage.generate_binary_structure(2, 1), 8: ndimage.generate_binary_structure(2, 2)}
+CORNERS = {4: (2, 1), 8: (2, 2), 6: (3, 1), 26: (3, 3)}
+CORNERS = {name: ndimage.generate_binary_structure(*each) for name, each in CORNERS.items()}
+OTHER = {4: 8, 8: 4, 6: 26, 26: 6}
 MASKS = [
-    RNG.random((height, width)) < share
-    for height, width, share in [(30, 40, 0.5), (30, 40, 0.7), (25, 25, 0.3), (1, 9, 0.5), (9, 1, 0.5), (2, 2, 0.5)]
+    RNG.random(shape) < share
+    for *shape, share in [(30, 40, 0.5), (30, 40, 0.7), (25, 25, 0.3), (1, 9, 0.5), (9, 1, 0.5), (2, 2, 0.5)]
 ]
-MASKS += [np.zeros((3, 4), bool), np.ones((3, 4), bool), np.ones((1, 1), bool)]  # fmt: skip
+MASKS += [np.zeros((3, 4), bool), np.ones((3, 4), bool), np.ones((1, 1), bool)]
+SOLIDS = [
+    RNG.random(shape) < share
+    for *shape, share in [(9, 12, 11, 0.5), (9, 12, 11, 0.8), (7, 8, 9, 0.93), (1, 9, 8, 0.5), (9, 1, 8, 0.7)]
+]
+SOLIDS += [
+    np.zeros((2, 3, 4), bool),
+    np.ones((2, 3, 4), bool),
+    RNG.random((6, 7, 1)) < 0.5,
+    RNG.random((8, 9, 9)) < 0.1,
+]
 
 
-def filled(mask, connectivity, most):
-    """Fill holes of at most so many pixels: scikit-image takes what reaches the border for holes, too."""
-    background, count = ndimage.label(~mask, CORNERS[12 - connectivity])
-    framed = np.pad(background, 1)[[0, 1, -2, -1]], np.pad(background, 1)[:, [0, 1, -2, -1]]
-    at_border = set(framed[0].ravel()) | set(framed[1].ravel())
-    holes = [k for k in range(1, count + 1) if k not in at_border and (background == k).sum() <= most]
-    return mask | np.isin(background, holes)
+def cleaned(mask, cleaning, connectivity):
+    """Clean by scipy; pixels that were filled, objects that were left out, and how many there were."""
+    made = mask
+    if cleaning.fill_holes is not False:
+        holes = ndimage.binary_fill_holes(mask, CORNERS[OTHER[connectivity]]) & ~mask
+        numbers, count = ndimage.label(~mask, CORNERS[OTHER[connectivity]])
+        areas = np.bincount(numbers.ravel(), minlength=count + 1)
+        most = mask.size if cleaning.fill_holes is True else cleaning.fill_holes
+        made = mask | (holes & (areas[numbers] <= most))
+    numbers, count = ndimage.label(made, CORNERS[connectivity])
+    areas = np.bincount(numbers.ravel(), minlength=count + 1)
+    kept = made & (areas[numbers] >= cleaning.min_area)
+    return kept, made.sum() - mask.sum(), (areas[1:] < cleaning.min_area).sum(), count
 
 
 @pytest.mark.parametrize("connectivity", [4, 8])
+@pytest.mark.parametrize(
+    ("min_area", "most"),
+    few([(None, True), (None, 2), (None, 1000), (2, False), (1000, False), (5, True), (None, 1), (5, 5)], 6),
+)
 @pytest.mark.parametrize("mask", MASKS)
-def test_holes(mask, connectivity):
-    made = cleaned_mask(mask, Cleaning.of(None, True), connectivity=connectivity)
-    expected = ndimage.binary_fill_holes(mask, CORNERS[12 - connectivity])
+def test_masks_are_cleaned_as_by_scipy(mask, min_area, most, connectivity):
+    cleaning = Cleaning.of(min_area, most)
+    made, (expected, filled, removed, _) = (
+        cleaned_mask(mask, cleaning, connectivity=connectivity),
+        cleaned(mask, cleaning, connectivity),
+    )
     assert (made.mask == expected).all()
-    assert made.filled == expected.sum() - mask.sum()
+    assert (made.filled, made.removed) == (filled, removed)
 
 
-@pytest.mark.parametrize("connectivity", [4, 8])
-@pytest.mark.parametrize("most", few([2, 1000, 1, 5], 2))
-@pytest.mark.parametrize("mask", MASKS)
-def test_holes_of_at_most_an_area(mask, connectivity, most):
-    made = cleaned_mask(mask, Cleaning.of(None, most), connectivity=connectivity)
-    expected = filled(mask, connectivity, most)
-    assert (made.mask == expected).all()
-    assert made.filled == expected.sum() - mask.sum()
+@pytest.mark.parametrize("step", few([5, 1, 100], 1))
+@pytest.mark.parametrize("connectivity", [6, 26])
+@pytest.mark.parametrize("cleaning", [Cleaning(5, True), Cleaning(9, 2), Cleaning(0, 1), Cleaning(10**30, 3)])
+@pytest.mark.parametrize("mask", SOLIDS)
+def test_volumes_are_cleaned_as_by_scipy(mask, cleaning, connectivity, step):
+    expected, filled, removed, count = cleaned(mask, cleaning, connectivity)
+    made = CleanedSlices(PartwiseObjects(Volume(mask), connectivity=connectivity, step=step), cleaning)
+    assert (made.slices(0, len(mask)) == expected).all()
+    assert made.filled == filled
+    assert (made.removed, made.objects) == ((removed, count) if cleaning.min_area > 1 else (0, 0))
 
 
-@pytest.mark.parametrize("connectivity", [4, 8])
-@pytest.mark.parametrize("min_area", few([2, 1000, 1, 5], 2))
-@pytest.mark.parametrize("mask", MASKS)
-def test_small_objects(mask, connectivity, min_area):
-    made = cleaned_mask(mask, Cleaning.of(min_area, False), connectivity=connectivity)
-    labels, count = ndimage.label(mask, CORNERS[connectivity])
-    areas = np.bincount(labels.ravel(), minlength=count + 1)
-    assert (made.mask == mask & (areas[labels] >= min_area)).all()
-    assert made.removed == (areas[1:] < min_area).sum()
+def test_slices_are_read_in_any_order():
+    mask = SOLIDS[1]
+    expected = cleaned(mask, Cleaning(4, True), 26)[0]
+    made = CleanedSlices(PartwiseObjects(Volume(mask), connectivity=26, step=1), Cleaning(4, True))
+    for first, count in [(0, 3), (5, 1), (8, 1), (2, 4), (0, 9), (8, 1), (8, 1)]:
+        assert (made.slices(first, count) == expected[first : first + count]).all()
+    assert (made.shape, made.grid) == (mask.shape, None)
+
+
+@pytest.mark.parametrize("slices", [None, 1, 4])
+@pytest.mark.parametrize("mode", [None, "components", "pixels"])
+@pytest.mark.parametrize("connectivity", [6, 26])
+def test_seeds_are_those_of_the_clean_volume(mode, connectivity, slices):
+    grey = RNG.integers(0, 255, (9, 12, 11)).astype(np.uint8)
+    mask = cleaned(grey <= 200, Cleaning(3, 2), connectivity)[0]
+    expected = seeds_from_volume(mask, mode=mode, connectivity=connectivity)
+    options = {"mode": mode, "connectivity": connectivity, "threshold": 200, "invert": True}
+    assert seeds_from_volume(grey, **options, min_area=2.5, fill_holes=2) == expected
+    told = []
+    made = seeds_of_slabs(Volume(grey), **options, cleaning=Cleaning(3, 2), slices=slices, report=told.append)
+    assert (made, len(told)) == (expected, 1)
 
 
 def test_holes_count_as_area_and_missing_pixels_stay():

@@ -4,8 +4,15 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy import ndimage
+from skimage import segmentation
 
 import vorotool
+from support.few import few
+from support.oracles.oracles import nearest_seeds
+from vorotool import _core
+from vorotool.engines import masks
+from vorotool.engines.masks import bare_seeds
 from vorotool.engines.tessellation.frames import band_limits
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.volume_seeding import seeds_from_xyz
@@ -13,22 +20,6 @@ from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.pixels import PixelSides, pixel_sides
 from vorotool.types.points.point_set import VolumePoints
 from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds, VoxelFrame
-
-
-def brute(seeds, frame, units=(1, 1, 1)):
-    """Labels and squared distances in lattice steps: of the nearest seeds the smallest label."""
-    starts, sides = (frame.z, frame.y, frame.x), frame.shape
-    axes = [unit * seeds.scale * (start + np.arange(side, dtype=np.int64))
-            for unit, start, side in zip(units, starts, sides, strict=True)]  # fmt: skip
-    least = np.full(frame.shape, 2**62)
-    nearest = np.zeros(frame.shape, np.int64)
-    for k in np.argsort(seeds.labels, kind="stable"):
-        at = seeds.places[k, ::-1]
-        z, y, x = ((axis - unit * place) ** 2 for axis, unit, place in zip(axes, units, at, strict=True))
-        square = z[:, None, None] + y[:, None] + x
-        nearer = square < least
-        least[nearer], nearest[nearer] = square[nearer], seeds.labels[k]
-    return nearest, least
 
 
 @pytest.mark.filterwarnings("ignore:.*lie on another seed")
@@ -45,7 +36,7 @@ def test_frames_and_seeds_between_voxels(origin, scale, units):
     seeds = VolumeSeeds(near, labels, scale=scale)
     limit = Fraction(int(random.integers(1, 9)), 2)
     sweep = Tessellator(seeds, frame, sides=PixelSides(units, Fraction(1, 2)), max_distance=limit)
-    nearest, least = brute(seeds, frame, units)
+    nearest, _, least = nearest_seeds(near, labels, (*origin, 19, 14, 11), scale, units)
     within = least <= (limit * scale * 2) ** 2
     assert np.array_equal(sweep.labels(), np.where(within, nearest, 0))
     assert np.array_equal(sweep.squared_distances(), least)
@@ -55,20 +46,6 @@ def test_frames_and_seeds_between_voxels(origin, scale, units):
     for first, count in ((0, 1), (4, 5), (10, 1)):
         assert np.array_equal(whole.labels(first, count), nearest[first : first + count])
         assert np.array_equal(whole.squared_distances(first, count), least[first : first + count])
-
-
-@pytest.mark.parametrize("dtype", ["uint8", "uint16", "uint32", "int32"])
-def test_labels_of_every_type(dtype):
-    random = np.random.default_rng(2)
-    points = random.integers(0, 12, (30, 3))
-    points = np.unique(points, axis=0)
-    made = vorotool.tessellate(points, shape=(12, 12, 12), dtype=dtype)
-    assert made.labels.dtype == dtype
-    assert np.array_equal(made.labels, brute(made.seeds, made.frame)[0])
-    out = np.empty((12, 12, 12), dtype)
-    again = vorotool.tessellate(points, shape=(12, 12, 12), out=out, threads=1)
-    assert again.labels is out
-    assert np.array_equal(out, made.labels)
 
 
 def test_points_have_a_frame_of_their_own():
@@ -89,7 +66,7 @@ def test_spacing_and_distances_in_its_unit(spacing):
     made = vorotool.tessellate(points, shape=(9, 14, 15), spacing=spacing, max_distance=1.3)
     sides = pixel_sides(spacing, 3)
     assert made.sides == sides
-    nearest, least = brute(made.seeds, made.frame, sides.units)
+    nearest, _, least = nearest_seeds(made.seeds.places, made.seeds.labels, (0, 0, 0, 15, 14, 9), 1, sides.units)
     assert np.array_equal(made.labels, np.where(least * sides.step**2 <= Fraction(13, 10) ** 2, nearest, 0))
     again = vorotool.tessellate(LabelVolume(made.labels, sides=sides))
     assert again.sides == sides
@@ -163,3 +140,200 @@ def test_progress_goes_up_to_one():
         sweep.labels(first, slices)
     assert told == sorted(told)
     assert all(0 <= part <= 1 for part in told)
+
+
+# ---- Tessellations of volumes, against all distances in exact integers, SciPy and scikit-image ----
+WAYS = ("rows", "bricks")
+KINDS = ("uniform", "lattice", "plane", "line", "sphere", "outside")
+
+
+pytestmark = pytest.mark.filterwarnings("ignore:.*lie on another seed")
+
+
+def swept(places, labels, shape, **known):
+    """The sweep of voxels: slice, row and column of each."""
+    return Tessellator(bare_seeds(places, labels, shape), **known)
+
+
+def brute(places, labels, shape, units):
+    """Labels and squared distances; the places, too, have slices first."""
+    first, _, least = nearest_seeds(places[:, ::-1], labels, (0, 0, 0, *shape[::-1]), 1, units)
+    return first, least
+
+
+def seeds_of(random, kind, count, shape):
+    places = random.integers(0, shape, (count, 3))
+    if kind == "lattice":
+        places -= places % 4
+    elif kind in ("plane", "line"):
+        places[:, 0] = shape[0] // 2
+        if kind == "line":
+            places[:, random.integers(1, 3)] = 0
+    elif kind == "sphere":
+        way = random.normal(size=(count, 3))
+        middle = np.array(shape) // 2
+        places = np.rint(middle + 8 * way / np.linalg.norm(way, axis=1)[:, None]).astype(np.int64)
+    elif kind == "outside":
+        places = random.integers(-60, np.array(shape) + 60, (count, 3))
+    return places, random.integers(1, count + 1, count).astype(np.uint32)
+
+
+@pytest.mark.parametrize(
+    ("units", "arithmetic"),
+    [((1, 1, 1), "float64"), ((9001, 1, 30011), "float64 with int128"), ((2**20, 3, 2**21 - 1), "int128")],
+)
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_arithmetic_is_exact(units, arithmetic, kind):
+    random = np.random.default_rng(4)
+    places, labels = seeds_of(random, kind, 80, (17, 21, 25))
+    sweep = swept(places, labels, (17, 21, 25), sides=PixelSides(units))
+    assert kind == "outside" or sweep.arithmetic == arithmetic
+    nearest, least = brute(places, labels, (17, 21, 25), units)
+    assert np.array_equal(sweep.labels(), nearest)
+    assert np.array_equal(sweep.squared_distances(), least)
+    assert np.array_equal(sweep.distances(), np.sqrt(least.astype(float)).astype(np.float32))
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("spread", few(["farther than a word holds", "many at one place", "far apart"], 1))
+def test_seeds_are_sorted_alike_by_any_number_of_threads(way, spread):
+    random = np.random.default_rng(12)
+    shape = (24, 20, 28)
+    places = random.integers(0, shape, (60_000, 3))
+    if spread != "many at one place":
+        far = 2**14 if spread == "far apart" else 2**33
+        places[::2] += random.integers(1, far, (30_000, 3)) * np.array([2, -1, 1]) * 32
+    labels = random.integers(1, 2**32, len(places), dtype=np.uint32)
+    sweeps = [swept(places, labels, shape, threads=threads, way=way) for threads in (1, 2, 5)]
+    inside = np.flatnonzero(np.all((places >= 0) & (places < shape), axis=1))
+    own = np.full(shape, 2**32)
+    np.minimum.at(own, tuple(places[inside].T), labels[inside].astype(np.int64))
+    made = sweeps[0].labels()
+    assert np.array_equal(made[own < 2**32], own[own < 2**32])
+    assert sweeps[0].duplicates == len(places) - len(np.unique(places, axis=0))
+    for sweep in sweeps[1:]:
+        assert sweep.duplicates == sweeps[0].duplicates
+        assert np.array_equal(sweep.labels(), made)
+        assert np.array_equal(sweep.distances(), sweeps[0].distances())
+
+
+@pytest.mark.parametrize("axes", [(0, 1, 2), (1, 0, 2), (2, 1, 0), (1, 2, 0)])
+def test_axes_may_be_exchanged(axes):
+    random = np.random.default_rng(6)
+    shape, units = (12, 30, 21), (5, 2, 3)
+    places, labels = seeds_of(random, "lattice", 70, shape)
+    whole = swept(places, labels, shape, sides=PixelSides(units)).labels()
+    turned = swept(
+        places[:, axes], labels, tuple(shape[k] for k in axes), sides=PixelSides(tuple(units[k] for k in axes))
+    )
+    assert np.array_equal(turned.labels(), whole.transpose(axes))
+    mirrored = swept(np.array(shape) - 1 - places, labels, shape, sides=PixelSides(units))
+    assert np.array_equal(mirrored.labels(), whole[::-1, ::-1, ::-1])
+
+
+@pytest.mark.parametrize("density", few([0.2, 0.003], 1))
+@pytest.mark.parametrize("units", [(1, 1, 1), (60, 13, 13)])
+@pytest.mark.parametrize("first_label", few([2**31, 1], 1))
+def test_both_ways_agree_where_blocks_are_cut(density, units, first_label):
+    random = np.random.default_rng(10)
+    shape = (150, 20, 300)  # more slices, rows and columns than a block has, and not a multiple
+    places = random.integers(0, shape, (int(density * np.prod(shape)), 3))
+    places = places[(places[:, 0] < 60) | (places[:, 2] < 40)]  # an empty part
+    labels = first_label + random.permutation(len(places)).astype(np.uint32)
+    sides = PixelSides(units)
+    rows, bricks = (swept(places, labels, shape, sides=sides, threads=2, way=way) for way in WAYS)
+    assert np.array_equal(rows.labels(), bricks.labels())
+    assert np.array_equal(rows.squared_distances(), bricks.squared_distances())
+    assert np.array_equal(rows.labels(40, 7), bricks.labels(40, 7))
+
+
+def test_outputs_are_written_where_they_are_given():
+    random = np.random.default_rng(11)
+    places, labels = random.integers(0, 20, (30, 3)), np.arange(1, 31, dtype=np.uint32)
+    sweep = swept(places, labels, (20, 20, 20))
+    for dtype in (np.uint8, np.uint16, np.uint32, np.int32):
+        out = np.empty((20, 20, 20), dtype)
+        assert sweep.labels(out=out) is out
+        assert np.array_equal(out, sweep.labels())
+    squares = np.empty((3, 20, 20), np.uint32)
+    assert sweep.squared_distances(2, 3, out=squares) is squares
+    assert np.array_equal(squares, sweep.squared_distances()[2:5])
+    with pytest.raises(UsageError, match="of shape"):
+        sweep.labels(out=np.empty((20, 20), np.uint16))
+    with pytest.raises(UsageError, match="of type uint32"):
+        sweep.squared_distances(out=np.empty((20, 20, 20), np.uint64))
+    with pytest.raises(ValueError, match="the way is"):
+        swept(places, labels, (20, 20, 20), way="best")
+
+
+def test_outputs_that_do_not_fit_are_refused():
+    made = _core.volumes.VolumeTessellation(
+        *np.zeros((3, 1), np.int64), np.ones(1, np.uint32), (0, 0, 0), (4, 4, 4), 1, (1, 1, 1), "portable"
+    )
+    for shape in ((5, 4, 4), (4, 5, 4), (4, 4, 5)):
+        with pytest.raises(ValueError, match="does not fit"):
+            made.labels(np.empty(shape, np.uint16), 0, None, 1, None)
+    with pytest.raises(ValueError, match="sides of a voxel"):
+        _core.volumes.VolumeTessellation(
+            *np.zeros((3, 1), np.int64), np.ones(1, np.uint32), (0, 0, 0), (4, 4, 4), 1, (0, 1, 1), "portable"
+        )
+
+
+# ---- functions of users ----------------------------------------------------------------------------
+@pytest.mark.parametrize("spacing", [None, 2, (3, 1, 2), (1.5, 0.325, 0.325), (Fraction(1, 3), 1, Fraction(1, 7))])
+@pytest.mark.parametrize("part", few([0.02, 0.5, 0.001], 1))
+def test_distances_are_those_of_scipy(spacing, part):
+    random = np.random.default_rng(3)
+    mask = random.random((20, 31, 27)) > part
+    mask[0, 0, 0] = False
+    ours, indices = masks.distance_transform(mask, spacing=spacing, return_indices=True)
+    sampling = [float(side) for side in np.broadcast_to(1 if spacing is None else spacing, 3)]
+    theirs = ndimage.distance_transform_edt(mask, sampling=sampling)
+    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-12)
+    if all(side == int(side) for side in sampling):
+        assert np.array_equal(ours, theirs)
+    assert not mask[tuple(indices)].any()
+    way = (indices - np.indices(mask.shape)) * np.array(sampling)[:, None, None, None]
+    np.testing.assert_allclose(np.sqrt((way**2).sum(axis=0)), ours, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("distance", [0, 1, 2.5, float("inf")])
+@pytest.mark.parametrize("spacing", [None, (3, 1, 2), 0.5])
+def test_labels_grow_as_those_of_scikit_image(distance, spacing):
+    random = np.random.default_rng(5)
+    labels = np.zeros((15, 24, 30), np.int16)
+    for label in (9, 2, 31, 7):
+        z, y, x = (random.integers(0, side - 5) for side in labels.shape)
+        labels[z : z + 4, y : y + 5, x : x + 5] = label
+    ours = masks.expand_labels(labels, distance, spacing=spacing)
+    assert ours.dtype == labels.dtype
+    assert np.array_equal(ours[labels > 0], labels[labels > 0])
+    theirs = segmentation.expand_labels(labels, distance, spacing=1 if spacing is None else spacing)
+    assert np.array_equal(ours != 0, theirs != 0)
+    z, y, x = np.nonzero(labels)
+    units = (1, 1, 1) if not isinstance(spacing, tuple) else spacing
+    nearest, _ = brute(np.stack([z, y, x], axis=1), labels[z, y, x], labels.shape, units)
+    assert np.array_equal(ours, np.where(ours != 0, nearest, 0))
+
+
+@pytest.mark.parametrize("function", [masks.distance_transform, masks.expand_labels])
+def test_what_is_no_volume_is_refused_by_masks(function):
+    with pytest.raises(UsageError, match=r"or 3 of them, \(depth, height, width\)"):
+        function(np.eye(3, dtype=int)[None] * 0, spacing=(1, 2))
+    with pytest.raises(LimitError, match="2 x 3 x 4 = 24 voxels, more than max_pixels=23"):
+        function(np.zeros((2, 3, 4), int), max_pixels=23)
+    with pytest.raises(InputError, match="color image"):
+        function(np.zeros((4, 5, 3), np.uint8))
+    with pytest.raises(InputError, match="some are masked"):
+        function(np.ma.array(np.zeros((1, 1, 2)), mask=[[[0, 1]]]))
+
+
+def test_volumes_that_say_nothing():
+    assert masks.distance_transform(np.zeros((0, 2, 3))).shape == (0, 2, 3)
+    assert not masks.expand_labels(np.zeros((3, 4, 5), np.uint8)).any()
+    with pytest.raises(InputError, match="expected at least one zero pixel"):
+        masks.distance_transform(np.ones((3, 4, 5)))
+    with pytest.raises(InputError, match="holds the value -2 in slice 0, row 0, column 1: labels must be integers"):
+        masks.expand_labels(np.full((1, 1, 2), [0, -2]))
+    with pytest.raises(InputError, match="round them first"):
+        masks.expand_labels(np.ones((2, 2, 2)))

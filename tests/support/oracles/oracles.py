@@ -84,3 +84,29 @@ def paper_passes(seeds, m_columns, m_rows, passes=2):
         if passes == 2:
             sweep(j, j + 1)
     return v[1:-1, 1:-1].T
+
+
+def nearest_seeds(places, labels, window, scale=1, units=(1, 1, 1)):
+    """Give for each pixel or voxel the smallest and the largest label of its nearest seeds, and the squared distance.
+
+    The places and the window have x first, the units, as the results, the slices or rows. In Python's integers where
+    those of 64 bits may not hold the squares.
+    """
+    places, count = np.asarray(places, dtype=object), len(window) // 2
+    spans = zip(window[:count], window[count:], units[:count][::-1], strict=True)
+    axes = [unit * scale * (start + np.arange(side).astype(object)) for start, side, unit in spans]
+    reach = sum(
+        (abs(axis).max() + abs(unit * places[:, k]).max()) ** 2
+        for k, (axis, unit) in enumerate(zip(axes, units[:count][::-1], strict=True))
+    )
+    kind = np.int64 if reach < 2**62 else object
+    least = np.full(window[count:][::-1], -1, dtype=kind)
+    first, last = np.zeros(least.shape, np.int64), np.zeros(least.shape, np.int64)
+    for k in np.argsort(labels, kind="stable"):
+        square = 0
+        for axis, unit, place in zip(axes[::-1], units[:count], places[k][::-1], strict=True):
+            square = np.add.outer(square, ((axis - unit * place) ** 2).astype(kind))
+        nearer = (least < 0) | (square < least)
+        last[nearer | (square == least)] = labels[k]
+        least[nearer], first[nearer] = square[nearer], labels[k]
+    return first, last, least
