@@ -7,17 +7,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-import vorotool
 from support.families.alpha_cases import quietly
 from support.families.point_families import FAMILIES, draw
 from support.few import few
 from support.oracles.alpha_oracle import rounded_root
-from support.processes.heard_signals import stop
-from support.readers.written import assert_same
 from vorotool import alpha_complex
 
 families = pytest.mark.parametrize("name", FAMILIES)
-ARRAYS = ("edges", "sides", "r_min", "r_mid", "r_max", "rank_min", "rank_mid", "rank_max", "triangle_rank", "spectrum")
 
 
 def distinct(points):
@@ -74,15 +70,6 @@ def test_radii_are_correctly_rounded_and_ranked(name, n):
     assert family.spectrum.tolist() == [rounded_root(square) for square in sorted(values)]
 
 
-@families
-def test_threads_change_nothing(name):
-    points = draw(name, 100 if name == "any_double" else 3000, 4)  # exact levels take their time
-    one = quietly(points, threads=1)
-    for threads in (2, 5):
-        other = quietly(points, threads=threads)
-        assert_same(ARRAYS, one, other)
-
-
 def test_a_radius_is_compared_exactly():
     """0.1 as a double is more than 1/10: three points whose circle has exactly that radius tell them apart."""
     family = alpha_complex([[0, 0], [4, 0], [0, 3]])
@@ -99,22 +86,3 @@ def test_a_radius_is_compared_exactly():
     assert isinstance(flat.radius_from(1), Fraction)
     assert [flat.reached(flat.radius_from(k)) for k in range(2)] == [1, 2]
     assert flat.reached(1e308) == 1
-
-
-def test_agreement_with_gudhi():
-    gudhi = pytest.importorskip("gudhi", reason="GUDHI is not installed: its alpha complex is not compared")
-    for seed in range(3):
-        points = draw("uniform", 600, seed)
-        family = alpha_complex(points)
-        tree = gudhi.AlphaComplex(points=points, precision="exact").create_simplex_tree()
-        theirs = {tuple(simplex): value for simplex, value in tree.get_filtration()}
-        for (a, b), r in zip(family.edges.tolist(), family.r_min.tolist(), strict=True):
-            assert r * r == pytest.approx(theirs[a, b], rel=1e-12)
-        for corners, rank in zip(family.mesh.triangles.tolist(), family.triangle_rank, strict=True):
-            assert family.spectrum[rank] ** 2 == pytest.approx(theirs[tuple(sorted(corners))], rel=1e-12)
-
-
-def test_progress_can_stop_it():
-    mesh = vorotool.delaunay(draw("uniform", 300_000, 0))
-    with pytest.raises(KeyboardInterrupt):
-        alpha_complex(mesh, threads=1, progress=stop)

@@ -1,5 +1,6 @@
 """Planar graphs of polygons and lines as the library makes them."""
 
+import re
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -9,8 +10,6 @@ import pytest
 import shapely
 
 from support.few import few
-from support.processes.heard_signals import stop
-from support.readers.written import assert_same
 from vorotool import (
     InputError,
     LimitError,
@@ -19,10 +18,13 @@ from vorotool import (
     VorotoolWarning,
     planar_graph,
     read,
+    skeleton_approx,
+    skeleton_exact,
     verify_planar_graph,
+    voronoi,
 )
 from vorotool.convert.polygons import as_polygons
-from vorotool.engines.arrangement import planar_graph as engine
+from vorotool.errors import RepairWarning
 from vorotool.types.polygons.shapely_geometry import to_shapely
 
 DATA = Path(__file__).parents[3] / "data"
@@ -166,25 +168,8 @@ def test_natural_earth(name):
         assert area_of(graph, polygon) == pytest.approx(shape.area, abs=2 * graph.largest_move * shape.length)
 
 
-def test_threads_change_nothing():
-    ring = np.random.default_rng(1).normal(size=(70_000, 2)).cumsum(axis=0)[::700]
-    one, three = (quietly(ring, threads=threads)[0] for threads in (1, 3))
-    assert_same(("points", "segments", "segment_faces", "face_polygon", "source_edge"), one, three)
-
-
-def test_progress_and_interruption():
-    ring = np.random.default_rng(1).normal(size=(20_000, 2)).cumsum(axis=0)
-    seen = []
-    with pytest.warns(VorotoolWarning):
-        planar_graph(ring, progress=seen.append)
-    assert all(0 <= fraction <= 1 for fraction in seen)
-
-    with pytest.raises(KeyboardInterrupt):
-        planar_graph(np.tile(ring, (20, 1)), progress=stop)
-
-
 def test_limits(monkeypatch):
-    monkeypatch.setattr(engine, "MOST_VERTICES", 3)
+    monkeypatch.setattr("vorotool.engines.arrangement.planar_graph.MOST_VERTICES", 3)
     with pytest.raises(LimitError, match="4 vertices, more than 3"):
         planar_graph(SQUARE)
 
@@ -226,3 +211,88 @@ def test_the_checker_finds_faults():
     ]:
         with pytest.raises(VerificationError, match=message):
             verify_planar_graph(faulty)
+
+
+# ---- What is said of polygons on the lattice: which features were repaired, and for which it is coarse ----
+TEN = np.array([[0, 0], [10, 0], [10, 10], [0, 10]])
+SPIKE = np.array([[0, 0], [10, 0], [10, 10], [5, 10], [5, 30], [5, 10], [0, 10]])
+ENGINES = [planar_graph, skeleton_exact, lambda given: skeleton_exact(given, features="together"), voronoi]
+
+
+def shifted(ring, x, y):
+    return ring + np.array([x, y])
+
+
+def said_by(call, *arguments, **options):
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        call(*arguments, **options)
+    return [str(each.message) for each in said if issubclass(each.category, RepairWarning)]
+
+
+def features_in(text):
+    names = re.search(r"features? ([0-9, ]+)", text)
+    assert names is not None, text
+    return [int(each) for each in names[1].split(",") if each.strip()]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_features_that_are_repaired_are_named(engine):
+    twice = np.array([[0, 0], [0, 0], [10, 0], [10, 10], [0, 10]])
+    hole = {"shell": shifted(TEN, 160, 0), "holes": [shifted(TEN, 200, 0).tolist()]}
+    given = [
+        TEN,
+        shifted(SPIKE, 40, 0),
+        shifted(TEN, 80, 0),
+        shifted(twice, 120, 0),
+        hole,
+        {"line": [[1000, 3], [1001, 3]]},
+    ]
+    (text,) = said_by(engine, given)
+    assert features_in(text) == [2, 4, 5]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_the_first_ten_features_are_named(engine):
+    (text,) = said_by(engine, [shifted(SPIKE, 100 * k, 0) for k in range(14)])
+    assert features_in(text) == list(range(1, 11))
+    assert "4 more" in text
+
+
+def test_sites_that_meet_are_not_named():
+    (text,) = said_by(voronoi, [TEN, shifted(TEN, 5, 5), shifted(SPIKE, 40, 0), shifted(TEN, 45, 15)])
+    assert features_in(text) == [3]
+
+
+@pytest.mark.parametrize("engine", [*ENGINES, lambda given: skeleton_approx(given, step=1)])
+@pytest.mark.parametrize("height", [1e-7, 1e-12])
+def test_what_the_lattice_is_coarse_for_is_said(engine, height):
+    turn = np.array([[0.8, 0.6], [-0.6, 0.8]])
+    for sliver in (TEN * [1.2, height / 10], TEN * [1.2, height / 10] @ turn + 0.1):
+        text = said_by(engine, [shifted(TEN, 40, 0), sliver])[-1]
+        assert features_in(text) == [2]
+        assert f"{2.0**-25:.3g}" in text
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_small_houses_beside_something_far_are_said(engine):
+    houses = [shifted(TEN * 1e-4, k / 3, k / 7) for k in range(12)]
+    far = shifted(TEN, 1e4, 1e4)
+    (text,) = said_by(engine, [*houses, far])
+    assert features_in(text) == list(range(1, 11))
+    assert "2 more" in text
+    assert not said_by(engine, houses)
+
+
+def test_what_the_lattice_has_as_it_is_given_is_not_coarse():
+    pixels = [TEN / 10, TEN / 10 + [2.0**30, 0], TEN / 10 + [0, 2.0**30]]
+    for engine in ENGINES:
+        assert not said_by(engine, pixels)
+
+
+def test_strict_refuses_what_the_lattice_is_coarse_for():
+    given = [shifted(TEN, 40, 0), TEN * [1.2, 1e-8]]
+    for engine in (planar_graph, skeleton_exact):
+        with pytest.raises(InputError) as caught:
+            engine(given, strict=True)
+        assert features_in(str(caught.value)) == [2]

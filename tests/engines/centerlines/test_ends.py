@@ -6,7 +6,7 @@ import shapely
 
 import vorotool
 from support.families.skeleton_shapes import crossing, star, valid
-from support.families.stems import disc_with_stems, letter, lines_of, lost, mask_of
+from support.families.stems import lines_of, lost
 from support.families.strips import strip
 from support.few import few
 from vorotool.engines.centerlines.extended_ends import TIP
@@ -112,26 +112,6 @@ def extended_of(shape):
     extended = vorotool.extend_ends(pruned)
     vorotool.verify_extended(extended, pruned)
     return pruned, extended
-
-
-@pytest.mark.parametrize("seed", few(range(12), 5))
-def test_stems_of_discs_are_kept(seed):
-    shape, stems = disc_with_stems(np.random.default_rng(seed))
-    mask, corner = mask_of(shape)
-    for pruned, extended in (extended_of(shape), extended_of(mask)):
-        before, after = lines_of(pruned), shapely.union_all(extended.to_shapely(flatten=0.01))
-        for place, width in stems:
-            at = shapely.Point(place if pruned.polygons.connectivity is None else place - corner)
-            assert after.distance(at) <= max(width / 2, before.distance(at) + 0.02)
-        assert lost(pruned, extended) == []
-
-
-@pytest.mark.parametrize("seed", few(range(9), 4))
-def test_letters_keep_their_strokes(seed):
-    pytest.importorskip("matplotlib")
-    _, shape = letter(np.random.default_rng(seed), (24, 60, 150)[seed % 3])
-    assert lost(*extended_of(shape)) == []
-    assert lost(*extended_of(mask_of(shape)[0])) == []
 
 
 def test_a_ball_beyond_a_narrow_neck_is_kept():

@@ -10,9 +10,8 @@ import pytest
 import shapely
 
 import vorotool
-from support.families.point_families import QUICK, SLOW_LAST, draw
+from support.families.point_families import draw
 from support.few import few
-from support.processes.heard_signals import stop
 from vorotool import Box, InputError, VerificationError, VorotoolWarning, delaunay, verify_cells, voronoi_cells
 from vorotool.engines.delaunay.cells import cut_out
 
@@ -36,16 +35,6 @@ def test_against_shapely():
         areas = np.zeros(len(points))
         areas[site] = shapely.area(shapely.intersection(peer[polygon], frame))
         np.testing.assert_allclose(cells.areas, areas, rtol=1e-4)  # GEOS merges close vertices
-
-
-@pytest.mark.parametrize("name", few(SLOW_LAST, QUICK))
-def test_threads_change_nothing(name):
-    mesh = delaunay(np.unique(draw(name, 3000, 4), axis=0))
-    one = voronoi_cells(mesh, threads=1)
-    for threads in (2, 5):
-        other = voronoi_cells(mesh, threads=threads)
-        np.testing.assert_array_equal(one.coordinates, other.coordinates)
-        np.testing.assert_array_equal(one.starts, other.starts)
 
 
 def test_sites_outside_the_frame():
@@ -180,14 +169,6 @@ def test_the_checker_finds_faults():
         verify_cells(vorotool.CellSet([[0, 0]], square[::-1], [0, 4], Box(0, 0, 1, 1)))
     with pytest.raises(InputError, match="before clipping"):
         verify_cells(quietly([[0, 0]], clip=shapely.box(0, 0, 1, 1)))
-
-
-def test_interrupts_reach_the_kernel():
-    """The monitor is asked every 50 ms."""
-    mesh = delaunay(draw("uniform", 200_000, 1))
-
-    with pytest.raises(KeyboardInterrupt):
-        voronoi_cells(mesh, threads=1, progress=stop)
 
 
 def coast(count, seed, holes=3):

@@ -194,15 +194,6 @@ def test_missing_cells_and_turned_faces_are_found():
         replace(CELLS, corners=CELLS.corners + 99999)
 
 
-def test_lattices_and_rounded_points_are_verified():
-    points = np.random.default_rng(5).integers(0, 5, (70, 3))
-    points = np.unique(points, axis=0)
-    for scale in (1.0, 0.1):
-        cells = voronoi_cells(points * scale, frame=(-scale, -scale, -scale, 6 * scale, 6 * scale, 6 * scale))
-        verify_cells(cells)
-        assert cells.volumes.sum() == pytest.approx((6 * scale) ** 3, rel=1e-13)
-
-
 @pytest.mark.parametrize("seed", range(40))
 def test_faces_that_roundings_make_small_are_no_faults(seed):
     points = np.random.default_rng([45, seed]).integers(0, 4, (30, 3)) * 0.1

@@ -73,15 +73,6 @@ def test_the_first_of_several_places():
     assert (closest.on_a, closest.on_b) == ((7, 1), (7, 0))
 
 
-def test_the_number_of_threads_changes_nothing():
-    random = np.random.default_rng(3)
-    a, b = ([shapely.LineString(random.random((5000, 2)).cumsum(axis=0))] for _ in range(2))
-    for boundary in (False, True):
-        one = hausdorff(a, b, boundary=boundary, threads=1)
-        assert one == hausdorff(a, b, boundary=boundary, threads=4)
-        assert distance(a, b, threads=1) == distance(a, b, threads=3)
-
-
 @pytest.mark.parametrize("empty", [[], np.empty((0, 2)), ["POLYGON EMPTY"]])
 def test_what_has_no_places(empty):
     for function in (hausdorff, distance):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import prod
 from typing import NamedTuple
 
@@ -13,7 +14,7 @@ from hypothesis.extra import numpy as hnp
 from scipy import ndimage
 
 import vorotool
-from vorotool.engines.label_images.measured_regions import measure_parts
+from vorotool.engines.label_images.measured_regions import measure_parts, regions_of_parts
 from vorotool.engines.label_images.regions import (
     color_regions,
     measure_regions,
@@ -22,6 +23,7 @@ from vorotool.engines.label_images.regions import (
     region_table,
     voronoi_diagram,
 )
+from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import Frame, pixel_sides
@@ -330,12 +332,6 @@ def test_diagram_into_a_given_array(kind):
             voronoi_diagram(labels, **options)
 
 
-@pytest.mark.parametrize("threads", [1, 2, 5])
-def test_diagram_does_not_depend_on_threads(threads):
-    labels = np.random.default_rng(8).integers(0, 6, (3000, 1500)).astype(np.uint16)
-    np.testing.assert_array_equal(voronoi_diagram(labels, threads=threads), voronoi_diagram(labels, threads=1))
-
-
 # ---- colors ------------------------------------------------------------------------------------------
 
 
@@ -417,17 +413,36 @@ def test_what_does_not_fit():
         measure_parts([np.zeros((1, 2, 3), np.uint8), np.zeros((1, 3, 2), np.uint8)])
 
 
-@kinds
-def test_what_progress_raises_stops_the_work(kind):
-    shape = (1500, 2000) if kind is IMAGES else (40, 300, 1000)
-    labels = np.random.default_rng(1).integers(1, 60_000, shape).astype(np.uint16)
-    seen = []
+# ---- regions that are measured slab by slab ----
+FRAME = VoxelFrame(-4, 2, 7, 13, 9, 16)
 
-    def stop(fraction):
-        seen.append(fraction)
-        raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
-        measure_regions(kind.image(labels), threads=2, progress=stop)
-    assert len(seen) == 1
-    assert 0 <= seen[0] <= 1
+def sweep_of(random, *, scale, spacing, max_distance):
+    extent = np.array([FRAME.width, FRAME.height, FRAME.depth]) * scale
+    corner = np.array([FRAME.x, FRAME.y, FRAME.z]) * scale
+    places = corner + random.integers(-extent // 4, extent + extent // 4, (12, 3))  # some are outside
+    labels = random.choice([1, 2, 3, 5, 300, 70000], 12)
+    seeds = VolumeSeeds(places, labels, scale=scale)
+    return Tessellator(seeds, FRAME, sides=pixel_sides(spacing, 3), max_distance=max_distance)
+
+
+@pytest.mark.parametrize(("scale", "spacing"), [(1, (1, 1, 1)), (4, (1, 1, 1)), (2, (Fraction(5, 2), 1, 3))])
+@pytest.mark.parametrize("max_distance", [None, 4])
+def test_tables_do_not_depend_on_slabs(scale, spacing, max_distance):
+    random = np.random.default_rng(scale)
+    for _ in range(5):
+        sweep = sweep_of(random, scale=scale, spacing=spacing, max_distance=max_distance)
+        volume = LabelVolume(sweep.labels(), FRAME, sweep.seeds, sweep.sides)
+        cuts = np.unique(random.integers(1, FRAME.depth, 4))
+        parts = zip(np.split(volume.labels, cuts), np.split(sweep.squared_distances(), cuts), strict=True)
+        regions = regions_of_parts(parts, FRAME, sweep.sides, sweep.seeds)
+        assert regions.table() == region_table(volume, distance2=sweep.squared_distances())
+        assert regions.neighbors() == neighbor_table(volume)
+
+
+def test_without_distances_there_is_no_largest():
+    sweep = sweep_of(np.random.default_rng(1), scale=1, spacing=(1, 1, 1), max_distance=None)
+    regions = regions_of_parts([(sweep.labels(), None)], FRAME, sweep.sides, sweep.seeds)
+    volume = LabelVolume(sweep.labels(), FRAME, sweep.seeds, sweep.sides)
+    assert regions.largest_squares is None
+    assert regions.table() == region_table(volume)

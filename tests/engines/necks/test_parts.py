@@ -10,7 +10,6 @@ import shapely
 import vorotool
 from engines.necks.test_necks import DUMBBELL
 from vorotool import (
-    UsageError,
     VerificationError,
     necks,
     parts,
@@ -69,12 +68,6 @@ def test_pieces_say_what_their_polygon_says():
 @pytest.mark.filterwarnings("ignore")
 def test_nothing_inside_has_no_parts():
     assert repr(parts([{"line": [[0, 0], [4, 4]]}])) == "Parts: 0 pieces of 1 polygon"
-
-
-@pytest.mark.parametrize("ratio", [-0.1, 1.5, float("inf")])
-def test_what_is_no_ratio_is_refused(ratio):
-    with pytest.raises(UsageError, match="neck"):
-        parts(DUMBBELL, neck=ratio)
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,12 @@
 """The segment Voronoi diagram against brute force, the checker, and itself under symmetries."""
 
+import warnings
+
 import numpy as np
 import pytest
 
+import vorotool
+from support.families import skeleton_shapes
 from support.families.segment_families import (
     BOOST_FAILURE,
     FAMILIES,
@@ -17,10 +21,10 @@ from support.few import few
 from support.oracles import boost_oracle
 from support.oracles.segment_oracle import differences, voronoi_diagram
 from vorotool import _core
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, verify_segment_voronoi
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides, verify_segment_voronoi
 from vorotool.errors import InputError, LimitError
 
-ARRAYS = ("vertices", "radius", "vertex_starts", "vertex_sites", "edges", "edge_sites")
 SMALL = 16
 """Sites that brute force takes a fraction of a second for."""
 
@@ -115,15 +119,6 @@ def test_what_is_far_away_changes_no_digit():
     assert len(found) == 1
 
 
-@pytest.mark.parametrize("name", few(["star_smooth", "star_rough", "comb", "hilbert", "wheel"], 2))
-def test_threads_change_nothing(name):
-    """Rounds long enough to be shared."""
-    points, segments = draw(name, 20_000, 2)
-    one, three = (segment_voronoi(points, segments, threads=threads) for threads in (1, 3))
-    for array in ARRAYS:
-        assert np.array_equal(getattr(one, array), getattr(three, array))
-
-
 @pytest.mark.parametrize("name", few(name for name in FAMILIES if name not in JOINED))
 def test_visited_vertices_grow_as_log_n(name):
     """Every doubling adds at most 4. Teeth see all the others: in a plain spatial order the work is quadratic."""
@@ -176,14 +171,38 @@ def test_too_many_sites_are_refused_before_memory_is_taken():
         segment_voronoi(points, [])
 
 
-def test_a_callback_that_raises_stops_the_work():
-    points, segments = draw("star_rough", 30_000, 1)
-    called = []
+# ---- Diagrams of which one side is left out: what is made of the other one is the same ----
+def contours(random):
+    """Polygons with vertices inside straight edges, at which cells have no area."""
+    image = np.kron(random.integers(0, 2, (6, 8)), np.ones((3, 3), dtype=int))
+    return vorotool.outlines(image, outline="contour")
 
-    def stop(fraction):
-        called.append(fraction)
-        raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
-        _core.segment_voronoi.SegmentVoronoi(points, segments, 1, stop)
-    assert len(called) == 1
+SHAPES = (*skeleton_shapes.FAMILIES, *skeleton_shapes.TOUCHING, contours)
+
+
+def graphs(family):
+    with warnings.catch_warnings(action="ignore"):
+        for seed in range(12):
+            graph = planar_graph(family(np.random.default_rng(seed)))
+            is_joined = np.isin(np.arange(len(graph.points)), graph.segments).all()
+            if graph.is_inside.any() and is_joined:
+                yield graph
+
+
+@pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
+def test_what_is_left_is_of_the_whole_diagram_and_in_its_order(family):
+    for graph in graphs(family):
+        whole = segment_voronoi(graph.points, graph.segments)
+        part = segment_voronoi(graph.points, graph.segments, unwanted=unwanted_sides(graph, graph.is_inside))
+        known = {tuple(whole.sites_of(v).tolist()): v for v in range(len(whole))}
+        at = [known[tuple(part.sites_of(v).tolist())] for v in range(len(part))]
+        assert at == sorted(at)
+        assert np.array_equal(whole.vertices[at], part.vertices)
+        assert np.array_equal(whole.radius[at], part.radius)
+        assert (whole.radius[np.setdiff1d(np.arange(len(whole)), at)] > 0).all()
+        number = np.append(at, -1)
+        edges = {tuple(row): k for k, row in enumerate(np.hstack([whole.edges, whole.edge_sites]).tolist())}
+        own = np.hstack([number[part.edges], part.edge_sites]).tolist()
+        places = [edges[tuple(row)] for row in own]
+        assert places == sorted(places)

@@ -89,40 +89,6 @@ def test_shapes_of_data_under_the_symmetries_of_the_square(name):
 
 # ---- relations ----
 
-SHAPE = np.array([[0, 0], [60, 0], [60, 30], [31, 30], [30, 50], [7, 50], [-5, 20]], dtype=float)
-HOLE = np.array([[8, 8], [9, 18], [20, 14]], dtype=float)
-
-
-def holed(move):
-    return skeleton_of([{"shell": move(SHAPE).tolist(), "holes": [move(HOLE).tolist()]}], side="both")
-
-
-def described(skeleton, back=lambda xy: xy):
-    """What does not depend on the order of arcs."""
-    ends = np.sort(np.round(back(skeleton.vertices) + 0.0, 6)[skeleton.arcs].view([("x", float), ("y", float)]), axis=1)
-    bent = np.round(np.nan_to_num(back(skeleton.control), nan=-1e9), 5)
-    rows = zip(
-        ends[..., 0].tolist(), skeleton.length.round(6).tolist(), bent.tolist(), skeleton.side.tolist(), strict=True
-    )
-    return sorted((tuple(map(tuple, ends)), length, tuple(control), side) for ends, length, control, side in rows)
-
-
-@pytest.mark.parametrize("turns", range(4))
-@pytest.mark.parametrize("mirrored", [False, True])
-def test_symmetries(turns, mirrored):
-    matrix = np.linalg.matrix_power(np.array([[0, -1], [1, 0]]), turns) @ np.diag([-1 if mirrored else 1, 1])
-    made = holed(lambda xy: xy @ matrix.T)
-    assert described(made, lambda xy: xy @ matrix) == described(holed(lambda xy: xy))
-
-
-@pytest.mark.parametrize("threads", [2, 3])
-def test_threads_change_nothing(threads):
-    land = vorotool.read(DATA / "great-lakes.geojson", properties=False)
-    land = vorotool.skeleton_exact(land.xy[: land.ring_starts[1]]).polygons
-    one, other = (vorotool.skeleton_exact(land, side="both", threads=count) for count in (1, threads))
-    for name in ("vertices", "radius", "arcs", "control", "sites", "branch", "length"):
-        assert np.array_equal(getattr(one, name), getattr(other, name), equal_nan=name == "control"), name
-
 
 # ---- the whole diagram, and gaps ----
 

@@ -13,7 +13,6 @@ from fuzz import features as fuzz
 from fuzz.features import FAMILIES, as_set
 from support.few import few
 from support.oracles.outline_oracle import random_labels
-from support.processes.heard_signals import stop
 from support.readers.written import ARCS, differing
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import placed_vertices
@@ -115,14 +114,6 @@ def test_many_boxes_over_each_other_are_divided_fast():
     boxes = shapely.box(*low.T, *(low + size).T)
     one, other = shapely.STRtree(boxes).query(boxes, predicate="intersects")
     assert not ((sheet[one] == sheet[other]) & (one != other)).any()
-
-
-def test_what_progress_raises_stops_the_work(monkeypatch):
-    monkeypatch.setattr(feature_sheets, "BATCH", 60)
-    polygons = vorotool.outlines(np.tile(np.pad(np.ones((3, 3), dtype=bool), 2), (9, 9)))
-
-    with pytest.raises(KeyboardInterrupt):
-        feature_skeleton(polygons, threads=2, progress=stop)
 
 
 def test_a_point_outside_its_polygon_is_left_out_with_a_word():

@@ -203,21 +203,6 @@ def test_unknown_instruction_set_is_refused(monkeypatch):
         vorotool.tessellate([[0, 0]], shape=(4, 4))
 
 
-def test_a_progress_callback_that_raises_stops_the_kernel():
-    class StopNowError(Exception):
-        pass
-
-    def progress(_fraction):
-        raise StopNowError
-
-    seeds = np.random.default_rng(0).integers(0, 20000, (100_000, 2))
-    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
-        points = vorotool.seeds_from_points(vorotool.PointSet(seeds))
-        sweep = Tessellator(points, Frame(0, 0, 20000, 20000), threads=1, progress=progress)
-    with pytest.raises(StopNowError):
-        sweep.labels(0, 8000)
-
-
 def test_a_frame_that_nobody_gave_has_at_most_2_to_28_pixels():
     side = 2**14
     for far in ([side, side - 1], [704052.0, 663838.0]):

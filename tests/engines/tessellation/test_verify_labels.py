@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 import vorotool
 from support.oracles.oracles import nearest_seeds
-from support.processes.heard_signals import stop
 from vorotool.engines.tessellation.tessellate import verify_labels
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.types.pixels import Frame, PixelSides
@@ -137,10 +136,3 @@ def test_limits(n):
     verify_labels(one, near, frame, max_distance2=2**200)
     with pytest.raises(InputError, match="labels have shape"):
         verify_labels(np.ones((1,) * (n - 1) + (2,), np.uint8), near, frame)
-
-
-def test_what_progress_raises_stops_the_work():
-    labels = np.random.default_rng(1).integers(1, 900, (30, 300, 300)).astype(np.uint16)
-    seeds = VolumeSeeds(np.random.default_rng(2).integers(0, 300, (900, 3)), np.arange(1, 901))
-    with pytest.raises(KeyboardInterrupt):
-        verify_labels(labels, seeds, VoxelFrame(0, 0, 0, 300, 300, 30), threads=2, progress=stop)

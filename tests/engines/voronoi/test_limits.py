@@ -114,15 +114,6 @@ def test_the_default_frame_holds_all_cells(limit):
     assert shapely.box(left, bottom, left + width, bottom + height).contains_properly(whole)
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_cells_of_random_sites_are_the_union_of_buffers(seed):
-    sites = mixed_sites(np.random.default_rng(seed), 5, grid=4)
-    cells = within(sites, 25)
-    assert cells.areas.sum() == pytest.approx(
-        shapely.union_all(shapely.buffer(sites, 25, quad_segs=4096)).area, rel=1e-6
-    )
-
-
 def test_with_enclosures_the_default_frame_holds_all_cells():
     line = shapely.LineString([(11.5, -3), (11.5, 24)])
     cells = quietly(shapely.from_wkt(ROOMS), max_distance=30, enclosures=line)

@@ -3,12 +3,16 @@
 import numpy as np
 import pytest
 import shapely
-from tests.support.families.site_families import mixed_sites
+from tests.support.families.site_families import mixed_sites, squares
+from tests.support.oracles.voronoi_oracle import EQUAL, NEARLY, distances_of
 
 import vorotool
 from support.few import few
 from support.oracles.voronoi_oracle import quietly
 from vorotool import voronoi
+from vorotool.convert.sites import as_sites
+from vorotool.engines.voronoi.regions import site_at
+from vorotool.engines.voronoi.site_graph import owned_graph
 from vorotool.engines.voronoi.voronoi import ties
 
 BOX = shapely.box(0, 0, 10, 10)
@@ -154,3 +158,34 @@ def test_what_several_sites_have_is_counted():
     assert ties(voronoi(cross)) == {"shared_points": 1, "shared_segments": 0, "overlaps": 0}
     corner = [shapely.Point(0, 0), shapely.box(0, 0, 2, 2), shapely.box(1, 1, 3, 3)]
     assert ties(voronoi(corner)) == {"shared_points": 3, "shared_segments": 0, "overlaps": 1}
+
+
+# ---- The site of one place against shapely, and where places tie exactly ----
+def owned_of(geometry):
+    sites = as_sites(geometry)
+    return owned_graph(sites.polygons, sites.site)
+
+
+@pytest.mark.filterwarnings("ignore::vorotool.errors.RepairWarning")
+@pytest.mark.parametrize("seed", range(12))
+def test_random_places(seed):
+    random = np.random.default_rng(seed)
+    geometry = mixed_sites(random, int(random.integers(1, 9)), [None, 10][seed % 2])
+    owned = owned_of(geometry)
+    places = random.random((60, 2)) * 140 - 20
+    distance = distances_of(geometry, places)
+    least = distance.min(axis=0)
+    ties = distance <= least + EQUAL * 100
+    for k in np.flatnonzero((ties == (distance <= least + NEARLY * 100)).all(axis=0)).tolist():
+        assert site_at(owned, tuple(places[k].tolist())) == ties[:, k].argmax()
+
+
+def test_ties_are_of_the_first():
+    owned = owned_of(squares(3))
+    assert [site_at(owned, (x, 1.5)) for x in (1.5, 3.5)] == [0, 1]
+    for places in ([[0, 0], [6, 0]], [[6, 0], [0, 0]]):
+        assert site_at(owned_of(places), (3.0, 7.0)) == 0
+        near = np.nextafter(3.0, 4.0)  # nearer to (6, 0), by less than distances in doubles tell
+        assert site_at(owned_of(places), (near, 7.0)) == places.index([6, 0])
+    assert site_at(owned_of([shapely.box(2, 2, 4, 4), shapely.box(0, 0, 6, 6)]), (3.0, 3.0)) == 0
+    assert site_at(owned_of([shapely.box(2, 2, 4, 4), shapely.box(0, 0, 6, 6)]), (1.0, 3.0)) == 1

@@ -93,19 +93,22 @@ def nearest_seeds(places, labels, window, scale=1, units=(1, 1, 1)):
     those of 64 bits may not hold the squares.
     """
     places, count = np.asarray(places, dtype=object), len(window) // 2
-    spans = zip(window[:count], window[count:], units[:count][::-1], strict=True)
-    axes = [unit * scale * (start + np.arange(side).astype(object)) for start, side, unit in spans]
+    units, sides = units[:count], window[count:][::-1]
+    axes = [
+        unit * scale * (start + np.arange(side).astype(object))
+        for unit, start, side in zip(units, window[:count][::-1], sides, strict=True)
+    ]
+    places = places[:, ::-1] * np.array(units, dtype=object)
     reach = sum(
-        (abs(axis).max() + abs(unit * places[:, k]).max()) ** 2
-        for k, (axis, unit) in enumerate(zip(axes, units[:count][::-1], strict=True))
+        max(axis[-1] - each.min(), each.max() - axis[0]) ** 2 for axis, each in zip(axes, places.T, strict=True)
     )
     kind = np.int64 if reach < 2**62 else object
-    least = np.full(window[count:][::-1], -1, dtype=kind)
-    first, last = np.zeros(least.shape, np.int64), np.zeros(least.shape, np.int64)
+    least = np.full(sides, -1, dtype=kind)
+    first, last = np.zeros(sides, np.int64), np.zeros(sides, np.int64)
     for k in np.argsort(labels, kind="stable"):
         square = 0
-        for axis, unit, place in zip(axes[::-1], units[:count], places[k][::-1], strict=True):
-            square = np.add.outer(square, ((axis - unit * place) ** 2).astype(kind))
+        for axis, place in zip(axes, places[k], strict=True):
+            square = np.add.outer(square, ((axis - place) ** 2).astype(kind))
         nearer = (least < 0) | (square < least)
         last[nearer | (square == least)] = labels[k]
         least[nearer], first[nearer] = square[nearer], labels[k]
