@@ -32,7 +32,7 @@ FRAME = geopandas.GeoDataFrame({"name": ["a", None, "c"]}, geometry=SERIES.value
         iter(XY),
         np.array(XY),
         np.array(XY, dtype=">f8"),
-        np.array(XY, dtype=np.float32),
+        *(np.array(XY, dtype=kind) for kind in (np.float16, np.float32, np.longdouble)),
         np.asfortranarray(XY),
         np.repeat(np.array(XY), 2, axis=0)[::2],
         np.array(XY, dtype=object),

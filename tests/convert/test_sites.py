@@ -2,7 +2,6 @@
 
 import geopandas
 import numpy as np
-import pandas
 import pytest
 import shapely
 
@@ -54,24 +53,6 @@ def test_what_is_known_of_features():
     assert (joined.ids, joined.index, joined.properties) == (list("abcdef"), None, {"name": list("abcdef")})
     with pytest.raises(UsageError, match=r"'x'"):
         as_sites(frame, by="x")
-
-
-@pytest.mark.parametrize(
-    "source",
-    [
-        [[2, 1], [7, 5]],
-        np.array([[2, 1], [7, 5]]),
-        PointSet([[2, 1], [7, 5]]),
-        pandas.DataFrame({"x": [2, 7], "y": [1, 5]}),
-        {"x": [2, 7], "y": [1, 5]},
-        ["POINT (2 1)", "POINT (7 5)"],
-    ],
-)
-def test_points(source):
-    sites = as_sites(source)
-    assert sites.polygons.xy.tolist() == [[2, 1], [7, 5]]
-    assert sites.polygons.ring_kind.tolist() == [2, 2]
-    assert (sites.site.tolist(), sites.count) == ([0, 1], 2)
 
 
 # ---- images ------------------------------------------------------------------------------------------

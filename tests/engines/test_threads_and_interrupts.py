@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from vorotool.engines.alpha.complex import alpha_complex
 
 import vorotool
 from support.families.families import distinct_pixels
@@ -45,7 +44,7 @@ MANY = {  # enough of everything to be shared
         for name in SLOW_LAST
     },
     **{
-        f"alpha complex of {name}": lambda threads, name=name: alpha_complex(
+        f"alpha complex of {name}": lambda threads, name=name: vorotool.alpha_complex(
             draw(name, 100 if name == "any_double" else 3000, 4), threads=threads
         )
         for name in SLOW_LAST
@@ -90,7 +89,7 @@ MANY_SEEDS = RANDOM(0).permutation(20_000**2)[:100_000]
 CALLS = {
     "delaunay": lambda stop: vorotool.delaunay(POINTS, threads=1, progress=stop),
     "cells": lambda stop: vorotool.voronoi_cells(vorotool.delaunay(POINTS), threads=1, progress=stop),
-    "alpha": lambda stop: alpha_complex(vorotool.delaunay(POINTS), threads=1, progress=stop),
+    "alpha": lambda stop: vorotool.alpha_complex(vorotool.delaunay(POINTS), threads=1, progress=stop),
     "planar graph": lambda stop: vorotool.planar_graph(np.tile(WALK[:20_000], (20, 1)), progress=stop),
     "segments": lambda stop: segment_voronoi(*draw_graph("star_rough", 30_000, 1), threads=1, progress=stop),
     "repair": lambda stop: vorotool.repair_digital(

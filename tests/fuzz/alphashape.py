@@ -5,8 +5,6 @@ rationals, at critical radii and between them; all with a permutation of the poi
 must give the same radii.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

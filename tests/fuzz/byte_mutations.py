@@ -1,7 +1,5 @@
 """Changes of files that keep most of their structure."""
 
-from __future__ import annotations
-
 import gzip
 import random
 import re

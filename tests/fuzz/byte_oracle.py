@@ -1,7 +1,5 @@
 """What must hold of every input, however damaged: it is read, or refused with a message."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import math

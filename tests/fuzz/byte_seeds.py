@@ -1,7 +1,5 @@
 """Small valid files of every format that is read: what the fuzzer of bytes begins with."""
 
-from __future__ import annotations
-
 import gzip
 import io
 import itertools

@@ -5,8 +5,6 @@ along every bisector in rationals. Some of the points are inserted into the tria
 the arrays of the triangulation of all.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 
 import numpy as np

@@ -4,8 +4,6 @@ Each case is checked by the shipped checker; small ones also against the definit
 permutation of its points and another number of threads, which must give the same triangles in the same order.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from fuzz.runner import Cases, Comparison, Verdict

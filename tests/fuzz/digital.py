@@ -5,8 +5,6 @@ The repaired mesh must pass the shipped checker, have every site, and be the exa
 how many sets needed each step of the repair.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The largest discs beside shapely's, sampled axes, and the checker: `--cases 1000 --seed 1`."""
 
-from __future__ import annotations
-
 import numpy as np
 import shapely
 

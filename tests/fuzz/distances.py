@@ -1,7 +1,5 @@
 """Hausdorff and smallest distances against bounds by brute force, and against shapely: `--cases 10000 --seed 1`."""
 
-from __future__ import annotations
-
 import shapely
 
 from fuzz.runner import Cases, Comparison, Verdict

@@ -4,8 +4,6 @@ Skeletons of discs with stems and of letters lose no branch when they are extend
 vertices end where their axes do.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import shapely
 

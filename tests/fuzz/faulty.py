@@ -301,27 +301,6 @@ def can_mount():
     return subprocess.run(["unshare", "-m", "true"], capture_output=True, check=False).returncode == 0
 
 
-def mounted(place):
-    """A file system that is full after some pages, or read-only."""
-    if not can_mount():
-        return no_space(place)
-    is_full = place.chance.random() < 0.7
-    inside, size = place.folder / "mounted", sum(map(len, place.new.values()))
-    inside.mkdir()
-    mount("-t", "tmpfs", "-o", "size=32m", "tmpfs", inside)
-    try:
-        for path in (*place.folder.glob("*.csv"), *place.folder.glob("*.json"), *place.folder.glob("out.*")):
-            (shutil.copytree if path.is_dir() else shutil.copy)(path, inside / path.name)
-        (inside / "messages").symlink_to(place.folder / "messages")
-        used = os.statvfs(inside)
-        pages = used.f_blocks - used.f_bfree + place.chance.randrange(1 + size // PAGE)
-        mount("-o", f"remount,size={pages * used.f_frsize}" if is_full else "remount,ro", inside)
-        place.run(inside)
-        return place.judge(inside) + ["it was written"] * (place.code == 0 and not is_full)
-    finally:
-        subprocess.run(["umount", inside], check=True)
-
-
 def mount(*arguments):
     """Mount a file system."""
     subprocess.run(["mount", *arguments], check=True)
@@ -371,7 +350,6 @@ def folder_as_target(place):
 PLACES = {
     "no space": no_space,
     "read-only": read_only,
-    "small disk": mounted,
     "renamed folder": renamed,
     "removed folder": removed,
     "folder as target": folder_as_target,

@@ -5,8 +5,6 @@ tiny triangles that keeps the lattice. What is inside each must be what one diag
 the results must follow when the features are permuted or given twice, whatever the threads and the batches.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from fuzz.runner import Cases, Comparison, Verdict

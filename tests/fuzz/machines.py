@@ -6,8 +6,6 @@ In a time that is too short for that (`--seconds 60`), a few commands at a time,
 settings, both kinds.
 """
 
-from __future__ import annotations
-
 import argparse
 import random
 import time

@@ -1,7 +1,5 @@
 """Necks against brute force in fractions, and the parts between them: `--cases 1000 --seed 1`."""
 
-from __future__ import annotations
-
 import numpy as np
 import shapely
 

@@ -1,7 +1,5 @@
 """Offsets beside the buffers of shapely, and shapes rebuilt from skeletons: `--cases 1000 --seed 1`."""
 
-from __future__ import annotations
-
 import numpy as np
 import shapely
 

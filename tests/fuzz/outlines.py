@@ -1,7 +1,5 @@
 """Outlines of random label images, all kinds, and their skeletons through the checker: `--cases 20000 --seed 1`."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

@@ -4,8 +4,6 @@ Each case is checked by the shipped checker, and its segments given again as lin
 ones are compared with the definition in rationals: segments, the edges that each is part of, the polygons of its sides.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from fuzz.runner import Cases, Comparison, Verdict

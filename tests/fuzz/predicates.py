@@ -4,8 +4,6 @@ A quarter of the calls each are orient2d, incircle, orient3d and in_sphere, the 
 compared as well where it decides.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

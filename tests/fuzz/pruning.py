@@ -1,7 +1,5 @@
 """Pruned skeletons against brute force, and as parts of each other: `--cases 1000 --seed 1`."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fuzz.runner import of_families

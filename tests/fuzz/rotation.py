@@ -3,8 +3,6 @@
 A third of the rotated shapes is rounded to 2^-20 of the extent too, so that vertices move by more than the placement.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

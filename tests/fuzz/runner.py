@@ -1,7 +1,5 @@
 """What the comparisons of many random cases share: their options, the loop over the cases, and what is printed."""
 
-from __future__ import annotations
-
 import argparse
 import time
 import warnings

@@ -8,8 +8,6 @@ is compared with Boost's diagram, which is wrong now and then even there if brut
 few sites with brute force.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections import Counter
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Approximate skeletons of broken polygons and lines through their checker: `--cases 2000 --seed 1`."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -5,8 +5,6 @@ not go with the square of the step, in the median over steps that are no longer 
 met, or from the exact skeleton not where no corner is flatter than 170 degrees. `--places 100`
 """
 
-from __future__ import annotations
-
 import argparse
 import time
 import warnings

@@ -5,8 +5,6 @@ Cases 8 k to 8 k + 7 are one shape under the 8 symmetries of the square; now and
 `--first` and `--seconds` do the work in pieces.
 """
 
-from __future__ import annotations
-
 from fuzz.runner import Cases, Comparison, Verdict
 from support.families.skeleton_shapes import DATA, FAMILIES, under_symmetries
 from support.readers.written import differing

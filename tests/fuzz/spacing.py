@@ -5,8 +5,6 @@ largest distance, squared distances, and where doubles hold their squares distan
 configuration. The comparison looks at every seed, in 64-bit integers where they hold the squares, else in Python's.
 """
 
-from __future__ import annotations
-
 import os
 from fractions import Fraction
 from math import gcd, isqrt

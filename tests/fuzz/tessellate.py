@@ -4,8 +4,6 @@ Every configuration is checked on each instruction set of this machine, with 1 t
 a pixel counts once a configuration.
 """
 
-from __future__ import annotations
-
 import os
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Local thickness of random images, beside all arcs and bounds without a skeleton: `--cases 2000 --seed 1`."""
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 

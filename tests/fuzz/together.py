@@ -4,8 +4,6 @@ Each has its share of the time, two of them run side by side, and what each coun
 compared nothing in its share fails.
 """
 
-from __future__ import annotations
-
 import argparse
 import subprocess
 import sys

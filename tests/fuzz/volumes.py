@@ -6,8 +6,6 @@ comparison takes the least of a distance and a label axis by axis, or seed by se
 64-bit integers and in NumPy alone.
 """
 
-from __future__ import annotations
-
 from math import isqrt
 from typing import Any, NamedTuple
 

@@ -9,8 +9,6 @@ symmetries areas and neighbors stay, but for rounding. Where the lattice closes 
 left out with a warning, only the map itself is checked.
 """
 
-from __future__ import annotations
-
 import re
 import warnings
 from functools import lru_cache

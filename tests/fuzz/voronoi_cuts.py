@@ -7,8 +7,6 @@ by shapely's overlays, faces and distances. Where doubles do not tell a cut from
 counted: at most one in 500 may be.
 """
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

@@ -5,8 +5,6 @@ results lie close to themselves: lattices of tenths, thirds and thousandths of a
 are nearly so, terraces in UTM whose walls are equal up to rounding, and pieces of real land.
 """
 
-from __future__ import annotations
-
 import json
 import tempfile
 from collections.abc import Callable, Iterator

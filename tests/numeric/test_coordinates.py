@@ -1,6 +1,5 @@
 """Coordinates of every kind: copied exactly, or refused in words."""
 
-from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
@@ -23,29 +22,6 @@ def tessellated(points):
 
 def skeletonized(points):
     return vorotool.skeleton_exact(points).polygons.xy
-
-
-TAKERS = pytest.mark.parametrize("take", [triangulated, tessellated, skeletonized], ids=lambda take: take.__name__)
-
-
-@TAKERS
-@pytest.mark.parametrize(
-    "make",
-    [
-        lambda: (pair for pair in PAIRS),
-        lambda: iter(PAIRS),
-        lambda: map(tuple, PAIRS),
-        lambda: np.ma.array(PAIRS),
-        lambda: np.array(PAIRS, dtype=object),
-        lambda: np.array(PAIRS, dtype=np.float16),
-        lambda: np.array(PAIRS, dtype=np.uint64),
-        lambda: np.array(PAIRS, dtype=np.longdouble),
-        lambda: [[Fraction(x), Decimal(y)] for x, y in PAIRS],
-        lambda: np.asfortranarray(np.array(PAIRS, dtype=float)),
-    ],
-)
-def test_coordinates_of_every_kind_are_taken(take, make):
-    assert take(make()).tolist() == PAIRS
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,5 @@
 """Radii correctly rounded and compared exactly, against rational numbers."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

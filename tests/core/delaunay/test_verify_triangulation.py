@@ -1,7 +1,5 @@
 """Mutations: the checker finds every fault that is put into a right triangulation."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

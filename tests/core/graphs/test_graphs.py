@@ -1,7 +1,5 @@
 """Cycles of permutations, components, colorings and planar maps, beside definitions."""
 
-from __future__ import annotations
-
 from itertools import chain, pairwise
 
 import networkx

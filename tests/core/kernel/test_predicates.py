@@ -1,8 +1,5 @@
 """The predicates of the plane and of space on every level, against determinants of Python's integers."""
 
-from __future__ import annotations
-
-from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
@@ -48,25 +45,6 @@ families = pytest.mark.parametrize(
 )
 
 
-def by_elimination(points):
-    """The sign of the determinant of coordinates, for a point more their squares, and 1, in rationals."""
-    n, d = points.shape
-    rows = [[Fraction(v) for v in p] for p in points.tolist()]
-    rows = [[*row, *([sum(v * v for v in row)] if n == d + 2 else []), Fraction(1)] for row in rows]
-    sign = 1 if d == 2 else -1
-    for k in range(len(rows)):
-        pivot = next((i for i in range(k, len(rows)) if rows[i][k] != 0), None)
-        if pivot is None:
-            return 0
-        if pivot != k:
-            rows[k], rows[pivot], sign = rows[pivot], rows[k], -sign
-        sign *= 1 if rows[k][k] > 0 else -1
-        for i in range(k + 1, len(rows)):
-            factor = rows[i][k] / rows[k][k]
-            rows[i] = [v - factor * w for v, w in zip(rows[i], rows[k], strict=True)]
-    return sign
-
-
 @families
 def test_a_level_is_right_or_undecided(predicate, name):
     points, right = predicate.calls(name, seed=1)
@@ -92,12 +70,6 @@ def test_the_families_are_hard(predicate):
     right = np.concatenate([signs for _, signs in drawn])
     assert beyond.mean() > 0.3
     assert all((right[beyond] == sign).mean() > 0.05 for sign in (-1, 0, 1))
-
-
-@families
-def test_integer_oracle_agrees_with_fractions(predicate, name):
-    points, right = predicate.calls(name, seed=1)
-    assert [by_elimination(p) for p in points[:20]] == right[:20].tolist()
 
 
 @pytest.mark.parametrize("name", ["uniform", "any_double", *cases.NEAR_DEGENERATE[3]])

@@ -6,6 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from support.oracles.space_alpha_oracle import cross, dot, minus
 from vorotool._core import tetrahedra
 
 FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
@@ -71,18 +72,6 @@ def table(points, threads=1, labels=None):
 
 
 # ---- rationals -----------------------------------------------------------------------------------
-def cross(p, q):
-    return [p[i - 2] * q[i - 1] - p[i - 1] * q[i - 2] for i in range(3)]
-
-
-def dot(p, q):
-    return sum(x * y for x, y in zip(p, q, strict=True))
-
-
-def minus(p, q):
-    return [x - y for x, y in zip(p, q, strict=True)]
-
-
 def exact_sphere(corners):
     """The way from the first corner to the center, and the volume."""
     b, c, d = (minus(corner, corners[0]) for corner in corners[1:])

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import itertools
 from fractions import Fraction
 
@@ -322,81 +320,86 @@ def test_rows_are_canonical():
     assert all(first < second < min(others) for first, second, *others in complete)
 
 
-class TestFaults:
-    points = np.random.default_rng(11).random((60, 3))
+POINTS = np.random.default_rng(11).random((60, 3))
 
-    def broken(self, message, points=None, **changes):
-        points = self.points if points is None else points
-        made = triangulate(points)
-        arrays = {name: made[name].copy() for name in ("tetrahedra", "neighbors", "first")}
-        for name, change in changes.items():
-            change(arrays[name])
-        assert message in fault(points, made, **arrays)
 
-    def test_orientation(self):
-        def swap(rows):
-            rows[5, [2, 3]] = rows[5, [3, 2]]
+def put(*place, value):
+    return lambda rows: rows.__setitem__(place if len(place) > 1 else place[0], value)
 
-        self.broken("tetrahedron 5 is not positive", tetrahedra=swap)
 
-    def test_neighbors(self):
-        def turn(rows):
-            rows[7] = np.roll(rows[7], 1)
+def swapped(rows):
+    rows[5, [2, 3]] = rows[5, [3, 2]]
 
-        self.broken("wrong neighbor", neighbors=turn)
 
-    def test_a_neighbor_that_is_missing(self):
-        def cut(rows):
-            t = np.flatnonzero((rows >= 0).all(axis=1))[0]
-            u = rows[t, 0]
-            rows[u, rows[u] == t] = -1
-            rows[t, 0] = -1
+def turned(rows):
+    rows[7] = np.roll(rows[7], 1)
 
-        self.broken("the hull", neighbors=cut)
 
-    def test_indices(self):
-        self.broken("does not exist", tetrahedra=lambda rows: rows.__setitem__((3, 0), 60))
-        self.broken("does not exist", tetrahedra=lambda rows: rows.__setitem__((3, 0), -1))
-        self.broken("neighbor that does not exist", neighbors=lambda rows: rows.__setitem__((3, 0), len(rows)))
+def cut(rows):
+    t = np.flatnonzero((rows >= 0).all(axis=1))[0]
+    u = rows[t, 0]
+    rows[u, rows[u] == t] = -1
+    rows[t, 0] = -1
 
-    def test_first(self):
-        points = np.concatenate([self.points, self.points[:1]])
-        self.broken("first is not the first point", points, first=lambda first: first.__setitem__(60, 60))
-        self.broken("first is not the first point", points, first=lambda first: first.__setitem__(5, 4))
 
-    def test_a_missing_point(self):
-        made = triangulate(self.points)
-        more = np.concatenate([self.points, [self.points.mean(axis=0)]])
-        first = np.arange(61, dtype=np.int32)
-        assert fault(more, made, first=first) == "no tetrahedron has point 60"
-        outside = np.concatenate([self.points, [[9.0, 9, 9]]])
-        assert fault(outside, made, first=first) == "no tetrahedron has point 60"
+@pytest.mark.parametrize(
+    ("message", "name", "change"),
+    [
+        ("tetrahedron 5 is not positive", "tetrahedra", swapped),
+        ("wrong neighbor", "neighbors", turned),
+        ("the hull", "neighbors", cut),
+        ("does not exist", "tetrahedra", put(3, 0, value=60)),
+        ("does not exist", "tetrahedra", put(3, 0, value=-1)),
+        ("neighbor that does not exist", "neighbors", lambda rows: put(3, 0, value=len(rows))(rows)),
+        ("first is not the first point", "first", put(60, value=60)),
+        ("first is not the first point", "first", put(5, value=4)),
+    ],
+)
+def test_changed_arrays_are_found(message, name, change):
+    points = np.concatenate([POINTS, POINTS[:1]]) if name == "first" else POINTS
+    made = triangulate(points)
+    array = made[name].copy()
+    change(array)
+    assert message in fault(points, made, **{name: array})
 
-    def test_nothing(self):
-        made = triangulate(self.points)
-        none = np.zeros((0, 4), np.int32)
-        assert "not coplanar" in fault(self.points, made, tetrahedra=none, neighbors=none)
 
-    def test_another_triangulation(self):
-        """The Delaunay triangulation of points that are moved a little is none of the points where they were."""
-        moved = self.points + np.random.default_rng(12).normal(size=(60, 3)) * 0.01
-        assert fault(self.points, triangulate(moved)) is not None
+def test_a_missing_point():
+    made = triangulate(POINTS)
+    more = np.concatenate([POINTS, [POINTS.mean(axis=0)]])
+    first = np.arange(61, dtype=np.int32)
+    assert fault(more, made, first=first) == "no tetrahedron has point 60"
+    outside = np.concatenate([POINTS, [[9.0, 9, 9]]])
+    assert fault(outside, made, first=first) == "no tetrahedron has point 60"
 
-    @pytest.mark.parametrize("family", [lattice, cylinder, integer_sphere])
-    def test_ties_broken_in_another_way(self, family):
-        """The same points seen in a mirror have another order."""
-        points = family(np.random.default_rng(13))
-        made = triangulate(points * [-1, 1, 1])
-        other = {"tetrahedra": np.ascontiguousarray(made["tetrahedra"][:, [0, 1, 3, 2]])}
-        other["neighbors"] = np.ascontiguousarray(made["neighbors"][:, [0, 1, 3, 2]])
-        assert "ties are broken in another way" in fault(points, made, **other)
 
-    def test_a_hull_that_goes_round_twice(self):
-        """Five tetrahedra around an edge, in the order of a pentagram."""
-        angle = np.arange(5) * 4 * np.pi / 5
-        points = np.concatenate([np.c_[np.cos(angle), np.sin(angle), 0 * angle], [[0, 0, -1], [0, 0, 1.0]]])
-        rows = np.array([[5, 6, k, (k + 1) % 5] for k in range(5)], dtype=np.int32)
-        neighbors = np.array([[-1, -1, (k + 1) % 5, (k - 1) % 5] for k in range(5)], dtype=np.int32)
-        assert (tetrahedra.orient3d(points[rows]) == 1).all()
-        made = {"tetrahedra": rows, "neighbors": neighbors, "first": np.arange(7, dtype=np.int32)}
-        assert "round" in fault(points, made) or "not convex" in fault(points, made)
+def test_nothing():
+    made = triangulate(POINTS)
+    none = np.zeros((0, 4), np.int32)
+    assert "not coplanar" in fault(POINTS, made, tetrahedra=none, neighbors=none)
+
+
+def test_another_triangulation():
+    """The Delaunay triangulation of points that are moved a little is none of the points where they were."""
+    moved = POINTS + np.random.default_rng(12).normal(size=(60, 3)) * 0.01
+    assert fault(POINTS, triangulate(moved)) is not None
+
+
+@pytest.mark.parametrize("family", [lattice, cylinder, integer_sphere])
+def test_ties_broken_in_another_way(family):
+    """The same points seen in a mirror have another order."""
+    points = family(np.random.default_rng(13))
+    made = triangulate(points * [-1, 1, 1])
+    other = {"tetrahedra": np.ascontiguousarray(made["tetrahedra"][:, [0, 1, 3, 2]])}
+    other["neighbors"] = np.ascontiguousarray(made["neighbors"][:, [0, 1, 3, 2]])
+    assert "ties are broken in another way" in fault(points, made, **other)
+
+
+def test_a_hull_that_goes_round_twice():
+    """Five tetrahedra around an edge, in the order of a pentagram."""
+    angle = np.arange(5) * 4 * np.pi / 5
+    points = np.concatenate([np.c_[np.cos(angle), np.sin(angle), 0 * angle], [[0, 0, -1], [0, 0, 1.0]]])
+    rows = np.array([[5, 6, k, (k + 1) % 5] for k in range(5)], dtype=np.int32)
+    neighbors = np.array([[-1, -1, (k + 1) % 5, (k - 1) % 5] for k in range(5)], dtype=np.int32)
+    assert (tetrahedra.orient3d(points[rows]) == 1).all()
+    made = {"tetrahedra": rows, "neighbors": neighbors, "first": np.arange(7, dtype=np.int32)}
+    assert "round" in fault(points, made) or "not convex" in fault(points, made)

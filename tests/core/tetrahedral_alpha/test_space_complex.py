@@ -1,7 +1,5 @@
 """Radii of simplices of points in space against empty balls in fractions."""
 
-from __future__ import annotations
-
 from math import inf, isfinite, sqrt
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Alpha shapes: their polygons and counts, the choice of r, thresholds, and what their checker finds."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Alpha complexes: their radii beside the definition in rationals, and what must not change them."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Alpha shapes of points in space: surfaces, measures, curves, the automatic radius, and the checker."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 from math import inf, sqrt

@@ -75,21 +75,6 @@ def test_strokes_of_masks_reach_their_ends(cap, is_curved):
     assert np.quantile(off, 0.9) < 1.25
 
 
-@pytest.mark.parametrize("is_curved", [False, True])
-def test_the_stroke_is_drawn_again(is_curved):
-    """With its mean width and butt caps the line covers the mask but for pixels along its outline."""
-    random = np.random.default_rng(8)
-    for _ in range(6):
-        shape, _ = stroke(random, "flat", is_curved=is_curved)
-        pixels = mask(shape)
-        skeleton = vorotool.prune(vorotool.skeleton_exact(vorotool.outlines(pixels)), scale=1.5)
-        extended = vorotool.extend_ends(skeleton)
-        (line,) = extended.to_shapely(flatten=0.1)
-        again = mask(line.buffer(extended.width_mean[0] / 2, cap_style="flat"))
-        outline = shape.length
-        assert np.count_nonzero(again != pixels) < 0.5 * outline
-
-
 def test_the_checker_finds_faults():
     extended = vorotool.extend_ends(vorotool.skeleton_exact([[0, 0], [6, 0], [6, 2], [3, 1.8], [0, 2]]))
     vorotool.verify_extended(extended)
@@ -173,18 +158,6 @@ def test_strips_end_in_the_middle_of_their_ends(seed):
     vorotool.verify_extended(extended, skeleton)
     ends = extended.ends[~np.isnan(extended.ends[:, :, 0])]
     assert max(np.hypot(*(ends - end).T).min() for end in true) < 0.01 * width, made.kind
-
-
-@pytest.mark.parametrize("cap", ["flat", "round"])
-@pytest.mark.parametrize("count", [20, 100, 1000])
-def test_a_bent_road_ends_in_the_middle(cap, count):
-    turns = np.linspace(0, 2, count)
-    axis = 10 * np.stack([np.cos(turns), np.sin(turns)], axis=1)
-    road = shapely.LineString(axis).buffer(2, cap_style=cap)
-    out = np.stack([axis[0] - axis[1], axis[-1] - axis[-2]])
-    true = axis[[0, -1]] + (2 * out / np.hypot(*out.T)[:, None] if cap == "round" else 0)
-    found = vorotool.centerline(vorotool.skeleton_exact(road)).ends[0]
-    assert max(np.hypot(*(found - end).T).min() for end in true) < 0.04
 
 
 @pytest.mark.parametrize("begin", [0.3, 1.2, 2.9, 4.4])

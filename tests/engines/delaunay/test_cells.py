@@ -1,7 +1,5 @@
 """Voronoi cells of points beside rationals and shapely, their frames, clips and checker."""
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """"""
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 

@@ -8,7 +8,7 @@ from itertools import combinations, product
 
 import numpy as np
 import pytest
-from scipy.spatial import ConvexHull, Voronoi, cKDTree
+from scipy.spatial import ConvexHull
 
 import vorotool
 from vorotool.engines.delaunay.tetrahedralization import space_table
@@ -153,20 +153,6 @@ def test_more_tetrahedra_than_memory_holds_are_told_of():
 
 
 # ---- the table -----------------------------------------------------------------------------------
-def test_cells_and_nearest_points_are_those_of_scipy():
-    points = np.random.default_rng(9).random((200, 3))
-    table = space_table(vorotool.delaunay(points))
-    diagram = Voronoi(points)
-    for place, region in enumerate(diagram.point_region):
-        corners = diagram.regions[region]
-        is_open = -1 in corners
-        assert bool(table["on_hull"][place]) == is_open
-        assert np.ma.getmaskarray(table["cell_volume"])[place] == is_open
-        if not is_open:
-            assert np.isclose(table["cell_volume"][place], ConvexHull(diagram.vertices[corners]).volume, rtol=1e-9)
-    distance, nearest = cKDTree(points).query(points, 2)
-    assert table["nearest_label"].tolist() == (nearest[:, 1] + 1).tolist()
-    assert np.allclose(table["nearest_distance"], distance[:, 1], rtol=1e-15)
 
 
 def test_equally_near_points_are_told_apart_by_their_labels():

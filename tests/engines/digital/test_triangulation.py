@@ -1,7 +1,5 @@
 """Digital triangulations and their repair, of square and rectangular pixels."""
 
-from __future__ import annotations
-
 import re
 import warnings
 from collections import Counter

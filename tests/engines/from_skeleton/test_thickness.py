@@ -1,7 +1,5 @@
 """Local thickness beside closed forms, bounds that know no skeleton, and a search of all arcs."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np
@@ -10,9 +8,8 @@ import shapely
 from scipy import ndimage
 
 import vorotool
-from support.families.skeleton_shapes import FAMILIES, TOUCHING, small
+from support.families.skeleton_shapes import TOUCHING, small
 from support.few import few
-from support.oracles.offset_oracle import check_rebuilt
 from support.oracles.thickness_oracle import check_thickness
 from vorotool.engines.from_skeleton.thickness import thickness_of_pixels
 from vorotool.types.polygons.shapely_geometry import to_shapely
@@ -100,13 +97,6 @@ def test_the_check_finds_values_that_are_wrong(factor):
 def skeleton_quietly(shape):
     with warnings.catch_warnings(action="ignore"):
         return vorotool.skeleton_exact(shape)
-
-
-@pytest.mark.parametrize("family", few([*FAMILIES, *TOUCHING], 6), ids=lambda family: family.__name__)
-def test_shapes_are_rebuilt(family):
-    for seed in range(3):
-        skeleton = skeleton_quietly(family(np.random.default_rng(seed)))
-        check_rebuilt(vorotool.rebuild(skeleton), skeleton.polygons)
 
 
 @pytest.mark.parametrize("criterion", few(["angle", "chord", "length"], 1))

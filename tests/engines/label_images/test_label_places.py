@@ -10,7 +10,6 @@ import vorotool
 from support.few import few
 from support.oracles.outline_oracle import (
     all_masks,
-    hole_count,
     numbered_objects,
     pixel_sides,
     random_labels,
@@ -117,17 +116,6 @@ def check_crack(made, labels, connectivity):
     assert np.array_equal(place[made.ring_starts[:-1]], np.minimum.reduceat(place, made.ring_starts[:-1]))
     if connectivity == 4:
         assert shapely.is_valid(to_shapely(made)).all()
-
-
-@pytest.mark.parametrize("connectivity", [4, 8])
-@pytest.mark.parametrize("index", few(range(2, len(IMAGES)), 8))
-def test_crack_outlines_of_labels(index, connectivity):
-    labels = IMAGES[index]
-    made = outlines(labels, mode="labels", connectivity=connectivity)
-    assert made.ids == numbered_objects(labels, connectivity)[1]
-    check_crack(made, labels, connectivity)
-    if connectivity == 8:
-        assert np.count_nonzero(made.ring_kind == HOLE) == hole_count(labels, 8)
 
 
 @pytest.mark.parametrize("connectivity", [4, 8])

@@ -1,7 +1,5 @@
 """Measures, tables, diagram and colors of label images and volumes, against plain loops and SciPy."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from math import prod
 from typing import NamedTuple

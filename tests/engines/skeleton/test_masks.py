@@ -166,19 +166,6 @@ def test_the_approximate_skeleton_within_a_tolerance_has_the_same_topology(conne
     assert np.count_nonzero(root == np.arange(len(root))) == len(polygons)
 
 
-@pytest.mark.parametrize("connectivity", [4, 8])
-@pytest.mark.parametrize("seed", range(6))
-def test_components(seed, connectivity):
-    rng = np.random.default_rng(seed)
-    mask = rng.random((int(rng.integers(1, 40)), int(rng.integers(1, 40)))) < rng.uniform(0.1, 0.9)
-    mask[0, 0] = True
-    right = label(mask, connectivity=1 if connectivity == 4 else 2)
-    seeds = vorotool.seeds_from_raster(vorotool.Raster(mask), mode="components", connectivity=connectivity)
-    found = vorotool.tessellate(seeds).labels
-    np.testing.assert_array_equal(found[mask], right[mask])
-    assert seeds.object_area.tolist() == np.bincount(right.ravel())[1:].tolist()
-
-
 def test_pixels():
     mask = np.array([[0, 1, 1], [1, 0, 1]])
     found = vorotool.tessellate(vorotool.seeds_from_raster(vorotool.Raster(mask), mode="pixels")).labels

@@ -1,7 +1,5 @@
 """Bands that are computed apart give what the whole gives."""
 
-from __future__ import annotations
-
 import pickle
 from fractions import Fraction
 

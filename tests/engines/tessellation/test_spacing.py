@@ -23,7 +23,6 @@ from vorotool.types.pixels import SQUARE, Frame, PixelSides, pixel_sides
 from vorotool.types.points.seed_set import SeedSet
 
 SIDES = [PixelSides((2, 1)), PixelSides((60, 13), Fraction(1, 40)), PixelSides((5, 7)), PixelSides((1000, 1))]
-LEVELS = ("portable", "avx2", "avx512")
 
 
 def brute(seeds, frame, sides):
@@ -55,33 +54,6 @@ def test_the_checker_knows_sides(sides, scale):
     verify_labels(labels, seeds, frame, sides=sides)
     with pytest.raises(VerificationError):
         verify_labels(np.where(labels == labels.max(), labels.min(), labels), seeds, frame, sides=sides)
-
-
-@pytest.mark.parametrize("level", LEVELS)
-def test_the_instruction_sets_agree(level, monkeypatch):
-    random = np.random.default_rng(5)
-    frame, sides = Frame(0, 0, 300, 200), PixelSides((1500, 325))
-    x, y = np.unique(random.integers(0, 200, (400, 2)), axis=0).T
-    seeds = SeedSet(x, y, np.arange(1, len(x) + 1, dtype=np.uint32))
-    expected = Tessellator(seeds, frame, sides=sides).labels()
-    monkeypatch.setenv("VOROTOOL_SIMD", level)
-    try:
-        sweep = Tessellator(seeds, frame, sides=sides)
-    except UsageError:
-        pytest.skip("this machine has it not")
-    assert np.array_equal(sweep.labels(), expected)
-    verify_labels(expected, seeds, frame, sides=sides)
-
-
-@pytest.mark.parametrize("sides", SIDES)
-@pytest.mark.parametrize("limit", [0, Fraction(5, 2), 30, 77])
-def test_limits_are_exact(sides, limit):
-    random = np.random.default_rng(3)
-    frame = Frame(0, 0, 31, 23)
-    seeds = seeds_of(random, 9, frame, 1, 0)
-    labels, least = brute(seeds, frame, sides)
-    found = Tessellator(seeds, frame, max_distance=limit * sides.step, sides=sides).labels()
-    assert np.array_equal(found, np.where(least <= limit * limit, labels, 0))
 
 
 def test_large_objects_need_their_outer_pixels_only():
@@ -186,20 +158,6 @@ def test_borders_of_neighbors_count_both_kinds_of_sides(spacing):
         assert measures.border_faces[row].tolist() == counts
         step = (image.seeds.sites[a - 1] - image.seeds.sites[b - 1]) * (width, height)
         assert table["centroid_distance"][row] == pytest.approx(np.hypot(*step))
-
-
-@pytest.mark.parametrize("threads", [1, 2])
-def test_vertical_sides_are_counted_over_bands(threads):
-    labels = np.random.default_rng(3).integers(0, 4, (1500, 300)).astype(np.uint8)
-    measures = measure_regions(LabelImage(labels), threads=threads)
-    vertical, horizontal = sides_between(labels)
-    for row, label in enumerate(measures.labels.tolist()):
-        counts = [((pairs == label).sum(axis=1) == 1).sum() for pairs in (vertical, horizontal)]
-        assert measures.faces[row, 0] == counts[0]
-        assert measures.faces[row].sum() == sum(counts)
-    for row, (a, b) in enumerate(measures.labels[measures.borders].tolist()):
-        counts = [(np.sort(pairs, axis=1) == (a, b)).all(axis=1).sum() for pairs in (vertical, horizontal)]
-        assert measures.border_faces[row].tolist() == counts
 
 
 def test_a_label_image_brings_its_spacing_along():

@@ -4,12 +4,10 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import vorotool
 from support.families.families import FAMILIES
-from support.oracles.oracles import nearest_labels, nearest_squares
+from support.oracles.oracles import nearest_labels
 from vorotool import _core
 from vorotool.engines.tessellation.frames import SIMD_LEVELS, as_seeds, default_frame
 from vorotool.engines.tessellation.tessellate import verify_rows
@@ -74,36 +72,6 @@ def test_frames_longer_than_two_to_the_seventeen(simd, frame):
     labels = np.arange(1, 10, dtype=np.uint32)
     sweep = sweep_of(x, y, labels, frame)
     np.testing.assert_array_equal(sweep.labels(), nearest_labels(x, y, labels, frame))
-
-
-@settings(max_examples=40, deadline=None)
-@given(
-    seeds=st.lists(st.tuples(st.integers(-3, 12), st.integers(-3, 12)), min_size=1, max_size=25),
-    width=st.integers(1, 12),
-    height=st.integers(1, 12),
-    most=st.none() | st.fractions(0, 12, max_denominator=7),
-)
-def test_small_integer_seeds_within_a_distance(seeds, width, height, most):
-    x, y = np.array(seeds).T
-    labels = np.arange(1, len(x) + 1, dtype=np.uint32)
-    frame = (0, 0, width, height)
-    sweep = sweep_of(x, y, labels, frame, max_distance=most)
-    limit = None if most is None else most**2
-    np.testing.assert_array_equal(sweep.labels(), nearest_labels(x, y, labels, frame, most_squared=limit))
-    verify_rows(sweep)
-
-
-@pytest.mark.parametrize("scale", [1, 256])
-@pytest.mark.parametrize("far", [0, 2**30])
-def test_distances(simd, scale, far):
-    rng = np.random.default_rng(scale)
-    frame = (-3, 2, 41, 23)
-    x, y = rng.integers(-10 * scale, 50 * scale, (2, 30))
-    x, y = np.append(x, far), np.append(y, far)
-    sweep = sweep_of(x, y, np.arange(1, 32, dtype=np.uint32), frame, scale)
-    squares = nearest_squares(x, y, frame, scale)
-    np.testing.assert_array_equal(sweep.squared_distances(), squares)
-    np.testing.assert_array_equal(sweep.distances(), (np.sqrt(squares.astype(float)) / scale).astype(np.float32))
 
 
 # ---- bands, windows, threads, types ----------------------------------------------------------------------------

@@ -217,20 +217,6 @@ def test_seeds_are_sorted_alike_by_any_number_of_threads(way, spread):
         assert np.array_equal(sweep.distances(), sweeps[0].distances())
 
 
-@pytest.mark.parametrize("axes", [(0, 1, 2), (1, 0, 2), (2, 1, 0), (1, 2, 0)])
-def test_axes_may_be_exchanged(axes):
-    random = np.random.default_rng(6)
-    shape, units = (12, 30, 21), (5, 2, 3)
-    places, labels = seeds_of(random, "lattice", 70, shape)
-    whole = swept(places, labels, shape, sides=PixelSides(units)).labels()
-    turned = swept(
-        places[:, axes], labels, tuple(shape[k] for k in axes), sides=PixelSides(tuple(units[k] for k in axes))
-    )
-    assert np.array_equal(turned.labels(), whole.transpose(axes))
-    mirrored = swept(np.array(shape) - 1 - places, labels, shape, sides=PixelSides(units))
-    assert np.array_equal(mirrored.labels(), whole[::-1, ::-1, ::-1])
-
-
 @pytest.mark.parametrize("density", few([0.2, 0.003], 1))
 @pytest.mark.parametrize("units", [(1, 1, 1), (60, 13, 13)])
 @pytest.mark.parametrize("first_label", few([2**31, 1], 1))

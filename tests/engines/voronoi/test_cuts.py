@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from tests.support.families.cut_scenes import lattice_clip, lattice_sites
 from tests.support.families.meeting_cuts import meeting_scene, moved_scene
 from tests.support.families.site_families import mixed_sites, squares
 from tests.support.oracles.cut_oracle import assert_cut_coverage, assert_nearest_in_regions, faces_between, meets_itself
@@ -31,29 +30,6 @@ def test_a_clip_cuts_what_there_is_without_it(seed):
     whole = quietly(sites, frame=(0, 0, 100, 100)).to_shapely(flatten=1e-4)
     np.testing.assert_allclose(cut.areas, shapely.area(shapely.intersection(whole, clip)), atol=0.05)
     assert_cut_coverage(cut, clip.area)
-
-
-def symmetric(geometry, k):
-    """One of the eight symmetries of a square around the origin."""
-
-    def turned(xy):
-        x, y = xy.T
-        x, y = [(x, y), (-y, x), (-x, -y), (y, -x)][k % 4]
-        return np.stack([x, -y] if k > 3 else [x, y], axis=1)
-
-    return [shapely.transform(each, turned) for each in geometry]
-
-
-@pytest.mark.parametrize("seed", few(range(4), 2))
-def test_eight_symmetries(seed):
-    random = np.random.default_rng(seed)
-    sites = lattice_sites(random, 8)
-    clip = lattice_clip(random, 8, sites)
-    once = quietly(sites, clip=clip)
-    for k in range(1, 8):
-        again = quietly(symmetric(sites, k), clip=symmetric(clip, k))
-        np.testing.assert_allclose(again.areas, once.areas, atol=1e-6)
-        np.testing.assert_allclose(again.perimeters.sum(), once.perimeters.sum(), rtol=1e-5)
 
 
 @pytest.mark.parametrize("far", few([30.03, 3003.3, 3.1e8], 1))

@@ -126,14 +126,6 @@ def test_features_with_a_common_value_are_one_site():
         voronoi(sites, by="name")
 
 
-def test_spikes_bound_nothing():
-    spike = shapely.Polygon([(0, 0), (4, 0), (4, 4), (2, 4), (2, 10), (2, 4), (0, 4)])
-    other = shapely.box(2, 6, 8, 12)
-    cells = quietly([spike, other], frame=FRAME)
-    plain = voronoi([shapely.box(0, 0, 4, 4), other], frame=FRAME)
-    np.testing.assert_allclose(cells.areas, plain.areas)
-
-
 def test_spikes_along_other_sites_are_said():
     spike = shapely.Polygon([(0, 0), (4, 0), (4, 4), (2, 4), (2, 10), (2, 4), (0, 4)])
     line = shapely.LineString([(2, 2), (2, 20)])

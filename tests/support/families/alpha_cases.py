@@ -1,7 +1,5 @@
 """What tests of alpha complexes and alpha shapes begin with."""
 
-from __future__ import annotations
-
 import warnings
 
 from vorotool import VorotoolWarning, alpha_complex

@@ -1,7 +1,5 @@
 """Families of seeds that tests, fuzzing and benchmarks share: easy, tied and degenerate ones."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from vorotool.engines.tessellation.seeding import finest_scale

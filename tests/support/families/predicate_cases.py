@@ -4,8 +4,6 @@ A family gives an array (k, n, d) of k calls of a predicate in the plane (d = 2)
 points (orient2d, orient3d) or of n = d + 2 (incircle, in_sphere). They share no code with the package.
 """
 
-from __future__ import annotations
-
 import functools
 
 import numpy as np

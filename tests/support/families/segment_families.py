@@ -4,8 +4,6 @@ A family gives a graph of n segments, or about as many, on the lattice: points (
 Segments meet at shared ends only, and no point lies inside one.
 """
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np
@@ -296,6 +294,11 @@ def graph_on(rng, points, tries):
     return points, joined(points, rng.integers(0, len(points), (tries, 2)))
 
 
+def random_graph(rng, points, tries, size):
+    """A graph on random points of a square; small ones give many ties."""
+    return graph_on(rng, rng.integers(-size, size + 1, (points, 2)), tries)
+
+
 def clusters(rng, n):
     """Nodes of any degree among points 1-2 units apart, in an extent of 10^7 to 10^9."""
     extent = int(10 ** rng.uniform(7, 9))
@@ -354,36 +357,11 @@ def partition(rng, n):
     return graph.points, graph.segments
 
 
-FAMILIES = {
-    family.__name__: family
-    for family in (
-        star_smooth,
-        star_rough,
-        star_small,
-        rectilinear,
-        jittered_grid,
-        comb,
-        comb_tapered,
-        spiral,
-        hilbert,
-        koch,
-        regular,
-        squares,
-        symmetric,
-        tiled,
-        needles,
-        strips,
-        wheel,
-        chains,
-        contour,
-        clusters,
-        crowded,
-        two_boxes,
-        fan,
-        scattered,
-        partition,
-    )
-}
+NAMES = """
+    star_smooth star_rough star_small rectilinear jittered_grid comb comb_tapered spiral hilbert koch regular
+    squares symmetric tiled needles strips wheel chains contour clusters crowded two_boxes fan scattered partition
+"""
+FAMILIES = {name: globals()[name] for name in NAMES.split()}
 
 
 JOINED = ("clusters", "crowded", "two_boxes", "fan", "scattered")

@@ -5,8 +5,6 @@ circle holds no point. Its center is the middle plus s times the vector N across
 does not hold bound s from one side each by a rational number, and the radius gives s².
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations

@@ -5,8 +5,6 @@ vertices that coincide where more than three sites tie, and edges of length zero
 their places.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Voronoi cells by cutting the frame along every bisector, in rational numbers. It shares no code with the package."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import pairwise
 

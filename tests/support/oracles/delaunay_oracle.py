@@ -1,7 +1,5 @@
 """Delaunay triangulations from the definition, in rational numbers. It shares no code with the package."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import combinations, pairwise
 

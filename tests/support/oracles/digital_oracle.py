@@ -1,7 +1,5 @@
 """The rule of section 2.1 pixel by pixel, and the regions of a label image. It shares no code with the package."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 from support.oracles.delaunay_oracle import circle, cross

@@ -1,11 +1,11 @@
 """Necks by brute force: all pairs of vertices and edges in fractions, and what is beside each by walks on a graph."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import combinations, pairwise, product
 
 import numpy as np
+
+from support.oracles.tangent_discs import cross, dot
 
 LINE = 2
 ONE_HALF = Fraction(1, 2)
@@ -134,14 +134,6 @@ class Shape:
 # ---- arithmetic ----------------------------------------------------------------------------------
 def way(a, b):
     return (b[0] - a[0], b[1] - a[1])
-
-
-def dot(a, b):
-    return a[0] * b[0] + a[1] * b[1]
-
-
-def cross(a, b):
-    return a[0] * b[1] - a[1] * b[0]
 
 
 def norm(a):

@@ -1,7 +1,5 @@
 """Slow and obvious answers to compare with. They share no code with the package."""
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -1,7 +1,5 @@
 """What crack outlines must be, from pixel sides one by one; and images to try."""
 
-from __future__ import annotations
-
 import numpy as np
 from skimage.measure import label
 

@@ -1,7 +1,5 @@
 """Proximity graphs by their definitions, in exact numbers: no triangulation, no code of the package."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 from support.oracles.whole_numbers import in_units

@@ -15,8 +15,6 @@ remaining piece to another under less; and each place of an unpruned skeleton ha
 on which may change: for the other criteria, and for what is left of both, there is no such bound.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -3,8 +3,6 @@
 Every disc that touches three sites is computed (see tangent_discs.py), and kept if no site enters it.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 from collections import defaultdict

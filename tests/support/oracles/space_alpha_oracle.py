@@ -1,7 +1,5 @@
 """Radii of alpha shapes in space by their definition: by empty balls through the corners of a simplex, in fractions."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import combinations
 from math import inf

@@ -4,11 +4,13 @@ from fractions import Fraction
 from itertools import combinations
 from math import lcm
 
+from support.oracles.space_alpha_oracle import cross, dot
+
 SIDES = 6
 
 
 def det(a, b, c):
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+    return dot(a, cross(b, c))
 
 
 def _meeting(planes):

@@ -10,8 +10,6 @@ kind, of which each may cost some 200 digits. So `SURE` digits settle what `FIRS
 to be anything below 10^-60: a tie, or the foot of a center at the end of a segment.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 from contextlib import contextmanager

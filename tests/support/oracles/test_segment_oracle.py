@@ -1,14 +1,8 @@
 """The brute force against what is known without it."""
 
-from __future__ import annotations
-
-import random
-
 import numpy as np
-import pytest
 from scipy.spatial import Voronoi
 
-from support.families import segment_cases
 from support.oracles.segment_oracle import differences, rings_of, voronoi_diagram
 
 SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
@@ -52,33 +46,6 @@ def test_points_against_qhull():
     for vertices in (diagram.vertices, peer.vertices):
         vertices[:] = vertices[np.lexsort(vertices.T)]
     np.testing.assert_allclose(diagram.vertices, peer.vertices, rtol=1e-9, atol=1e-6)
-
-
-@pytest.mark.parametrize("size", [3, 6, 100, 2**30 - 1])
-def test_euler(size):
-    """Vertices, one at infinity, edges and cells on a sphere; all are connected through infinity."""
-    rng = random.Random(size)
-    for _ in range(3):
-        points, segments = segment_cases.random_graph(rng, 5, 5, size)
-        diagram = voronoi_diagram(points, segments)
-        cells = len(np.unique(diagram.edge_sites))
-        without = sum((diagram.edge_sites == k).sum() == 0 for k in range(len(points)))
-        assert cells == len(points) + len(segments) - without
-        assert len(diagram.vertices) + 1 - len(diagram.edges) + cells == 2
-
-
-def test_no_vertex_is_nearer_to_anything_than_its_radius():
-    rng = random.Random(8)
-    for _ in range(5):
-        points, segments = segment_cases.random_graph(rng, 5, 5, 50)
-        diagram = voronoi_diagram(points, segments)
-        a = np.array(points)[[s[0] for s in segments]]
-        u = np.array(points)[[s[1] for s in segments]] - a
-        for center, radius in zip(diagram.vertices, diagram.radius, strict=True):
-            t = np.clip(((center - a) * u).sum(axis=1) / (u**2).sum(axis=1), 0, 1)
-            distances = np.hypot(*(a + t[:, None] * u - center).T)
-            distances = np.append(distances, np.hypot(*(np.array(points) - center).T))
-            assert distances.min() == pytest.approx(radius, rel=1e-9, abs=1e-9)
 
 
 def test_regular_polygons_have_one_center_and_differences_are_named():

@@ -1,7 +1,5 @@
 """Local thickness between two bounds that know no skeleton: the distances of a grid of places from the outlines."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

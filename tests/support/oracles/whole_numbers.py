@@ -1,7 +1,5 @@
 """Rational places as whole numbers of one small unit: exact, and much faster than fractions."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from math import lcm
 

@@ -4,8 +4,6 @@ A machine is told to a process by its environment: which vector instructions num
 and the core may use, and the seed of hashes. The number of threads is an option of the commands.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import io

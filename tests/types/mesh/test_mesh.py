@@ -1,7 +1,5 @@
 """Cells, tables and circles of triangulations, against rationals and definitions."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 
