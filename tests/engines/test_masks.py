@@ -117,9 +117,6 @@ def test_labels_that_say_nothing():
     for wrong, words in (([[-1, 0]], "labels must be integers"), ([[0.0, 1.0]], "expected integers or booleans")):
         with pytest.raises(InputError, match=words):
             masks.expand_labels(wrong)
-    for distance in (-1, float("nan"), "far"):
-        with pytest.raises(UsageError, match="distance"):
-            masks.expand_labels(full, distance)
 
 
 # ---- axes ----------------------------------------------------------------------------------------

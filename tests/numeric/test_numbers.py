@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import vorotool
+from vorotool.engines import masks
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.numeric.numbers import finite_double, real_number, shown_number
 
@@ -73,14 +74,6 @@ def test_a_radius_below_doubles_gives_points(r):
     assert len(vorotool.alpha_shape(POINTS, r=r).edges) == 0
 
 
-@pytest.mark.parametrize("r", [NO_NUMBERS[0], np.float64("nan"), 0, -(10**400), Fraction(-1, 2)], ids=shown_number)
-def test_what_is_no_radius_is_refused(r):
-    with pytest.raises(UsageError, match=r"^r is"):
-        vorotool.alpha_shape(POINTS, r=r)
-    with pytest.raises(UsageError, match=r"^r is"):
-        vorotool.alpha_edges(vorotool.alpha_complex(POINTS), r)
-
-
 @pytest.mark.parametrize("name", ["hole_threshold", "region_threshold"])
 def test_thresholds_beyond_doubles_are_compared_exactly(name):
     whole = vorotool.alpha_shape(POINTS, r=10, **{name: 10**400})
@@ -123,11 +116,38 @@ TAKERS = {
 }
 
 
-@pytest.mark.parametrize("taker", TAKERS)
+FRAMES = [(0, 0, 0, 1), (0, 0, 1, -1), (0, 0, 1), (0, 0, float("nan"), 1), (0, 0, float("inf"), 1), 5, "abcd"]
+SPACE_FRAMES = [(0, 0, 1, 1), (0, 0, 0, 1, 1, 0), (0, 0, 0, 1, 1, float("nan")), 3]
+WRONG = {
+    "smooth": (lambda x: vorotool.smooth(vorotool.skeleton_exact(SQUARE), x), [0, -1, float("inf")]),
+    "voronoi": (lambda x: vorotool.voronoi(SQUARE, frame=x), FRAMES),
+    "limit": (lambda x: vorotool.voronoi(SQUARE, max_distance=x), [0, -1, float("inf"), 1e90]),
+    "voronoi_cells": (lambda x: vorotool.voronoi_cells(SQUARE, frame=x), [*FRAMES, (1e17, 0, 1, 1), (0, 0, "w", 1)]),
+    "cells in space": (lambda x: vorotool.voronoi_cells(np.eye(3), frame=x), SPACE_FRAMES),
+    "offset": (TAKERS["offset"], [0, float("inf"), (0,)]),
+    "offsets": (lambda x: vorotool.offset(SQUARE, x), [[], [1, 0], [1, 2, 1]]),
+    "gap": (TAKERS["gap"], [-1]),
+    "skeleton frame": (lambda x: vorotool.skeleton_exact(SQUARE, frame=x), FRAMES),
+    "step": (TAKERS["step"], [0, -1, float("inf")]),
+    "tolerance": (TAKERS["tolerance"], [0, -1, float("inf")]),
+    "necks": (lambda x: vorotool.necks(SQUARE, neck=x), [-0.1, 1.5]),
+    "parts": (lambda x: vorotool.parts(SQUARE, neck=x), [-0.1, 1.5]),
+    "expand_labels": (lambda x: masks.expand_labels([[7]], x), [-1]),
+    "max_distance": (TAKERS["max_distance"], [-1]),
+    "r": (lambda x: vorotool.alpha_shape(POINTS, r=x), [0, -1, Fraction(-1, 2)]),
+    "regions": (TAKERS["regions"], [0]),
+    "count": (lambda x: vorotool.largest_discs(SQUARE, count=x), [0, 1.5]),
+    "count of empty": (lambda x: vorotool.largest_empty_discs(SQUARE, count=x), [0, 1.5]),
+    "r of edges": (lambda x: vorotool.alpha_edges(vorotool.alpha_complex(POINTS), x), [0, -1]),
+}
+
+
+@pytest.mark.parametrize("taker", sorted({*TAKERS, *WRONG}))
 def test_options_that_are_wrong_or_huge_are_refused_in_short(taker):
-    for value in (-(10**5000), "a", [10**400, "a"]):
+    take, wrong = WRONG.get(taker) or (TAKERS[taker], [])
+    for value in (-(10**5000), "a", [10**400, "a"], float("nan"), *wrong):
         with pytest.raises((UsageError, InputError, LimitError)) as refused:
-            TAKERS[taker](value)
+            take(value)
         assert len(str(refused.value)) < 200
 
 

@@ -104,18 +104,6 @@ def test_what_cannot_be_clipped_to(clip):
 # ---- bad input ----
 
 
-@pytest.mark.parametrize("frame", [(0, 0, 0, 1), (0, 0, 1, -1), (1e17, 0, 1, 1), (0, 0, np.inf, 1), (0, 0, np.nan, 1)])
-def test_frames_without_area(frame):
-    with pytest.raises(InputError, match="frame"):
-        voronoi_cells([[0, 0]], frame=frame)
-
-
-@pytest.mark.parametrize("frame", [5, (1, 2, 3), "abcd", (0, 0, "w", 1)])
-def test_no_frames(frame):
-    with pytest.raises(InputError, match="expected a Box"):
-        voronoi_cells([[0, 0]], frame=frame)
-
-
 @pytest.mark.parametrize(
     "change",
     [

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial import ConvexHull, Voronoi
 
 import vorotool
-from vorotool import InputError, UsageError, VerificationError, verify_cells, voronoi_cells
+from vorotool import InputError, VerificationError, verify_cells, voronoi_cells
 
 POINTS = np.random.default_rng(3).random((60, 3))
 UNIT = (0, 0, 0, 1, 1, 1)
@@ -49,12 +49,6 @@ def test_the_default_box_is_that_of_the_points():
         voronoi_cells(np.c_[POINTS[:, :2], np.ones(60)])
     with pytest.raises(InputError, match="there are no points"):
         voronoi_cells(np.empty((0, 3)))
-
-
-@pytest.mark.parametrize("frame", [(0, 0, 1, 1), (0, 0, 0, 1, 1, 0), (0, 0, 0, 1, 1, float("nan")), 3])
-def test_frames_that_are_no_boxes_are_refused(frame):
-    with pytest.raises(UsageError, match="invalid frame"):
-        voronoi_cells(POINTS, frame=frame)
 
 
 def test_what_cells_in_space_lack_is_refused():

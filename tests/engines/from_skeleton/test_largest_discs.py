@@ -9,7 +9,7 @@ import shapely
 import vorotool
 from fuzz.discs import check_greedy
 from support.families.skeleton_shapes import regular
-from vorotool import InputError, UsageError, VerificationError, largest_discs, largest_empty_discs, verify_discs
+from vorotool import InputError, VerificationError, largest_discs, largest_empty_discs, verify_discs
 
 
 def rectangle(width, height, x=0.0, y=0.0):
@@ -77,11 +77,7 @@ def test_empty_discs_between_points_by_brute_force():
 
 
 # ---- refusals, faults ----------------------------------------------------------------------------
-def test_what_is_no_count_or_region():
-    with pytest.raises(UsageError, match="the count is 0"):
-        largest_discs(rectangle(2, 1), count=0)
-    with pytest.raises(UsageError, match="count"):
-        largest_empty_discs([[0, 0]], count=1.5)
+def test_what_is_no_region():
     with pytest.raises(InputError, match="within"):
         largest_empty_discs([[0, 0]], within=(0, 0, -1, 1))
     with pytest.raises(InputError, match="no area"):

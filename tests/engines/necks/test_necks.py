@@ -101,13 +101,6 @@ def test_listed_necks_are_those_of_at_most_the_ratio():
         assert necks(shape, neck=neck) == whole.taken(whole.ratio <= neck)
 
 
-@pytest.mark.parametrize("neck", [-0.1, 1.5, np.nan, "wide"])
-def test_what_is_no_ratio_is_refused(neck):
-    for find in (necks, vorotool.parts):
-        with pytest.raises(UsageError, match="ratio"):
-            find(DUMBBELL, neck=neck)
-
-
 @pytest.mark.parametrize(
     ("name", "value", "message"),
     [

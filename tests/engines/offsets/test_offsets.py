@@ -17,12 +17,6 @@ def test_what_has_vanished_is_not_there():
     vorotool.verify_offsets(made, distances=[-1.5])
 
 
-@pytest.mark.parametrize("distances", [[], 0, [1, 0], np.inf, [np.nan], [1, 2, 1]])
-def test_what_are_no_distances(distances):
-    with pytest.raises(vorotool.UsageError, match="distance"):
-        vorotool.offset(ROOMS, distances)
-
-
 def without(made, shape):
     """Offsets without a shape."""
     rings = np.flatnonzero(made.shape_of_ring != shape)

@@ -130,17 +130,9 @@ def test_the_exact_one_of_elements():
     assert np.array_equal(plain.vertices, again.vertices)
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [({"side": "inner"}, "interior"), ({"gap": -1}, "0 or more"), ({"gap": np.nan}, "the gap is nan: give a number"),
-     ({"frame": (0, 0, 0, 1)}, "above 0")],
-)  # fmt: skip
-def test_options_that_are_none(options, words):
-    with pytest.raises(UsageError, match=words):
-        vorotool.skeleton_exact([[0, 0], [1, 0], [0, 1]], **options)
-
-
-def test_strict_refuses_repairs():
+def test_strict_refuses_repairs_and_other_sides_are_refused():
+    with pytest.raises(UsageError, match="interior"):
+        vorotool.skeleton_exact([[0, 0], [1, 0], [0, 1]], side="inner")
     with pytest.raises(InputError, match="crosses"):
         vorotool.skeleton_exact([[0, 0], [4, 4], [4, 0], [0, 4]], strict=True)
 

@@ -116,12 +116,6 @@ def test_nothing():
     vorotool.verify_smooth(smoothed)
 
 
-@pytest.mark.parametrize("tolerance", [0, -1, "x", float("nan"), float("inf")])
-def test_no_tolerance(tolerance):
-    with pytest.raises(vorotool.UsageError, match="the tolerance is"):
-        vorotool.smooth(vorotool.skeleton_exact(ELL), tolerance)
-
-
 def test_a_tolerance_that_is_too_small():
     with pytest.raises(vorotool.InputError, match="fitted curves need at least 5"):
         vorotool.smooth(vorotool.skeleton_exact(ELL), 1e-9)

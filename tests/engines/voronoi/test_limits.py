@@ -10,7 +10,7 @@ from tests.support.oracles.voronoi_oracle import assert_is_within, quietly
 
 from support.few import few
 from vorotool import verify_voronoi, voronoi
-from vorotool.errors import InputError, UsageError, VerificationError
+from vorotool.errors import UsageError, VerificationError
 from vorotool.types.voronoi.tables import PART_OF_RADIUS, flattened_arcs
 
 FRAME = (-10, -10, 30, 30)
@@ -145,18 +145,6 @@ def test_polylines_of_circles_are_near(flatten):
 
 
 # ---- what is refused and found -----------------------------------------------------------------------
-@pytest.mark.parametrize("limit", [0, -1, -0.0])
-def test_limits_that_are_none(limit):
-    with pytest.raises(UsageError, match="max_distance must be above 0, but is"):
-        voronoi([[0, 0], [1, 1]], max_distance=limit)
-
-
-@pytest.mark.parametrize("limit", [np.nan, np.inf, "near"])
-def test_limits_that_are_no_number(limit):
-    with pytest.raises((UsageError, InputError), match="max_distance"):
-        voronoi([[0, 0], [1, 1]], max_distance=limit)
-    with pytest.raises(UsageError, match="too large"):
-        voronoi([[0, 0], [1, 1]], max_distance=1e90)
 
 
 def test_limits_that_rounding_would_lose():

@@ -135,12 +135,6 @@ def test_spikes_along_other_sites_are_said():
     np.testing.assert_allclose(cells.areas, plain.areas)
 
 
-@pytest.mark.parametrize("frame", [(0, 0, 0, 1), (0, 0, 1, -1), (0, 0, np.nan, 1), (0, 0, 1)])
-def test_frames_that_are_none(frame):
-    with pytest.raises(UsageError, match=r"invalid frame .*expected"):
-        voronoi([[0, 0], [1, 1]], frame=frame)
-
-
 @pytest.mark.parametrize("seed", few(range(8), 4))
 def test_small_things_far_from_the_origin_and_from_each_other(seed):
     random = np.random.default_rng(seed)

@@ -14,7 +14,7 @@ from vorotool.errors import UsageError
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Columns, Floats, Numbers, mask_of, norms, starts_of, within
 from vorotool.numeric.checks import checked_flag
-from vorotool.numeric.numbers import whole_number
+from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.skeleton.arc_measures import ArcMeasures
 from vorotool.types.skeleton.discs import Discs
@@ -275,7 +275,7 @@ def largest_discs(
 def check_count(count: int | None) -> None:
     """Raise UsageError for what is no number of discs."""
     if count is not None and whole_number(count, "the count") < 1:
-        raise UsageError(f"the count is {count}: use an integer above 0")
+        raise UsageError(f"the count is {shown_number(count)}: use an integer above 0")
 
 
 def discs_of_skeleton(skeleton: Skeleton, *, count: int | None = None, local: bool = False, threads: int = 0) -> Discs:
