@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.approximations import verify_approximate
 from support.families.skeleton_shapes import FAMILIES, TOUCHING, regular, small
 from support.few import few
 from support.oracles.tangent_discs import FIRST, Site, precision, sign, tangent_circles
@@ -16,7 +17,6 @@ from vorotool.convert.polygons import as_polygons
 from vorotool.engines.sampled_skeleton import per_feature
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, Wanted
 from vorotool.engines.sampled_skeleton.per_feature import approximation
-from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.engines.skeleton.clearance import clearance_course, maxima
 from vorotool.engines.skeleton.diagrams import all_edges, diagram_of_all
 from vorotool.engines.skeleton.parts import contraction
