@@ -147,7 +147,9 @@ def test_polylines_of_circles_are_near(flatten):
 # ---- what is refused and found -----------------------------------------------------------------------
 
 
-def test_limits_that_rounding_would_lose():
+def test_limits_that_are_none_or_lost_by_rounding():
+    with pytest.raises(UsageError, match="max_distance must be above 0, but is -1"):
+        voronoi([[0, 0], [1, 1]], max_distance=-1)
     with pytest.raises(UsageError, match=r"max_distance is .*, too small .*: use at least 1e-10"):
         voronoi([[0, 0], [100, 1]], max_distance=9e-11)
     small = voronoi([[0, 0], [100, 1]], max_distance=1e-10, frame=(-1, -1, 102, 3))
