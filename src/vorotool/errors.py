@@ -71,9 +71,12 @@ def _parameters(text: str) -> str:
 
 def similar(name: str, names: Iterable[str]) -> str:
     """Join the names that a mistyped one may stand for by "or"; empty where none is like it."""
-    from difflib import get_close_matches
+    from difflib import SequenceMatcher, get_close_matches
 
-    return " or ".join(get_close_matches(name.lower(), list(names)))
+    typed = name.lower()
+    found = get_close_matches(typed, list(names))
+    best = SequenceMatcher(None, found[0], typed).ratio() if found else 0.0
+    return " or ".join(each for each in found if SequenceMatcher(None, each, typed).ratio() > 0.9 * best)
 
 
 def meant(name: str, names: Iterable[str]) -> str:

@@ -88,3 +88,23 @@ def test_any_encoding_of_the_terminal_will_do(tmp_path, encoding):
         assert len(said) > 20
         assert end
     assert out == b""
+
+
+@pytest.mark.parametrize(
+    ("line", "code", "says"),
+    [
+        ("tessellate none.csv", 3, "none.csv: there is no such file"),  # that the output is binary does not matter
+        ("voronoi dots.csv --input-crs EPSG:99999 -o a.gpkg", 2, "EPSG:99999"),
+        ("voronoi dots.csv --input-crs EPSG:99999 -o a.geojson", 2, "EPSG:99999"),
+        ("delaunay dots.csv --crs 25833", 2, "EPSG:25833"),
+        ("tessellate two --out-dir out", 2, "two/*.csv"),
+        ("alphashape dots.csv --auto -r 3", 2, "-r and --auto"),
+        ("delaunay dots.csv -o a.csv2", 2, "did you mean .csv?"),
+    ],
+)
+def test_messages_say_what_helps(run, folder, line, code, says):
+    pytest.importorskip("pyproj")
+    (folder / "two").mkdir()
+    for name in ("two/a.csv", "two/a.tsv"):
+        (folder / name).write_text("x,y\n1,2\n3,4\n")
+    run(line, code=code, says=says)

@@ -117,7 +117,7 @@ USAGE = {
     # ---- values
     "alphashape dots.csv -r 0": "r is 0",
     "alphashape dots.csv --alpha 0": "alpha must be negative",
-    "alphashape dots.csv -r 3 --alpha -3": "r and alpha each set the radius",
+    "alphashape dots.csv -r 3 --alpha -3": "-r and --alpha each set the radius",
     "alphashape dots.csv -r inf --what hull": "the convex hull",
     "skeleton-exact two-shapes.json --what offset -d 0,2": "a distance is 0",
     "skeleton-exact two-shapes.json --what offset -d 1mm,1000um --pixel-size 1mm": "the distance 1 is repeated",
@@ -149,7 +149,7 @@ USAGE = {
     # ---- many inputs
     "tessellate stack.tif --page all": "name a folder for their outputs with --out-dir",
     "tessellate - --page all --out-dir out": "- is standard input",
-    "tessellate more": "more stands for several inputs",
+    "tessellate more": "more is a folder",
     "tessellate dots.csv --resume -o a.png": "--resume",
     "tessellate dots.csv --table dots.csv -o a.png": "--table dots.csv",
     "tessellate dots.csv --table s.csv --stats s.csv -o a.png": "--table s.csv",

@@ -266,10 +266,10 @@ def _owners(tasks: Sequence[Task]) -> dict[str, str]:
         for path in dict.fromkeys(task.outputs):  # results may be layers of one file
             owner = owners.setdefault(_comparable(path), task.source)
             if owner != task.source:
-                raise UsageError(
-                    f"{owner} and {task.source} would both be written to {path}: rename one, or name the folder above "
-                    "both, to keep their subfolders"
-                )
+                instead = "name the folder above both, to keep their subfolders"
+                if PurePath(owner).parent == PurePath(task.source).parent:
+                    instead = f"name only the files that are meant, such as {PurePath(owner).with_stem('*')}"
+                raise UsageError(f"{owner} and {task.source} would both be written to {path}: rename one, or {instead}")
     return owners
 
 

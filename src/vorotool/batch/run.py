@@ -234,7 +234,8 @@ class _Report:
     def check(self, *, keep_going: bool) -> None:
         """Raise the error that ends the program, if inputs failed."""
         left = self._total - self._statuses.total()
-        rest = f"; {left} were not started{'' if keep_going else ': --keep-going goes on'}" if left else ""
+        goes_on = "" if keep_going else "; --keep-going continues after a failure"
+        rest = f"; {left} {'was' if left == 1 else 'were'} not started{goes_on}" if left else ""
         if self._failures:
             raise BatchError(f"{self._statuses['failed']} of {self._total} inputs failed{rest}")
 

@@ -86,7 +86,10 @@ def _several(o: Options) -> str:
     if o.files_from is not None:
         return f"--files-from {o.files_from} lists inputs"
     if any(map(is_several, o.inputs)):
-        return f"{o.inputs[0]} stands for several inputs"
+        from pathlib import Path
+
+        kind = "is a folder" if Path(o.inputs[0]).is_dir() else "stands for several inputs"
+        return f"{o.inputs[0]} {kind}"
     if o.page == ALL_PAGES:
         return "--page all makes each page an input"
     if o.output is not None or not o.inputs or stream_kind(o.inputs[0]) is not None:

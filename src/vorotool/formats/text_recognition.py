@@ -15,7 +15,9 @@ from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS, Holds
 
 _ALPHA = option("alphashape", "alpha_shape")
-_TAKERS = option("skeleton-exact, skeleton-approx or draw", "skeleton_exact or skeleton_approx")
+_TAKERS = option(
+    "skeleton-exact, skeleton-approx, voronoi, distance or draw", "skeleton_exact, skeleton_approx or voronoi"
+)
 
 DRAWN = frozenset(each.name for each in INPUTS.values() if "curves" in each.has)
 """Formats of drawings."""

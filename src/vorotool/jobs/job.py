@@ -38,7 +38,7 @@ def options_of_line(command: str, given: Mapping[str, Any], sources: Mapping[str
         usual = (what for what, each in own.items() if fmt in each.usual_for)
         return changed(o, what=(next(usual, next(iter(own))),))
     for what in (what for what in o.what if what not in own):
-        raise UsageError(f"--what {what} is of points in the plane: with --space use {', '.join(own)}")
+        raise UsageError(f"--what {what} needs points in the plane: with --space use {', '.join(own)}")
     return o
 
 

@@ -320,7 +320,11 @@ def _converted(o: Options, unit: InputUnit | None, shapes: PointSet | PolygonSet
     if not measured(o):
         return o
     if unit is None:
-        system = "; for a map give --input-crs, such as EPSG:3857" if "input_crs" in options_of(o.command) else ""
+        system = (
+            "; of a map name its system with --input-crs, and with --crs one that is in meters"
+            if "input_crs" in options_of(o.command)
+            else ""
+        )
         return _refused(o, f"{_USUAL}{system}")
     if not unit.is_length:
         return _refused_degrees(o, shapes.crs, shapes.xy)

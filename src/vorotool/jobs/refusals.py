@@ -213,7 +213,9 @@ def _check_styles(o: Options, layers: Sequence[str]) -> None:
     for option, chosen in (("color", o.colors), ("line-width", o.line_widths)):
         names = list(dict.fromkeys([*layers, *([SCALE_BAR] if o.scale_bar and option == "color" else [])]))
         for layer in (layer for layer, _ in chosen if layer not in names):
-            raise UsageError(f"--{option} {layer}: the picture has {', '.join(names)}{meant(layer, names)}")
+            raise UsageError(
+                f"--{option} {layer}: there is no such layer; the picture has {', '.join(names)}{meant(layer, names)}"
+            )
 
 
 def refuse(options: Mapping[str, Any], reason: str) -> None:

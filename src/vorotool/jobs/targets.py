@@ -70,9 +70,13 @@ def plan_targets(o: Options, source: str) -> list[Target]:
     chosen_format = _chosen(products, name, wanted[name], None if path == "-" else suffix_of(path))
     target = Target(name, path, chosen_format)
     if output is None and fmt is None and target.is_binary:
-        raise UsageError(
-            f"{name} output is binary: name a file with -o, or a text format with -f {_text(products[name].formats)}"
-        )
+        from vorotool.formats.io.sources import check_input
+
+        check_input(source)
+        possible = products[name].formats
+        text = _text(possible)
+        instead = f"print text with -f {text}" if FORMATS[text].is_text else "redirect standard output"
+        raise UsageError(f"{name} output is binary: name a file with -o, redirect with -f {possible[0]}, or {instead}")
     return [target]
 
 

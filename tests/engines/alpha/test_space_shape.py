@@ -183,7 +183,7 @@ def test_what_is_of_the_plane_is_refused(given, message):
     with pytest.raises(vorotool.UsageError, match="expected points, edges, triangles, tetrahedra"):
         vorotool.alpha_complex(CUBE).radii("faces")
     for points in (CUBE, vorotool.delaunay(CUBE), vorotool.alpha_complex(CUBE)):
-        with pytest.raises(vorotool.InputError, match="persistence is of points in the plane; alpha_curves counts"):
+        with pytest.raises(vorotool.InputError, match="persistence needs points in the plane; alpha_curves counts"):
             vorotool.persistence(points)
 
 

@@ -51,7 +51,8 @@ def crs(text: str) -> str:
     from vorotool.numeric.crs import crs_member
 
     if crs_member(text) is None:
-        raise UnexpectedError("not a coordinate reference system; write e.g. EPSG:3857 or OGC:CRS84")
+        instead = f"did you mean EPSG:{text}?" if text.isdecimal() else "write EPSG:3857 or OGC:CRS84, for example"
+        raise UnexpectedError(f"not a coordinate reference system; {instead}")
     return text
 
 

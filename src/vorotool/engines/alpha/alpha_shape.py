@@ -42,10 +42,11 @@ CONVEX_HULL = f"for the convex hull use {option('-r inf', 'r=inf')}"
 
 def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
     """Give the radius that was asked for; None for the automatic one."""
-    given = {"r": r is not None, "alpha": alpha is not None, "auto": automatic}
-    named = [name for name, is_given in given.items() if is_given]
+    ways = {option("-r", "r"): r is not None, option("--alpha", "alpha"): alpha is not None}
+    ways[option("--auto", "auto")] = automatic
+    named = [name for name, is_given in ways.items() if is_given]
     if len(named) > 1:
-        raise UsageError(f"{' and '.join(named)} each set the radius: give only one of r, alpha and auto")
+        raise UsageError(f"{' and '.join(named)} each set the radius: give only one of {', '.join(ways)}")
     if alpha is not None:
         value = real_number(alpha, "alpha")
         if not value < 0:

@@ -64,7 +64,7 @@ def persistence(
     if isinstance(points, AlphaComplex):
         family = points
     elif is_of_space(points):
-        raise InputError("persistence is of points in the plane; alpha_curves counts the parts of points in space")
+        raise InputError("persistence needs points in the plane; alpha_curves counts the parts of points in space")
     else:
         family = alpha_complex(points, strict=strict, allow_empty=allow_empty, threads=threads, progress=progress)
     if family.rule != "corrected":

@@ -1,4 +1,4 @@
-"""GeoPackage: a database of SQLite, read by Python's own library, which changes no file and stops where it is told to.
+"""GeoPackage, read and written by Python's own SQLite, which changes no file and stops where it is told to.
 
 GDAL would write its journal beside the file, and run views for as long as these take.
 """

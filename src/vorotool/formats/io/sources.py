@@ -219,6 +219,13 @@ def file_of(name: str) -> str:
     return split_layer(name)[0]
 
 
+def check_input(name: str) -> None:
+    """Refuse a file that is not there."""
+    with explained_reading(name):
+        if stream_kind(file_of(name)) is None:
+            os.stat(file_of(name))
+
+
 def file_and_layer(name: str, layer: str | None) -> tuple[str, str | None]:
     """Split FILE:LAYER, and refuse a layer that is given in addition."""
     file, named = split_layer(name)

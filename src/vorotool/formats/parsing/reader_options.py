@@ -138,6 +138,7 @@ Placed = TypeVar("Placed", PointSet, "PolygonSet")
 def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
     """Return the coordinate reference system of an input: its own, else the declared one, else the wanted one."""
     if options.crs is not None:
+        check_known(options.crs)
         value = declared_in(value, name, options.crs)
     if options.to_crs is not None:
         if value.crs is None:
@@ -213,6 +214,15 @@ def reprojected(xy: NDArray[np.float64], name: str, source: Any, target: Any) ->
             "vertices): choose a system for this region"
         )
     return made
+
+
+def check_known(crs: Any) -> None:
+    """Refuse a coordinate reference system that does not exist, where there is what knows all that do."""
+    try:
+        import pyproj
+    except ImportError:
+        return
+    _known(pyproj, crs)
 
 
 def _known(pyproj: Any, crs: Any) -> Any:

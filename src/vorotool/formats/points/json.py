@@ -25,7 +25,7 @@ from vorotool.formats.text.tables import stated_unit
 from vorotool.types.fields import UP
 
 _READER = option("skeleton-exact reads", 'geometry="polygons" reads')
-_ALONG = option("--what points -f csv there", "points_along")
+_ALONG = option("--what points --every D -f csv there", "points_along")
 
 
 def read_json(source: Source, options: ReadOptions) -> PointRows:

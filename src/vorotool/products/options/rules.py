@@ -44,7 +44,8 @@ EXCLUDING = (
         "connectivity=8 connectivity=4", "the option applies to images"),
     Rule("tessellate", "?is_of_space", "cell_size input_layer input_crs crs", "the option applies to maps"),
     Rule("tessellate", "?is_of_space", "page", "all pages form the volume"),
-    Rule("tessellate", "?is_of_space", "?has_pixel_size", "voxels have three sides", "give --spacing SX,SY,SZ"),
+    Rule("tessellate", "?is_of_space", "?has_pixel_size", "voxels have three sides",
+        "give --spacing SX,SY,SZ or --spacing auto"),
     Rule(SITES, "connectivity", "seeds=pixels seeds=labels", "--connectivity applies to components"),
     # ---- triangulations and alpha shapes
     Rule("delaunay", "what:compare", "method=digital-valid", "the comparison is about the digital rule",
