@@ -21,6 +21,12 @@ inline void report(const Monitor& monitor, double fraction) {
   if (monitor && !monitor(fraction)) throw Interrupted();
 }
 
+// The monitor of a part of the work, which is the whole from one fraction to another. It holds no copy.
+inline Monitor part_of(const Monitor& whole, double from, double to) {
+  if (!whole) return {};
+  return [&whole, from, to](double part) { return whole(from + (to - from) * part); };
+}
+
 // Lets the monitor know at every 2^16th item, which should take some tens of nanoseconds each; of how many
 // items, where that is known.
 inline void report_item(const Monitor& monitor, std::size_t item, std::size_t items = SIZE_MAX) {

@@ -46,16 +46,22 @@ class Canonical {
   // Their first vertex tells ghosts and empty slots, and later on the place of the others in the order.
   static constexpr Index none = -1;
 
+  // Of five passes over all rows or all vertices.
+  base::Monitor next_pass() {
+    const double from = 0.2 * passes_++;
+    return base::part_of(monitor_, from, from + 0.2);
+  }
+
   template <class Body>
   void for_tetrahedra(const Body& body) {
-    base::for_items(slots_, rows_a_piece, threads_, monitor_, [&](std::size_t slot) {
+    base::for_items(slots_, rows_a_piece, threads_, next_pass(), [&](std::size_t slot) {
       if (mesh_.row(slot)[0] != none) body(slot);
     });
   }
   // For pieces of vertices: body(first, last).
   template <class Body>
   void for_vertices(const Body& body) {
-    base::for_pieces(ends_.size() - 1, vertices_a_piece, threads_, monitor_,
+    base::for_pieces(ends_.size() - 1, vertices_a_piece, threads_, next_pass(),
                      [&](std::size_t, std::size_t begin, std::size_t end) { body(begin, end); });
   }
 
@@ -70,7 +76,7 @@ class Canonical {
                                                    {{1, 0, 3, 2}, {1, 3, 2, 0}, {1, 2, 0, 3}},
                                                    {{2, 0, 1, 3}, {2, 1, 3, 0}, {2, 3, 0, 1}},
                                                    {{3, 0, 2, 1}, {3, 2, 1, 0}, {3, 1, 0, 2}}};
-    base::for_items(slots_, rows_a_piece, threads_, monitor_, [&](std::size_t slot) {
+    base::for_items(slots_, rows_a_piece, threads_, next_pass(), [&](std::size_t slot) {
       Tetrahedron& tetrahedron = mesh_.tetrahedron(slot);
       if (!mesh_.is_tetrahedron(slot)) {
         tetrahedron.vertices[0] = none;
@@ -157,6 +163,7 @@ class Canonical {
   const std::span<const Index> index_;
   const unsigned threads_;
   const base::Monitor& monitor_;
+  int passes_ = 0;
   const std::size_t slots_;
   std::vector<std::uint32_t> ends_;  // [vertices + 1] where the rows of each end
   std::vector<std::uint32_t> left_;  // tetrahedra of each block that are not gathered yet

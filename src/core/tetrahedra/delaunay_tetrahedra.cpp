@@ -173,7 +173,7 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
   Tetrahedra result;
   result.first.resize(points.size());
-  SpatialOrder order = spatial_order(points, result.first, threads, monitor);
+  SpatialOrder order = spatial_order(points, result.first, threads, base::part_of(monitor, 0, order_share));
   result.duplicates = points.size() - order.points.size();
   move_to_integers(order.points);
   const std::vector<Index> start = spanning_points(order.points);
@@ -187,10 +187,7 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
   try {
     Insertion(mesh, start, threads, monitor).run();
     order.points = {};
-    const Monitor rest = [&](double part) {
-      return !monitor || monitor(mesh_share + (1 - mesh_share) * part);
-    };
-    rows = canonical_rows(mesh, order.index, threads, rest);
+    rows = canonical_rows(mesh, order.index, threads, base::part_of(monitor, mesh_share, 1));
   } catch (const std::bad_alloc&) {
     throw TooManyTetrahedra(mesh.slots());
   }

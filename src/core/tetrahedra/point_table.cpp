@@ -285,8 +285,8 @@ PointTable point_table(std::span<const Point3> points, std::span<const Corners> 
   for (const Corners& row : neighbors)
     base::check_range(row, -1, tetrahedra.size(), "a neighbor is no tetrahedron");
   const Stars<4> stars(points, tetrahedra);
-  const Monitor first = [&](double part) { return !monitor || monitor(0.2 + 0.3 * part); };
-  const Monitor second = [&](double part) { return !monitor || monitor(0.5 + 0.5 * part); };
+  const Monitor first = base::part_of(monitor, 0.2, 0.5);
+  const Monitor second = base::part_of(monitor, 0.5, 1);
   const Centers centers(points, tetrahedra, threads, first);
   const Cells cells(points, tetrahedra, neighbors, centers);
   const std::size_t n = points.size();

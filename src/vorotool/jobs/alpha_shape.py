@@ -72,7 +72,8 @@ class ShapeProducts(Results):
                 regions = "one region" if o.regions in (None, 1) else f"at most {o.regions} regions"
                 r = radius_text(self.shape.r)
                 if o.pixel_size is not None:
-                    r = f"{r} ({length_in_units(o.pixel_size, float(self.shape.r)):g}{unit_text(o.pixel_size)})"
+                    length = length_in_units(o.pixel_size, nearest_double(self.shape.r))
+                    r = f"{r} ({length:g}{unit_text(o.pixel_size)})"
                 run.note(f"r = {r}, the smallest radius whose shape is {regions} covering every point")
 
     def _triangulation(self, points: PointSet | SeedSet) -> Any:
