@@ -1,0 +1,74 @@
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "check.hpp"
+#include "core/tessellation/simd_level.hpp"
+#include "core/tetrahedra/predicates.hpp"
+#include "core/tetrahedra/set_predicates.hpp"
+#include "core/tetrahedra/sphere_batch.hpp"
+
+using namespace vorotool::core::tetrahedra;
+using namespace vorotool::tests;
+using vorotool::core::tessellation::Simd;
+using vorotool::core::tessellation::supports;
+
+namespace {
+
+constexpr std::size_t corners_and_point = 17;  // four tetrahedra, and the point
+
+// On integers of -most to most times a power of two, with offsets that are far below where `is_rough`.
+std::vector<Point3> drawn_points(Random& random, std::int64_t most, int exponent, bool is_rough) {
+  const auto next = [&] {
+    const double offset = is_rough ? std::ldexp(static_cast<double>(random.whole(-3, 3)), -48) : 0;
+    return std::ldexp(static_cast<double>(random.whole(-most, most)) + offset, exponent);
+  };
+  std::vector<Point3> points;
+  for (std::size_t k = 0; k < corners_and_point; ++k) points.push_back({next(), next(), next()});
+  return points;
+}
+
+void batch_agrees(SphereBatch kernel, const std::vector<Point3>& points, const SetPredicates& predicates,
+                  bool is_exact) {
+  const Point3& p = points.back();
+  int records[4][8] = {};
+  const unsigned tetrahedra[4] = {2, 0, 3, 1};
+  for (int k = 0; k < 4; ++k) {
+    for (int vertex = 0; vertex < 4; ++vertex) records[k][vertex] = 4 * k + vertex;
+  }
+  const SphereSides sides = kernel(points.data(), records, tetrahedra, p, predicates.sphere_bound());
+  for (unsigned k = 0; k < 4; ++k) {
+    const Point3* corners = &points[4 * tetrahedra[k]];
+    if (orient3d(corners[0], corners[1], corners[2], corners[3]) == 0) continue;
+    const int side = in_sphere_or_tie(corners[0], corners[1], corners[2], corners[3], p);
+    const int found = static_cast<int>(sides.inside >> k & 1) - static_cast<int>(sides.outside >> k & 1);
+    CHECK((sides.inside & sides.outside) == 0);
+    if (found != 0 || is_exact) equal(found, side);
+  }
+}
+
+bool is_among(const Point3& p, const std::vector<Point3>& points) {
+  for (std::size_t k = 0; k + 1 < corners_and_point; ++k) {
+    if (points[k].x == p.x && points[k].y == p.y && points[k].z == p.z) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST(lanes_tell_on_which_side_of_a_sphere_a_point_is) {
+  std::vector<SphereBatch> batches{kernels::spheres_portable()};
+#if defined(__x86_64__)
+  if (supports(Simd::avx2)) batches.push_back(kernels::spheres_avx2());
+#endif
+  Random random(7);
+  for (int i = 0; i < 6000; ++i) {
+    const std::int64_t most = std::array{1, 2, 200, 1 << 20}[static_cast<std::size_t>(i % 4)];
+    const bool is_rough = i % 3 == 1, is_whole = i % 3 == 2;
+    const int exponent = is_whole ? 0 : static_cast<int>(random.whole(-60, 60));
+    const std::vector<Point3> points = drawn_points(random, most, exponent, is_rough);
+    if (is_among(points.back(), points)) continue;
+    const SetPredicates predicates(points);
+    for (const SphereBatch batch : batches) batch_agrees(batch, points, predicates, is_whole && most <= 200);
+  }
+}
