@@ -149,19 +149,23 @@ def smoke() -> Iterator[str]:
 
 def whole() -> Iterator[str]:
     """Give each product of each command in each of its formats, and the options that calculate."""
-    from vorotool.products.registry import formats_of
+    from vorotool.products.registry import OF_SPACE, formats_of
 
     yield from smoke()
     for source in ("points.csv", "cells.png"):
         frame = "" if source == "cells.png" else " --size 300x200"
         yield from _products(f"tessellate {source}{frame}", formats_of("tessellate"))
         yield from _products(f"tessellate {source}{frame} --max-distance 7.3 --pixel-size 0.325um", {"table": ("csv",)})
-        meshes = {what: own for what, own in formats_of("delaunay").items() if what != "compare"}
+        meshes = _without_results(formats_of("delaunay"), "compare", *_of_space_alone("delaunay"))
         yield from _products(f"delaunay {source}", meshes)
         yield from _products(f"delaunay {source} --pixel-size 0.325um", _without(meshes, "svg", "png"))
         yield from _products(f"delaunay {source} --clip area.json", {"cells": formats_of("delaunay")["cells"]})
         for radius in ("-r 12.5", "-r 30", "--auto"):
-            yield from _products(f"alphashape {source} {radius}", formats_of("alphashape"))
+            shapes = _without_results(formats_of("alphashape"), *_of_space_alone("alphashape"))
+            yield from _products(f"alphashape {source} {radius}", shapes)
+    for command, more in (("delaunay", ""), ("alphashape", " -r 90"), ("alphashape", " --auto")):
+        in_space = {what: product.formats for what, product in OF_SPACE[command].items()}
+        yield from _products(f"{command} space.csv --space{more}", in_space)
     yield from _products("delaunay points.csv --size 300x200", {"compare": formats_of("delaunay")["compare"]})
     for source in ("great-lakes.geojson", "two-shapes.json", "segments.wkt", "blobs.png", "cells.png"):
         yield from _skeletons(source, formats_of("skeleton-exact"), formats_of("skeleton-approx"))
@@ -194,6 +198,18 @@ def _skeletons(
     yield from _products(f"skeleton-exact {source} --simplify {inner / 4:g}", {"skeleton": ("json",)})
 
 
+def _of_space_alone(command: str) -> set[str]:
+    """Give the results that there are of points in space only."""
+    from vorotool.products.options.rules import NEEDING
+
+    rules = (each for each in NEEDING if command in each.commands.split() and "?is_of_space" in each.others.split())
+    return {condition[5:] for rule in rules for condition in rule.these.split() if condition.startswith("what:")}
+
+
+def _without_results(formats: dict[str, tuple[str, ...]], *names: str) -> dict[str, tuple[str, ...]]:
+    return {what: own for what, own in formats.items() if what not in names}
+
+
 def _without(formats: dict[str, tuple[str, ...]], *names: str) -> dict[str, tuple[str, ...]]:
     return {what: tuple(fmt for fmt in own if fmt not in names) for what, own in formats.items()}
 
@@ -211,6 +227,8 @@ def make_inputs(folder: Path) -> None:
     draw = random.Random(15)
     rows = [f"{300 * draw.random()!r},{200 * draw.random()!r}" for _ in range(400)]
     (folder / "points.csv").write_text("\n".join(["x,y", *rows, ""]))
+    rows = [f"{300 * draw.random()!r},{200 * draw.random()!r},{100 * draw.random()!r}" for _ in range(60)]
+    (folder / "space.csv").write_text("\n".join(["x,y,z", *rows, ""]))
     area = [[20.25, 10.5], [280.1, 30.7], [240.3, 190.9], [90.6, 120.2], [10.4, 180.8]]
     (folder / "area.json").write_text(json.dumps(area))
     pixels = bytes(draw.randrange(256) for _ in range(3 * 120 * 80))
