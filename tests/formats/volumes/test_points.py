@@ -88,7 +88,6 @@ def test_npz_and_npy(tmp_path):
     np.save(tmp_path / "a.npy", table)
     assert read_xyz(tmp_path / "a.npy", columns="1,2,z=3").xyz.tolist() == XYZ
     assert vorotool.read(tmp_path / "a.npy", geometry="space", columns="1,2,z=3").xyz.tolist() == XYZ
-    refused(InputError, 'columns="1,2,z=3"', read_xyz, tmp_path / "a.npy")
     for columns, error, words in (
         ("1,2", UsageError, "names no z"),
         ("1,2,z=4", InputError, "has 3 columns without names: there is no column '4'"),
@@ -112,7 +111,7 @@ def test_npz_and_npy(tmp_path):
     ("name", "data", "columns", "words"),
     [
         ("a.csv", "x,y\n1,2\n", None, r"no columns recognized as x, y and z; name them with columns=\"X,Y,z=Z\""),
-        ("a.csv", "1,2,3\n", None, "no columns recognized as x, y and z"),
+        ("a.csv", "1,2,3,4\n", None, "no columns recognized as x, y and z"),
         ("a.csv", "a,b,c\n1,2,3\n", "a,b", "no columns recognized as x, y and z"),
         ("a.csv", "a,b,c\n1,2,3\n", "a,b,z=d", "'d'"),
         ("a.csv", "a,b,c\n1,2,3\n", "1,2,z=a", "names one column twice"),
@@ -136,6 +135,15 @@ def test_what_has_no_z(tmp_path, name, data, columns, words):
 def test_columns_that_are_malformed(tmp_path, columns):
     (tmp_path / "a.csv").write_text(text("x", "y", "z"))
     refused(UsageError, "name X,Y,z=Z or X,Y,z=Z,LABEL", read_xyz, tmp_path / "a.csv", columns=columns)
+
+
+def test_three_columns_without_names_are_x_y_z(tmp_path):
+    np.save(tmp_path / "a.npy", XYZ)
+    (tmp_path / "a.csv").write_text("\n".join(",".join(map(str, row)) for row in XYZ))
+    for name in ("a.npy", "a.csv"):
+        assert read_xyz(tmp_path / name).xyz.tolist() == XYZ
+    np.save(tmp_path / "b.npy", np.ones((2, 4)))
+    refused(InputError, ["b.npy", "4 columns", 'columns="1,2,z=3"'], read_xyz, tmp_path / "b.npy")
 
 
 def test_an_image(tmp_path):

@@ -83,7 +83,7 @@ def chosen_columns(name: str, fields: list[str], options: ReadOptions) -> Chosen
 
 
 def _recognize(name: str, fields: list[str], options: ReadOptions) -> tuple[bool, Chosen]:
-    """Find the coordinates by the header; two columns without one are x, y."""
+    """Find the coordinates by the header; two columns without one are x, y, in space three x, y, z."""
     chosen = space_columns(fields) if options.wants_z else coordinate_columns(fields)
     if chosen is not None:
         used = [fields[column] for column in chosen]
@@ -94,8 +94,8 @@ def _recognize(name: str, fields: list[str], options: ReadOptions) -> tuple[bool
         label = chosen[options.axes] if len(chosen) > options.axes else None
         return True, Chosen(chosen[0], chosen[1], label, chosen[2] if options.wants_z else None)
     header = not any(_looks_numeric(field) for field in fields) and any(fields)
-    if not header and len(fields) == 2 and not options.wants_z:
-        return False, Chosen(0, 1)
+    if not header and len(fields) == options.axes:
+        return False, Chosen(0, 1, None, 2 if options.wants_z else None)
     raise _no_z(name, fields) if options.wants_z else _unknown_columns(name, fields, header)
 
 

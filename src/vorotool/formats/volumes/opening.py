@@ -154,12 +154,12 @@ def _of_array(source: Source, options: ReadOptions) -> PointRows:
             f"{source.name} holds {header.dtype} of shape {header.shape}: points with a z are an (n, 3) array of "
             "numbers, or have more columns"
         )
-    if options.columns is None:
+    if options.columns is None and header.shape[1] > 3:
         raise InputError(
-            f"{source.name} holds an array, whose third column is read as the label: name it as z with {_NUMBERS}"
+            f"{source.name} holds {header.shape[1]} columns without names: name x, y and z with {_NUMBERS}"
         )
     options.check_sites(source.name, header.shape[0])
-    wanted = parse_columns(options.columns, wants_z=True)
+    wanted = parse_columns(options.columns or "1,2,z=3", wants_z=True)
     if wanted.z is None:
         raise UsageError(f"{option('--columns')} names no z: use {_NUMBERS}")
     chosen = [_column_number(source.name, each, header.shape[1]) for each in wanted.all]
