@@ -8,7 +8,8 @@ methods of all.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
+from dataclasses import MISSING, FrozenInstanceError, dataclass, field, fields
+from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, dataclass_transform, overload
 
 if TYPE_CHECKING:
@@ -40,20 +41,18 @@ def frozen(kind: type[Any] | None = None, /, *, eq: bool = True, repr: bool = Tr
     >>> Size(4), Size(4, height=3) == Size(4)
     (Size(width=4, height=3), True)
     """
-
-    def decorate(kind: type[Any]) -> type[Any]:
-        own = {name: vars(kind).get(name) for name in ("__init__", "__repr__", "__eq__", "__hash__")}
-        made: Any = dataclass(init=False, repr=False, eq=False)(kind)
-        made.__init__, made.__setattr__, made.__delattr__ = own["__init__"] or _init, _refuse, _refuse
-        if repr and own["__repr__"] is None:
-            made.__repr__ = _repr
-        if eq and own["__eq__"] is None:
-            made.__eq__, made.__hash__ = _eq, own["__hash__"] or _hash
-        if own["__init__"] is None:
-            made.__signature__ = _Signature()
-        return made
-
-    return decorate if kind is None else decorate(kind)
+    if kind is None:
+        return partial(frozen, eq=eq, repr=repr)
+    own = {name: vars(kind).get(name) for name in ("__init__", "__repr__", "__eq__", "__hash__")}
+    made: Any = dataclass(init=False, repr=False, eq=False)(kind)
+    made.__init__, made.__setattr__, made.__delattr__ = own["__init__"] or _init, _refuse, _refuse
+    if repr and own["__repr__"] is None:
+        made.__repr__ = _repr
+    if eq and own["__eq__"] is None:
+        made.__eq__, made.__hash__ = _eq, own["__hash__"] or _hash
+    if own["__init__"] is None:
+        made.__signature__ = _Signature()
+    return made
 
 
 def _init(self: Any, /, *given: Any, **named: Any) -> None:
@@ -69,21 +68,18 @@ def _init(self: Any, /, *given: Any, **named: Any) -> None:
         raise TypeError(f"{kind.__name__}() {said} argument {min(twice or unknown)!r}")
     values |= named
     for each in own:
-        if each.name not in values:
-            values[each.name] = _usual(kind, each)
-        object.__setattr__(self, each.name, values[each.name])
+        if each.name in values:
+            value = values[each.name]
+        elif each.default is not MISSING:
+            value = each.default
+        elif each.default_factory is not MISSING:
+            value = each.default_factory()
+        else:
+            raise TypeError(f"{kind.__name__}() missing required argument {each.name!r}")
+        object.__setattr__(self, each.name, value)
     settle = getattr(self, "__post_init__", None)
     if settle is not None:
         settle()
-
-
-def _usual(kind: type[Any], each: Field[Any]) -> Any:
-    """Give the default of a field."""
-    if each.default is not MISSING:
-        return each.default
-    if each.default_factory is MISSING:
-        raise TypeError(f"{kind.__name__}() missing required argument {each.name!r}")
-    return each.default_factory()
 
 
 def _refuse(self: Any, name: str, *_: Any) -> NoReturn:

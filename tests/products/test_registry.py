@@ -10,9 +10,8 @@ from cli_reference import reference
 from support.documents import ROOT
 from support.processes.ended import ended_python
 from vorotool.cli.main import vorotool as vorotool_command
-from vorotool.products.formats import EXTENSIONS, FORMATS, GENERAL, PICTURES
+from vorotool.products.formats import EXTENSIONS, FORMATS, GENERAL, PICTURES, resolved
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of
-from vorotool.products.writing import resolved
 
 ALL = [each for own in PRODUCTS.values() for each in own.values()]
 

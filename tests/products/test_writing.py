@@ -7,8 +7,7 @@ from support.families.values import example_values, volume_values
 from support.readers.written import streamed, written
 from support.refusals import refused
 from vorotool.errors import OutputError, UsageError
-from vorotool.products.registry import parts_of, public_types
-from vorotool.products.writing import chosen_part
+from vorotool.products.registry import chosen_part, parts_of, public_types
 
 VALUES = {name: value for name, value in (example_values() | volume_values()).items() if name in public_types()}
 """A value of each type that can be written."""

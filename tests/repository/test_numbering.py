@@ -7,8 +7,7 @@ import pytest
 
 import vorotool
 from support.readers.written import bytes_of
-from vorotool.products.registry import parts_of
-from vorotool.products.writing import write_product
+from vorotool.products.registry import parts_of, write_product
 
 MESH = vorotool.delaunay([[0, 0], [4, 0], [0, 3], [5, 5]])
 SKELETON = vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]])

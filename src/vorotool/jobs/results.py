@@ -15,8 +15,7 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, table_in_units
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import ANIMATIONS, PICTURES, picture_format
-from vorotool.products.registry import Product, is_of
-from vorotool.products.writing import write_product
+from vorotool.products.registry import Product, is_of, write_product
 
 if TYPE_CHECKING:
     import numpy as np

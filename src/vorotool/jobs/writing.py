@@ -19,8 +19,7 @@ from vorotool.jobs.targets import Target
 from vorotool.numeric.coordinates import coordinates_written
 from vorotool.numeric.numbers import Flatten, checked_flatten, shown_number, whole_number
 from vorotool.products.formats import PICTURES, format_named
-from vorotool.products.registry import VOLUME_PRODUCTS, Product, is_of, parts_of
-from vorotool.products.writing import chosen_part, write_product
+from vorotool.products.registry import VOLUME_PRODUCTS, Product, chosen_part, is_of, parts_of, write_product
 from vorotool.render.drawing import Picture, Plot, drawn_part
 from vorotool.render.looks import World, check_layers, looks_of
 from vorotool.types.fields import Record, is_up, with_y_axis, y_axis_of

@@ -1,4 +1,4 @@
-"""Libraries that are imported when they are first used: a job that needs none does not wait for them."""
+"""Shapely, which is imported when it is first used: a job that needs none of it does not wait for it."""
 
 from __future__ import annotations
 
@@ -6,14 +6,11 @@ from importlib import import_module
 from typing import Any
 
 
-class _Library:
-    """Looks like a module."""
-
-    def __init__(self, name: str) -> None:
-        self._name = name
+class _Shapely:
+    """Looks like the module."""
 
     def __getattr__(self, name: str) -> Any:
-        return getattr(import_module(self._name), name)
+        return getattr(import_module("shapely"), name)
 
 
-shapely: Any = _Library("shapely")
+shapely: Any = _Shapely()

@@ -47,13 +47,6 @@ class Format(NamedTuple):
         return tuple(f".{extension}" for extension in self.extensions or (self.name,))
 
 
-def _of_maps(name: str, title: str, maker: str, sources: tuple[str, ...] = ("geojson",), **more: Any) -> Format:
-    """Give a format of features of maps, or of the rows of tables where it can hold these."""
-    return Format(
-        name, title, is_text=False, flattens=True, made_from=sources, maker=f"formats.gis.{maker}", is_map=True, **more
-    )
-
-
 _GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten", "precision", "threads"))
 _DXF = Writer("formats.drawing.dxf_writer:write_dxf", ("what",))
 _ALL = (
@@ -86,11 +79,24 @@ _ALL = (
         made_from=("geojson", "json"),
         maker="formats.text.tables:JsonLines",
     ),
-    _of_maps("gpkg", "GeoPackage", "geopackage:GeoPackage", ("geojson", "json")),
-    _of_maps("fgb", "FlatGeobuf", "vector_files:FlatGeobuf"),
-    _of_maps("shp", "Shapefile", "vector_files:Shapefile", parts=(".shx", ".dbf", ".prj", ".cpg")),
-    _of_maps(
-        "parquet", "GeoParquet", "geoparquet:GeoParquet", ("geojson", "json"), extensions=("parquet", "geoparquet")
+    *(  # of features of maps, or of the rows of tables where they can hold these
+        Format(
+            name,
+            title,
+            extensions,
+            is_text=False,
+            flattens=True,
+            made_from=sources,
+            maker=f"formats.gis.{maker}:{title}",
+            is_map=True,
+            parts=parts,
+        )
+        for name, title, extensions, sources, maker, parts in (
+            ("gpkg", "GeoPackage", (), ("geojson", "json"), "geopackage", ()),
+            ("fgb", "FlatGeobuf", (), ("geojson",), "vector_files", ()),
+            ("shp", "Shapefile", (), ("geojson",), "vector_files", (".shx", ".dbf", ".prj", ".cpg")),
+            ("parquet", "GeoParquet", ("parquet", "geoparquet"), ("geojson", "json"), "geoparquet", ()),
+        )
     ),
     Format("dxf", "DXF", writer=_DXF, beside="geojson"),
     Format("html", "HTML"),

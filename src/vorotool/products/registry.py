@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cache
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 
-from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, Writer
+from vorotool.errors import UsageError, meant
+from vorotool.products.formats import ANIMATIONS, FORMATS, GENERAL, PICTURES, TABLES, Writer, resolved
 
 
 class Made(NamedTuple):
@@ -221,12 +222,10 @@ _DISC_PRODUCT = _product(
 )
 
 
-def _documents(function: str) -> dict[str, Writer]:
-    """Give what writes all of a result in JSON and as arrays."""
-    return dict.fromkeys(("json", "npz"), Writer(f"formats.results.{function}", ("fmt", "precision", "threads")))
-
-
-_SKELETON, _OFFSETS = _documents("skeleton_files:write_skeleton"), _documents("skeleton_files:write_offsets")
+_SKELETON, _OFFSETS, _MAP = (  # all of a result, in JSON and as arrays
+    dict.fromkeys(("json", "npz"), Writer(f"formats.results.{function}", ("fmt", "precision", "threads")))
+    for function in ("skeleton_files:write_skeleton", "skeleton_files:write_offsets", "voronoi_files:write_voronoi")
+)
 _THICKNESS = Writer("formats.images.label_images:write_thickness", ("fmt", "threads"))
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels", "render.layers.skeleton:skeleton")
@@ -273,7 +272,7 @@ _WITHOUT_SAMPLES = {"offset", "discs", "thickness"}
 _MAP_LAYERS = _pictures("cells edges objects labels", "render.layers.voronoi:voronoi")
 _VORONOI = (
     _product("cells", "VoronoiMap", "geojson csv tsv json npz wkt", _MAP_LAYERS, "cells objects",
-        own=_documents("voronoi_files:write_voronoi"), has_page=True, is_curved=True),
+        own=_MAP, has_page=True, is_curved=True),
     _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP_LAYERS, "edges objects", is_curved=True),
     _product("neighbors", "VoronoiMap", _TABLES),
     _product("table", "VoronoiMap", _TABLES),
@@ -380,3 +379,53 @@ def public_types() -> list[str]:
             name for own in (*PRODUCTS.values(), SPACE_SHAPES) for each in own.values() for name in each.types
         )
     )
+
+
+# ---- what writes a value in a format ------------------------------------------------------------
+_IN_PLACE = "Table", "LedOn", "SmoothLines"
+"""Types that are written under the name of another result, in the formats of rows and features."""
+
+
+def write_product(
+    out: BinaryIO,
+    value: Any,
+    product: Product,
+    fmt: str,
+    *,
+    flatten: float | None = None,
+    precision: int | None = None,
+    threads: int = 0,
+    path: str = "-",
+) -> None:
+    """Write a result in one of its formats; pictures and pages are none of these."""
+    chosen = FORMATS[fmt]
+    resolved("numeric.coordinates:record_value")(value)
+    options: dict[str, Any] = {"flatten": flatten, "precision": precision, "threads": threads}
+    writer = chosen.writers.get(product.what, chosen.writer)
+    if writer is None and fmt not in product.data:
+        source = next(name for name in chosen.made_from if name in product.data)
+        with resolved(chosen.maker)(out, product.what, path) as taker:
+            write_product(taker, value, product, source, **options)
+        return
+    writer = writer or (GENERAL if is_of(value, *_IN_PLACE) else product.own.get(fmt, GENERAL))
+    given = {"fmt": fmt, "what": product.what, **options}
+    resolved(writer.function)(out, value, **{name: given[name] for name in writer.takes})
+
+
+def chosen_part(value: Any, fmt: str, what: str | None) -> Product:
+    """Choose what of a value is written."""
+    parts, name = parts_of(value), type(value).__name__
+    if not parts:
+        *others, last = public_types()
+        raise UsageError(f"a {name} cannot be written: give a {', '.join(others)} or {last}")
+    if what is not None and not (isinstance(what, str) and what in parts):
+        instead = f"use {' or '.join(parts)}" if len(parts) > 1 else "leave it out"
+        raise UsageError(f"what={what!r} is not a result of a {name}: {instead}{meant(str(what), parts)}")
+    having = [each for each in parts.values() if fmt in each.written]
+    usual = [each for each in having if fmt in each.usual_for]
+    chosen = parts[what] if what is not None else next(iter([*usual, *having, *parts.values()]))
+    if fmt not in chosen.written:
+        possible = dict.fromkeys([*chosen.written, *chosen.layers])
+        part = chosen.what if len(parts) > 1 else f"a {name}"
+        raise UsageError(f"{part} cannot be written as {fmt!r}: use one of {', '.join(possible)}")
+    return chosen

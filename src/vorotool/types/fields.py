@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import MISSING, field, fields, replace
 from enum import Enum
-from typing import Any, Literal, TypeVar, dataclass_transform
+from functools import partial
+from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -35,8 +36,7 @@ class Meaning(Enum):
     VALUE = "value"
 
 
-@frozen
-class Declared:
+class Declared(NamedTuple):
     """What a field holds."""
 
     meaning: Meaning
@@ -66,7 +66,11 @@ class Declared:
             self._measure(self.shape, array.shape, name, sizes)
         else:
             self._check_starts(array, name, sizes)
-        return _read_only(array)
+        if not array.flags.writeable:
+            return array
+        view = array.view()  # the caller's own array stays as it is
+        view.flags.writeable = False
+        return view
 
     def _measure(self, shape: tuple[Axis, ...], found: tuple[int, ...], name: str, sizes: dict[str, int]) -> None:
         """Compare a shape with the declared one; the first field that has a named axis says how long it is."""
@@ -87,87 +91,48 @@ class Declared:
             raise InputError(f"{name} must increase from 0 to {last}{empty}")
 
 
-def _read_only(array: NDArray[Any]) -> NDArray[Any]:
-    """Return a view that nothing is written through; the caller's own array stays as it is."""
-    if not array.flags.writeable:
-        return array
-    view = array.view()
-    view.flags.writeable = False
-    return view
-
-
 def _text(shape: tuple[Axis, ...]) -> str:
     return f"({', '.join(map(str, shape))}{',' if len(shape) == 1 else ''})"
 
 
-def _field(
+def _declare(
     meaning: Meaning,
-    shape: tuple[Axis, ...],
     dtype: DTypeLike | None,
+    *shape: Axis,
     default: Any = MISSING,
-    *,
     kw_only: bool = False,
     compare: bool = True,
+    **more: Any,
 ) -> Any:
-    metadata = {_KEY: Declared(meaning, shape, dtype, is_optional=default is None)}
-    if default is MISSING:
-        return field(metadata=metadata, kw_only=kw_only, compare=compare)
+    metadata = {_KEY: Declared(meaning, shape, dtype, is_optional=default is None, **more)}
     return field(default=default, metadata=metadata, kw_only=kw_only, compare=compare)
 
 
-def position(*shape: Axis, default: Any = MISSING, kw_only: bool = False) -> Any:
-    """Declare coordinates: an array whose last axis is x, y; without a shape a box, or a tuple x, y, width, height."""
-    return _field(Meaning.POSITION, shape, np.float64, default, kw_only=kw_only)
-
-
-def filled_in() -> Any:
-    """Declare a value that follows from the others where it is not given."""
-    return field(default=None)
-
-
-def input_box() -> Any:
-    """Declare the box of the image or the page that a value comes from, which `==` does not look at; or None."""
-    return _field(Meaning.POSITION, (), None, None, compare=False)
-
-
-def steps(along: int, *shape: Axis) -> Any:
-    """Declare places on a grid along an axis, 0 for x, as whole numbers of its steps."""
-    return field(metadata={_KEY: Declared(Meaning.STEPS, shape, np.int64, along=along)})
-
-
-def length(*shape: Axis, default: Any = MISSING, kw_only: bool = False) -> Any:
-    """Declare lengths: an array, or one number without a shape."""
-    return _field(Meaning.LENGTH, shape, np.float64, default, kw_only=kw_only)
-
-
-def area(*shape: Axis) -> Any:
-    """Declare areas."""
-    return _field(Meaning.AREA, shape, np.float64)
-
-
-def numbers(dtype: DTypeLike, *shape: Axis, default: Any = MISSING) -> Any:
-    """Declare an array of numbers that no unit changes: ratios, labels, counts, flags, indices."""
-    return _field(Meaning.NUMBER, shape, dtype, default)
-
-
-def index(*shape: Axis, default: Any = MISSING) -> Any:
-    """Declare an int32 array of indices from 0."""
-    return numbers(np.int32, *shape, default=default)
+position = partial(_declare, Meaning.POSITION, np.float64)
+"""Declare coordinates: an array whose last axis is x, y; without a shape a box, or a tuple x, y, width, height."""
+input_box = partial(_declare, Meaning.POSITION, None, default=None, compare=False)
+"""Declare the box of the image or the page that a value comes from, which `==` does not look at; or None."""
+steps = partial(_declare, Meaning.STEPS, np.int64)
+"""Declare places on a grid `along` an axis, 0 for x, as whole numbers of its steps."""
+length = partial(_declare, Meaning.LENGTH, np.float64)
+"""Declare lengths: an array, or one number without a shape."""
+area = partial(_declare, Meaning.AREA, np.float64)
+"""Declare areas."""
+numbers = partial(_declare, Meaning.NUMBER)
+"""Declare an array of a type of numbers that no unit changes: ratios, labels, counts, flags, indices."""
+index = partial(_declare, Meaning.NUMBER, np.int32)
+"""Declare an int32 array of indices from 0."""
+nested = partial(_declare, Meaning.VALUE, None)
+"""Declare another value that has lengths or positions, and its length where other fields have to be as long."""
+y_axis = partial(_declare, Meaning.AXIS, None, compare=False)
+"""Declare which way y goes; values that differ in nothing else are equal."""
+filled_in = partial(field, default=None)
+"""Declare a value that follows from the others where it is not given."""
 
 
 def starts(rows: Axis, items: Axis, *, least: int = 0) -> Any:
     """Declare an int64 array of where each row begins among the items of all, and at its end their number."""
-    return field(metadata={_KEY: Declared(Meaning.NUMBER, (rows,), np.int64, rows_of=items, least=least)})
-
-
-def nested(size: Axis | None = None, *, default: Any = MISSING, kw_only: bool = False) -> Any:
-    """Declare another value that has lengths or positions, and its length where other fields have to be as long."""
-    return _field(Meaning.VALUE, () if size is None else (size,), None, default, kw_only=kw_only)
-
-
-def y_axis(*, default: YAxis) -> Any:
-    """Declare which way y goes; values that differ in nothing else are equal."""
-    return field(default=default, metadata={_KEY: Declared(Meaning.AXIS)}, compare=False)
+    return _declare(Meaning.NUMBER, np.int64, rows, rows_of=items, least=least)
 
 
 def declared(value: object) -> dict[str, Declared]:

@@ -16,8 +16,7 @@ import vorotool
 from support.few import few
 from support.readers.written import bytes_of
 from vorotool.convert.polygons import as_polygons
-from vorotool.products.registry import PRODUCTS, parts_of
-from vorotool.products.writing import write_product
+from vorotool.products.registry import PRODUCTS, parts_of, write_product
 from vorotool.types.polygons.shapely_geometry import to_shapely
 
 SHELL = [[0, 0], [40, 0], [40, 30], [22, 30], [20, 12], [18, 30], [0, 30]]

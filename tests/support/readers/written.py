@@ -7,7 +7,7 @@ import numpy as np
 
 from vorotool.numeric.coordinates import coordinates_written
 from vorotool.products.formats import FORMATS
-from vorotool.products.writing import chosen_part, write_product
+from vorotool.products.registry import chosen_part, write_product
 
 ARCS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
 """Arrays of a skeleton."""

@@ -163,8 +163,7 @@ def _add_features(drawing: DxfDrawing, value: Any, what: str) -> None:
     """What a result has as features in GeoJSON."""
     import orjson
 
-    from vorotool.products.registry import parts_of
-    from vorotool.products.writing import write_product
+    from vorotool.products.registry import parts_of, write_product
 
     text = io.BytesIO()
     write_product(text, value, parts_of(value)[what], "geojson")

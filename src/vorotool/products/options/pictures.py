@@ -9,11 +9,6 @@ _LOOKS = ".picture .amounts"
 _MOVING = "tessellate alphashape skeleton-exact"
 
 
-def _animate(command: str, grows: str) -> Option:
-    text = f"Write an animation of {grows}: GIF, APNG or WebP, as -f or the extension says; default GIF."
-    return Option("--animate", command, text, acts_on=".animation")
-
-
 # Rows stay rows: one argument a line would hide the table.
 # fmt: off
 PICTURES = (
@@ -45,9 +40,15 @@ PICTURES = (
     Option("--legend", ALL, "Draw the names of the layers with their colors in a corner.", acts_on=_LOOKS),
     Option("--scale-bar", ALL, "Draw a length of 1, 2 or 5 times a power of ten, in the unit of --pixel-size or of the "
         "input.", acts_on=_LOOKS),
-    _animate("tessellate", "cells that grow from their seeds, up to --max-distance"),
-    _animate("alphashape", "shapes whose r grows to that of the shape"),
-    _animate("skeleton-exact", "offset curves whose distances grow to those of -d"),
+    *(
+        Option("--animate", command, f"Write an animation of {grows}: GIF, APNG or WebP, as -f or the extension says; "
+            "default GIF.", acts_on=".animation")
+        for command, grows in (
+            ("tessellate", "cells that grow from their seeds, up to --max-distance"),
+            ("alphashape", "shapes whose r grows to that of the shape"),
+            ("skeleton-exact", "offset curves whose distances grow to those of -d"),
+        )
+    ),
     Option("--frames N", _MOVING, "Frames of an animation; default 40.", "int:2:10000", acts_on=".animation"),
     Option("--fps N", _MOVING, "Frames per second; default 10.", "float:0.1:100", acts_on=".animation"),
 )

@@ -103,8 +103,8 @@ class SeedSet(Seeds, Tabular, Geometric, Pictured):
     (1, 2)
     """
 
-    x: NDArray[np.int64] = f.steps(0, "seeds")
-    y: NDArray[np.int64] = f.steps(1, "seeds")
+    x: NDArray[np.int64] = f.steps("seeds", along=0)
+    y: NDArray[np.int64] = f.steps("seeds", along=1)
     labels: NDArray[np.uint32] = f.numbers(np.uint32, "seeds")
     scale: int = 1
     frame: Frame | None = f.position(default=None)
