@@ -24,7 +24,7 @@ def test_every_part_in_every_format(name, tmp_path):
     value = VALUES[name]
     for what, product in parts_of(value).items():
         for fmt in (*product.written, *product.layers):
-            if name == "DigitalTriangulation" and (what == "table" or fmt in ("edge", "ele")):
+            if name == "DigitalTriangulation" and fmt in ("edge", "ele"):
                 continue  # which need be no triangulation
             if fmt == "shp" and (name, what) in OF_SEVERAL_KINDS:
                 words = r"a Shapefile holds geometry of one kind, but this is .*; write a"

@@ -137,7 +137,7 @@ _DELAUNAY = (
         own=_MESH),
     _product("cells", "CellSet", "geojson csv tsv json npz wkt",
         _MESH_LAYERS._replace(drawn_by="render.layers.mesh:cell"), "cells points", own=_CELLS, has_page=True),
-    _product("table", _MESHES, f"{_TABLES} node", own=_MESH),
+    _product("table", "Triangulation", f"{_TABLES} node", own=_MESH),
     _product("statistics", "CellStatistics", _TABLES),
     _product("measures", "CellStatistics", _TABLES),
     _product("compare", "", _TABLES),

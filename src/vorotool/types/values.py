@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from numpy.typing import NDArray
 
+from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import is_equal
 from vorotool.numeric.crs import crs_name
 from vorotool.products.formats import resolved
@@ -73,6 +74,11 @@ class Value(Record):
     def __repr__(self) -> str:
         words = self._summary(), None if self.crs is None else crs_name(self.crs), self.unit
         return f"{type(self).__name__}: {', '.join(filter(None, words))}"
+
+    def _shown_places(self) -> list[Floats]:
+        """Return places that bound the picture of it: by default those of what it was made of, else its points."""
+        made_of = self._made_of
+        return made_of._shown_places() if isinstance(made_of, Value) else [self.points]  # type: ignore[attr-defined]
 
     def _summary(self) -> str:
         """Words for what it holds, on one line, found without going through it; its map and unit follow."""

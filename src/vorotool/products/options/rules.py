@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from vorotool.products.options.row import ALL, BATCHES, SITES, SKELETONS
+from vorotool.products.registry import PRODUCTS
 
 
 class Rule(NamedTuple):
@@ -22,6 +23,11 @@ class Rule(NamedTuple):
     instead: str = "leave out one of the two"
 
 
+_OF_TRIANGULATIONS = " ".join(
+    f"what:{each.what}"
+    for each in PRODUCTS["delaunay"].values()
+    if each.types and not {"DigitalTriangulation", "Tetrahedralization"} & set(each.types)
+)
 # Rows stay rows: one argument a line would hide the table.
 # fmt: off
 EXCLUDING = (
@@ -53,8 +59,7 @@ EXCLUDING = (
     Rule("delaunay", "what:compare+method=exact", "?has_several_results", "the comparison is about the digital rule",
         "use --method digital"),
     Rule("delaunay", "what:compare", "spacing", "differences are explained by the sides of square pixels"),
-    Rule("delaunay", "?is_digital", "layer:cells layer:diagram graph what:cells what:table what:statistics "
-        "what:measures edges.edge triangles.ele",
+    Rule("delaunay", "?is_digital", f"layer:cells layer:diagram graph {_OF_TRIANGULATIONS} edges.edge triangles.ele",
         "the digital rule finds edges and triangles that may not form a triangulation",
         "use --method exact or digital-valid"),
     Rule("delaunay", "?is_of_space", "method=digital method=digital-valid graph clip size window page spacing "

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.frozen import frozen
+from vorotool.numeric.arrays import Floats
 from vorotool.types.features import Rows, of_segments, without_places
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Lookup, Table
@@ -135,6 +136,9 @@ class Distances(Value, Tabular, Geometric, Pictured):
         if what == "hausdorff":
             return replace(self, smallest=None)
         return replace(self, from_a=None, from_b=None) if what == "smallest" else self
+
+    def _shown_places(self) -> list[Floats]:
+        return [polygons.xy for polygons in self.shapes]
 
     def _summary(self) -> str:
         return ", ".join(f"{name} {each.distance:.6g}" for name, each in self.rows.items())

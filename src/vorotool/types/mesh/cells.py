@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import Nesting, divides, following, starts_of
+from vorotool.numeric.arrays import Floats, Nesting, divides, following, starts_of
 from vorotool.numeric.checks import check_index
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types import fields as f
@@ -172,6 +172,9 @@ class CellSet(Value, Tabular, Geometric, Pictured):
         further = {name: column for name, column in self.properties.items() if name != "id"}
         areas = Areas(self.coordinates, self.nesting, in_box=self.polygon_starts is None)
         return Rows(ours, further, self, np.arange(len(self)), areas, ids=self.label_array)
+
+    def _shown_places(self) -> list[Floats]:
+        return [np.array(self.frame.sides).reshape(2, 2)]
 
     def _summary(self) -> str:
         empty = int(np.count_nonzero(self.is_empty))

@@ -10,14 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import mask_of
 from vorotool.types.arguments import check_value
 from vorotool.types.features import Corners, Rows, chosen, point_rows, without_places
 from vorotool.types.identity import with_ends
 from vorotool.types.mesh.cells import ProximityGraph
-from vorotool.types.mesh.triangulation import AnyTriangulation, DigitalTriangulation, Triangulation
+from vorotool.types.mesh.triangulation import AnyTriangulation, Triangulation
 from vorotool.types.table import Computed, Lookup, Table
 from vorotool.types.values import Tabular, Value, counted
 
@@ -122,8 +121,6 @@ def _point_columns(mesh: Triangulation) -> dict[str, Any]:
 
 def mesh_rows(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows:
     """Return the rows of a part, by default of the edges."""
-    if what == "table" and isinstance(mesh, DigitalTriangulation):
-        raise UsageError("a table of points needs a triangulation: write the edges or triangles of this result")
     makers: dict[str | None, Callable[[Any], Table]] = {"triangles": triangle_table, "table": point_table}
     return Rows(makers.get(what, edge_table)(mesh))
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import divides, following, starts_of, within
+from vorotool.numeric.arrays import Floats, divides, following, starts_of, within
 from vorotool.numeric.checks import check_index
 from vorotool.numeric.coordinates import coordinate_rows
 from vorotool.types import fields as f
@@ -205,6 +205,9 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
         if self.ids is None:
             del names["id"]
         return Rows(names, self.other_columns, self, every, self)
+
+    def _shown_places(self) -> list[Floats]:
+        return [self.xy]
 
     def _summary(self) -> str:
         lines = int(np.count_nonzero(self.ring_kind == LINE))

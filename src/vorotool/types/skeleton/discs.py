@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import within
+from vorotool.numeric.arrays import Floats, within
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.coordinates import on_grid
 from vorotool.numeric.curves.flatten import chords_of, circle_tolerances
@@ -196,6 +196,10 @@ class Discs(Value, Tabular, Curved, Pictured):
 
     def _features(self, _what: str | None = None, flatten: float | None = None) -> Rows:
         return of_shapes(self.flattened(flatten), self.polygons, self.polygon)
+
+    def _shown_places(self) -> list[Floats]:
+        across = self.radius[:, None]
+        return [self.polygons.xy, self.xy - across, self.xy + across]
 
     def _summary(self) -> str:
         return counted(len(self), "disc")

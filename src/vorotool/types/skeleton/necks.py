@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import following
+from vorotool.numeric.arrays import Floats, following
 from vorotool.types import fields as f
 from vorotool.types.features import Rows, of_polygons, of_segments, of_shapes, without_places
 from vorotool.types.fields import record
@@ -254,6 +254,9 @@ class Parts(Value, Tabular, Geometric, Pictured):
 
     def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
         return of_shapes(self.described(), self.necks.skeleton.polygons, self.source)
+
+    def _shown_places(self) -> list[Floats]:
+        return [self.polygons.xy]
 
     def _summary(self) -> str:
         return f"{counted(len(self), 'piece')} of {counted(len(self.necks.skeleton.polygons), 'polygon')}"

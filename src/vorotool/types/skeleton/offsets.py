@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import owners
+from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.curves.flatten import chords_of, circle_tolerances
 from vorotool.numeric.curves.inverse_functions import inverse_sine
@@ -24,6 +24,8 @@ from vorotool.types.values import Curved, Pictured, Tabular, Value, counted
 
 PIECE_KINDS = ("line", "arc")
 RING_KINDS = ("shell", "hole")
+_FINE = 2.0**-10
+"""Of the extent: chords of arcs whose bounds are shown."""
 
 
 @record
@@ -228,6 +230,11 @@ class Offsets(Value, Tabular, Curved, Pictured):
 
     def _features(self, _what: str | None = None, flatten: float | None = None) -> Rows:
         return of_shapes(self.flattened(flatten), self.polygons, self.polygon)
+
+    def _shown_places(self) -> list[Floats]:
+        corners = np.concatenate([self.polygons.xy, self.start])
+        tolerance = _FINE * (float(np.ptp(corners, axis=0).max()) or 1.0) if len(corners) else 1.0
+        return [self.polygons.xy, self.flattened(tolerance).xy]
 
     def _summary(self) -> str:
         return f"{counted(len(self), 'shape')}, {counted(len(self.site), 'piece')}"

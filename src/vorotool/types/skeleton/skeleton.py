@@ -16,6 +16,7 @@ from vorotool.numeric.numbers import checked_flatten
 from vorotool.numeric.parallel import in_chunks
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
+from vorotool.types.box import extent_sides
 from vorotool.types.fields import Record, record
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.arc_measures import ArcMeasures
@@ -325,6 +326,11 @@ class Skeleton(Value, Tabular, Branched, Pictured):
 
     def _features(self, what: str | None = None, flatten: float | None = None) -> Rows:
         return resolved("types.skeleton.tables:skeleton_features")(self, what, flatten)
+
+    def _shown_places(self) -> list[Floats]:
+        """Return all polygons, and the frame, if arcs are cut by one."""
+        frame = [] if self.frame is None else [np.array(extent_sides(self.frame)).reshape(2, 2)]
+        return [self.polygons.xy, *frame]
 
     def _summary(self) -> str:
         branches = counted(int(self.branch[-1]) + 1 if len(self) else 0, "branch", "branches")

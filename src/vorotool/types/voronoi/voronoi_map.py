@@ -14,6 +14,7 @@ from vorotool.numeric.arrays import Floats, owners
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
+from vorotool.types.box import extent_sides
 from vorotool.types.fields import record
 from vorotool.types.identity import feature_labels, other_columns
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -265,6 +266,9 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
 
     def _features(self, what: str | None = None, flatten: float | None = None) -> Rows:
         return resolved("types.voronoi.tables:map_features")(self, what, flatten)
+
+    def _shown_places(self) -> list[Floats]:
+        return [np.array(extent_sides(self.frame)).reshape(2, 2)]
 
     def _summary(self) -> str:
         sizes = (
