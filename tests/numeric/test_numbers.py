@@ -109,6 +109,16 @@ TAKERS = {
     "max_distance": lambda x: vorotool.tessellate(SQUARE, max_distance=x),
     "regions": lambda x: vorotool.alpha_shape(SQUARE, regions=x),
     "connectivity": lambda x: vorotool.outlines(IMAGE, threshold=1, connectivity=x),
+    "side": lambda x: vorotool.skeleton_exact(SQUARE, side=x),
+    "features": lambda x: vorotool.largest_discs(SQUARE, features=x),
+    "outline": lambda x: vorotool.outlines(IMAGE, threshold=1, outline=x),
+    "border": lambda x: vorotool.outlines(IMAGE, threshold=1, border=x),
+    "mode": lambda x: vorotool.seeds_from_raster(IMAGE, mode=x),
+    "image": lambda x: vorotool.tessellate(SQUARE, image=x),
+    "kind": lambda x: vorotool.proximity_graph(vorotool.delaunay(SQUARE), x),
+    "hint": lambda x: vorotool.insert_points(vorotool.delaunay(SQUARE), [[1, 1]], hint=x),
+    "rule": lambda x: vorotool.alpha_shape(SQUARE, rule=x),
+    "what": lambda x: vorotool.to_geojson(vorotool.skeleton_exact(SQUARE), what=x),
     **{
         name: lambda x, name=name: vorotool.prune(vorotool.skeleton_exact(SQUARE), **{name: x})
         for name in ("angle", "chord", "scale", "length", "ratio")
@@ -149,6 +159,15 @@ def test_options_that_are_wrong_or_huge_are_refused_in_short(taker):
         with pytest.raises((UsageError, InputError, LimitError)) as refused:
             take(value)
         assert len(str(refused.value)) < 200
+
+
+def test_names_may_be_huge_numbers():
+    for take in (
+        lambda: vorotool.delaunay({10**5000: [1, 2]}),
+        lambda: vorotool.polygon_table(vorotool.skeleton_exact(SQUARE), columns={10**5000: 1}),
+    ):
+        with pytest.raises(InputError, match="of type int"):
+            take()
 
 
 @pytest.mark.parametrize("taker", ["regions", "max_distance"])

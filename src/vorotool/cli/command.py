@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from math import isnan, nan
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -63,6 +64,37 @@ class Choice(click.Choice):  # type: ignore[type-arg]  # that of click 8.1 takes
             self.fail(error.message.rstrip(".") + meant(str(value), self.choices), param, ctx)
 
 
+class _InRange(ParameterType):
+    """A number with a least value, and perhaps a largest."""
+
+    noun = ""
+    min: Any
+    max: Any
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Refuse what is not a number, and what is beyond the limits, in the same words."""
+        try:
+            number = super().convert(value, param, ctx)
+        except click.BadParameter:
+            number = nan
+        if isnan(number):
+            limits = f"of at least {self.min:n}" if self.max is None else f"from {self.min:n} to {self.max:n}"
+            self.fail(f"{value!r}: expected {self.noun} {limits}", param, ctx)
+        return number
+
+
+class Whole(_InRange, click.IntRange):
+    """An integer."""
+
+    noun = "an integer"
+
+
+class Real(_InRange, click.FloatRange):
+    """A number."""
+
+    noun = "a number"
+
+
 class Names(Value):
     """Names from a list, separated by commas."""
 
@@ -96,7 +128,7 @@ def _type_of(command: str, row: Option) -> ParameterType | None:
         least, most = (number(text) if text else None for text in rest.split(":"))
         if least is None and most is None:
             return click.INT
-        return click.IntRange(least, most) if kind == "int" else click.FloatRange(least, most)
+        return Whole(least, most) if kind == "int" else Real(least, most)
     if kind == "results":
         return Names(row.metavar, tuple(PRODUCTS[command]))
     if kind == "layers":

@@ -12,7 +12,7 @@ import click
 from vorotool.errors import UsageError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.temporaries import committed_together
-from vorotool.jobs.inputs import check_streams, is_several
+from vorotool.jobs.inputs import JobInput, check_streams, is_several
 from vorotool.jobs.job import options_of_line, process_input
 from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.refusals import check_options
@@ -57,6 +57,7 @@ def run_command(command: str, values: Mapping[str, Any], sources: Mapping[str, s
         committed_together(),  # the statistics, too
         Run(command, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar) as run,
     ):
+        run.source = None if o.other else JobInput(path).name
         process_input(run, o, path, targets)
 
 

@@ -14,6 +14,7 @@ from vorotool.errors import InputError, warn
 from vorotool.frozen import frozen
 from vorotool.numeric.checks import LONGEST, index_of_rows
 from vorotool.numeric.crs import crs_member, member_of_text, without_number
+from vorotool.numeric.numbers import shown_number
 from vorotool.products.formats import resolved
 from vorotool.types.fields import UP, YAxis, y_axis_member
 
@@ -254,7 +255,7 @@ def joined_parts(geometry: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
         kind = each.get("type") if isinstance(each, Mapping) else None
         member = "geometries" if kind == "GeometryCollection" else "coordinates"
         if kind not in GEOMETRY_TYPES or not isinstance(each.get(member), Sequence | np.ndarray):
-            raise InputError(f"a geometry of type {kind!r} has no {member}: give a GeoJSON geometry")
+            raise InputError(f"a geometry of type {shown_number(kind)} has no {member}: give a GeoJSON geometry")
         if kind == "GeometryCollection":
             pending.extend(reversed(each["geometries"]))
         elif kind.startswith("Multi"):

@@ -20,7 +20,7 @@ from vorotool.numeric.checks import (
     unexpected,
 )
 from vorotool.numeric.coordinates import MOST_AXES
-from vorotool.numeric.numbers import real_number
+from vorotool.numeric.numbers import real_number, shown_number
 from vorotool.types.images import LabelImage, Raster
 from vorotool.types.pixels import MAX_PIXELS
 
@@ -34,7 +34,7 @@ COLOR_CHANNELS = (1, 2, 3, 4)
 def check_image_choice(image: Any) -> None:
     """Raise UsageError unless `image` is True, False or None."""
     if not is_choice(image, (None, True, False)):
-        raise UsageError(f"invalid image {image!r}: expected True, False or None")
+        raise UsageError(f"invalid image {shown_number(image)}: expected True, False or None")
 
 
 def is_image(source: Any, name: str, image: bool | None = None) -> bool:

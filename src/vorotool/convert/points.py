@@ -23,7 +23,7 @@ from vorotool.numeric.checks import (
 from vorotool.numeric.coordinates import MOST_AXES, number_array
 from vorotool.numeric.crs import note_degrees
 from vorotool.numeric.lazy import shapely
-from vorotool.numeric.numbers import pair_of_doubles
+from vorotool.numeric.numbers import pair_of_doubles, shown_number
 from vorotool.products.registry import is_of
 from vorotool.types.points.point_set import LABEL, PointSet, labels_of
 from vorotool.types.polygons.shapely_geometry import part_numbers, single_points
@@ -178,7 +178,7 @@ def _positions_of(item: Any, place: str) -> Iterator[Any]:
             if kind != "Point":
                 raise _no_point(f"a {kind}", place)
             if not isinstance(coordinates, Sequence | np.ndarray) or len(coordinates) < 2:
-                raise InputError(f"{place} has the coordinates {coordinates!r}: give two numbers")
+                raise InputError(f"{place} has the coordinates {shown_number(coordinates)}: give two numbers")
             yield list(coordinates)[:2]  # a height is left out
     else:
         yield item

@@ -102,7 +102,9 @@ def _shapely_of(item: Any) -> Any:
     try:
         return shape(item)
     except (TypeError, ValueError, AttributeError, IndexError, KeyError, shapely.GEOSException) as error:
-        raise InputError(f"a geometry of type {item.get('type')!r} has invalid coordinates: {error}") from None
+        raise InputError(
+            f"a geometry of type {shown_number(item.get('type'))} has invalid coordinates: {error}"
+        ) from None
 
 
 def _of_points(points: PointSet) -> Sites:
@@ -171,7 +173,7 @@ def _values(features: Sites, by: Any) -> list[Any]:
         if found is None:
             names = ", ".join(columns) or "they have none"
             more = option("", ", or one value per feature")
-            raise UsageError(f"invalid {_BY} {by!r}: expected a column of the sites ({names}){more}")
+            raise UsageError(f"invalid {_BY} {shown_number(by)}: expected a column of the sites ({names}){more}")
         by = found
     try:
         values = [*listed(by)]

@@ -13,6 +13,7 @@ from vorotool.convert.tables import plain_name
 from vorotool.errors import InputError, UsageError, warn
 from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.length_units import ratio
+from vorotool.numeric.numbers import shown_number
 from vorotool.types.pixels import ALIKE, PixelGrid, PixelSides, map_grid, pixel_sides, rounded_side, sides_of_grid
 from vorotool.types.volumes.volume import VoxelGrid
 
@@ -27,7 +28,9 @@ def asked_sides(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
     if spacing is not None and not isinstance(spacing, str):
         return pixel_sides(spacing, axes)
     if spacing not in (None, AUTO):
-        raise UsageError(f"invalid spacing {spacing!r}: expected numbers, or 'auto' for the size that the image states")
+        raise UsageError(
+            f"invalid spacing {shown_number(spacing)}: expected numbers, or 'auto' for the size that the image states"
+        )
     try:
         grid = carried_grid(source, axes)
     except InputError:

@@ -12,7 +12,7 @@ from vorotool.errors import InputError
 from vorotool.numeric.checks import column_names, described, is_masked_array
 from vorotool.numeric.coordinates import INEXACT, first_inexact, number_array
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
-from vorotool.numeric.numbers import shown_number
+from vorotool.numeric.numbers import plain_text, shown_number
 from vorotool.types.fields import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet, labels_of
 
@@ -38,7 +38,7 @@ def is_table(value: Any) -> bool:
 def points_of_table(table: Any, name: str) -> PointSet:
     """Take coordinates, labels, further columns and the index of a table."""
     names, columns = _columns_of(table)
-    texts = [str(each) for each in names]
+    texts = [plain_text(each) for each in names]
     chosen = coordinate_columns(texts) or _two_numeric(texts, columns)
     if chosen is None:
         raise _unknown(table, names, columns, name)
@@ -56,7 +56,7 @@ def volume_points_of_table(table: Any) -> VolumePoints:
     from vorotool.types.points.point_set import VolumePoints
 
     names, columns = _columns_of(table)
-    texts = [str(each) for each in names]
+    texts = [plain_text(each) for each in names]
     chosen = space_columns(texts)
     if chosen is None:
         raise InputError(f"expected columns x, y, z, but got {described(table)}; rename the columns")

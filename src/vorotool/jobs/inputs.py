@@ -136,11 +136,12 @@ def _tolerances(o: Options, source: Opened, read: Callable[..., Any]) -> tuple[O
     return source, {name: known_length(getattr(o, name)) for name in names}
 
 
-def report_no_geometry(run: Run, o: Options, what: str = "the input") -> None:
+def report_no_geometry(run: Run, o: Options, name: str | None = None) -> None:
     """Warn of an input without geometry, or refuse it where `--strict` is given."""
     if o.strict:  # messages of errors begin with the name of the input
         raise InputError("the input holds no geometry: leave out --strict for an empty result")
-    run.warn(Message(f"{what} holds no geometry: the result is empty", Kind.EMPTY_INPUT))
+    name = name or run.source or "the input"
+    run.warn(Message(f"{name} holds no geometry: the result is empty", Kind.EMPTY_INPUT, source=name))
 
 
 def check_streams(named: Iterable[tuple[str, str]]) -> None:

@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool import __version__
-from vorotool.errors import Kind, Message, VorotoolWarning
+from vorotool.errors import Kind, Message, RepairWarning, VorotoolWarning
 from vorotool.jobs.terminal import tell
 from vorotool.numeric.coordinates import coordinates_written
 from vorotool.numeric.parallel import Progress, Report
@@ -56,6 +56,7 @@ class Run:
         self.seconds: dict[str, float] = {}
         self._inner: list[float] = []
         self._stack = ExitStack()
+        self.source: str | None = None  # what messages call the input; None where there are several
         self.reads_image = False
         self.stats: dict[str, Any] = {"command": command, "version": __version__}
         # the unit of the coordinates of points, lines and polygons, where no reference system states it
@@ -151,14 +152,21 @@ class Run:
 
     def _show_warning(self, message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
         if isinstance(message, VorotoolWarning):  # a library's own remark says nothing about the user's data
-            self.warn(message.message)
+            if isinstance(message, RepairWarning) and self.source is not None:
+                said = Message.of(message.message)
+                self.warn(Message(f"{self.source}: {said.marked}", said.kind, source=self.source))
+            else:
+                self.warn(message.message)
 
     def _write_stats(self, target: str) -> None:
         import orjson
 
         from vorotool.formats.io.atomic_output import open_output
+        from vorotool.numeric.length_units import ascii_unit
 
         self.stats["seconds"] = {name: round(value, 6) for name, value in self.seconds.items()}
         self.stats["warnings"] = self.warnings
+        units = (name for name in ("unit", "unit_of_distance2") if self.stats.get(name) is not None)
+        self.stats |= {name: ascii_unit(self.stats[name]) for name in units}
         with open_output(target, no_clobber=self._no_clobber, option="--stats") as out:
             out.write(orjson.dumps(self.stats, option=orjson.OPT_INDENT_2 | orjson.OPT_APPEND_NEWLINE))

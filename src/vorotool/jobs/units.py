@@ -151,7 +151,6 @@ class Sides(NamedTuple):
 
 def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
     """Give options whose lengths are numbers in the coordinates of the input, as far as a size of pixels tells."""
-    _converted(o, partial(_check_unit, size))
     if size is None or size.is_auto or size.unit is None:
         return o  # the input may tell
     lengths = (size.factor,) * 2 if size.sides is None else size.sides.lengths
@@ -207,15 +206,6 @@ def _in_pixels(option: str, value: Any, converted: Callable[[str, Measured], Any
     if isinstance(value, tuple):
         return tuple(_in_pixels(option, each, converted) for each in value)
     return value
-
-
-def _check_unit(size: PixelSize | None, option: str, length: Measured) -> None:
-    """Refuse a unit that is not known; that of the size of pixels may be any."""
-    from vorotool.numeric.length_units import METERS, is_known
-
-    if not is_known(length.unit) and (size is None or size.unit != length.unit):
-        known = ", ".join(METERS)
-        raise UsageError(f"invalid {option} {length.text!r}: expected a number alone, or with a unit of {known}")
 
 
 def _number(sides: Sides, option: str, length: Measured) -> Fraction | float:

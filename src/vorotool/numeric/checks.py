@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError, UsageError
-from vorotool.numeric.numbers import shown_number
+from vorotool.numeric.numbers import plain_text, shown_number
 
 MOST_THREADS = 1024
 """More help nothing."""
@@ -92,7 +92,8 @@ def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = 
         bad |= (array != np.floor(array)) | (array >= 2.0 ** (limits.bits - (limits.min < 0)))
     if np.any(bad):
         at = int(np.argmax(bad))
-        raise InputError(f"{name} {at + 1} is {array.flat[at]}: it must be an integer from {low} to {limits.max}")
+        found = plain_text(array.flat[at])
+        raise InputError(f"{name} {at + 1} is {found}: it must be an integer from {low} to {limits.max}")
     return np.ascontiguousarray(array, dtype=kind)
 
 
@@ -145,7 +146,7 @@ def described(value: Any) -> str:
 
 def listing(names: list[Any]) -> str:
     """Name the first few of some names."""
-    shown = [str(name) for name in names[:MOST_SHOWN]]
+    shown = [plain_text(name) for name in names[:MOST_SHOWN]]
     return ", ".join([*shown, *(["…"] if len(names) > MOST_SHOWN else [])])
 
 

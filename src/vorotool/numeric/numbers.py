@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from decimal import Decimal
 from fractions import Fraction
 from math import inf, isfinite, isnan
@@ -102,11 +103,16 @@ def shown_number(value: Any) -> str:
     if isinstance(value, tuple | list) and 0 < len(value) <= MOST_IN_A_ROW:
         shown = ", ".join("…" if isinstance(one, tuple | list) else shown_number(one) for one in value)
         return f"({shown})" if isinstance(value, tuple) else f"[{shown}]"
-    try:
-        text = repr(value)
-    except ValueError:  # Python writes no integers of more than some thousand digits
-        text = f"of type {type(value).__name__}"
+    text = plain_text(value, repr)
     return text if len(text) <= MOST_SHOWN else f"{text[: MOST_SHOWN - 1]}…"
+
+
+def plain_text(value: Any, write: Callable[[Any], str] = str) -> str:
+    """Write a value as text; Python writes no integers of more than some thousand digits."""
+    try:
+        return write(value)
+    except ValueError:
+        return f"of type {type(value).__name__}"
 
 
 def checked_tolerance(value: Any, *, allows_zero: bool = False) -> float:

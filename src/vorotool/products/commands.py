@@ -37,6 +37,7 @@ Zarr); - is standard input. Label i is the i-th point; an image's own labels are
 stack (TIFF, NPY, Zarr), or points with a z.""",
         job_in_space="jobs.volumes:VolumeProducts",
         check="jobs.tessellation:check",
+        instead=(("--unit", "give --pixel-size, such as 0.325um"),),
     ),
     "delaunay": Command(
         "Exact Delaunay triangulation of points or of an image.",

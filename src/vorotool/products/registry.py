@@ -420,7 +420,9 @@ def chosen_part(value: Any, fmt: str, what: str | None) -> Product:
         raise UsageError(f"a {name} cannot be written: give a {', '.join(others)} or {last}")
     if what is not None and not (isinstance(what, str) and what in parts):
         instead = f"use {' or '.join(parts)}" if len(parts) > 1 else "leave it out"
-        raise UsageError(f"what={what!r} is not a result of a {name}: {instead}{meant(str(what), parts)}")
+        shown = resolved("numeric.numbers:shown_number")(what)
+        close = meant(what, parts) if isinstance(what, str) else ""
+        raise UsageError(f"what={shown} is not a result of a {name}: {instead}{close}")
     having = [each for each in parts.values() if fmt in each.written]
     usual = [each for each in having if fmt in each.usual_for]
     chosen = parts[what] if what is not None else next(iter([*usual, *having, *parts.values()]))

@@ -7,6 +7,7 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, Protocol
 
 from vorotool.errors import UsageError
+from vorotool.numeric.numbers import shown_number
 from vorotool.products.formats import resolved
 from vorotool.products.registry import Product, is_of, parts_of
 from vorotool.render.looks import Looks, World, styled_page
@@ -165,5 +166,7 @@ def drawn_part(value: Any, what: str | None) -> Product:
         raise UsageError(f"a {type(value).__name__} has no picture: write it as a table")
     chosen = what or next(iter(drawn))
     if chosen not in drawn:
-        raise UsageError(f"what={what!r} is not a picture of a {type(value).__name__}: use {' or '.join(drawn)}")
+        raise UsageError(
+            f"what={shown_number(what)} is not a picture of a {type(value).__name__}: use {' or '.join(drawn)}"
+        )
     return drawn[chosen]

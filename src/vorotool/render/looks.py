@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
 from vorotool.numeric.length_units import METERS
+from vorotool.numeric.numbers import shown_number
 
 if TYPE_CHECKING:
     from vorotool.render.canvas.layers import Page
@@ -118,7 +119,9 @@ def check_layers(looks: Looks, drawn: Sequence[str]) -> None:
     for option, chosen in (("color", looks.colors), ("line_width", looks.line_widths)):
         for layer, _ in chosen:
             if layer not in known:
-                raise UsageError(f"invalid {option} of {layer!r}: expected a layer of the picture, {', '.join(known)}")
+                raise UsageError(
+                    f"invalid {option} of {shown_number(layer)}: expected a layer of the picture, {', '.join(known)}"
+                )
 
 
 class World(NamedTuple):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Nesting
-from vorotool.numeric.numbers import Flatten, checked_flatten
+from vorotool.numeric.numbers import Flatten, checked_flatten, shown_number
 from vorotool.products.registry import is_of
 from vorotool.types.identity import names_of, with_columns_of
 from vorotool.types.table import Table
@@ -119,7 +119,7 @@ def chosen(value: object, what: str | None, parts: Mapping[str, Callable[[], Row
     """Return the rows of a part, by default of the first one."""
     name = what or next(iter(parts))
     if name not in parts:
-        raise UsageError(f"invalid what {what!r}: expected {', '.join(parts)} of a {type(value).__name__}")
+        raise UsageError(f"invalid what {shown_number(what)}: expected {', '.join(parts)} of a {type(value).__name__}")
     return parts[name]()
 
 

@@ -17,6 +17,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError
 from vorotool.frozen import frozen
+from vorotool.numeric.numbers import shown_number
 
 _KEY = "declared"
 T = TypeVar("T")
@@ -200,7 +201,7 @@ def y_axis_of(y_up: bool | None, usual: YAxis = UNSTATED) -> YAxis:
 def checked_y_axis(given: Any, name: str = MEMBER) -> YAxis:
     """Return what a file or a caller says of the axis."""
     if not isinstance(given, str) or given not in AXES:
-        raise InputError(f"{name} is {given!r}: write {', '.join(map(repr, AXES[:2]))} or {AXES[2]!r}")
+        raise InputError(f"{name} is {shown_number(given)}: write {', '.join(map(repr, AXES[:2]))} or {AXES[2]!r}")
     return given
 
 

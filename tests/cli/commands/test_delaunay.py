@@ -70,8 +70,8 @@ def test_verify_notices_a_wrong_triangulation(run, monkeypatch):
 @pytest.mark.parametrize(
     ("text", "edges", "words"),
     [
-        ("", [], ["the input holds no geometry: the result is empty"]),
-        ("x,y\n", [], ["the input holds no geometry: the result is empty"]),
+        ("", [], ["warning: few.csv holds no geometry: the result is empty"]),
+        ("x,y\n", [], ["warning: few.csv holds no geometry: the result is empty"]),
         ("1,2\n", [], ["no edges: 1 distinct point\n"]),
         ("1,2\n1,2\n", [], ["1 of 2 points", "no edges: 1 distinct point\n"]),
         ("1,2\n3,4\n", [(1, 2)], []),

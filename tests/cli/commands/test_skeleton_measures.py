@@ -103,7 +103,7 @@ def test_magnitudes_at_the_limits(run, folder, factor):
 # ---- repairs, features, curves ----------------------------------------
 def test_repairs_are_told(run, folder):
     (folder / "a.json").write_text("[[0, 0], [4, 4], [4, 0], [0, 4]]")
-    assert run("skeleton-exact a.json --stats s.json -o b.csv").err.startswith("warning: repaired: 1 crossing")
+    assert run("skeleton-exact a.json --stats s.json -o b.csv").err.startswith("warning: a.json: repaired: 1 crossing")
     stats = json.loads((folder / "s.json").read_text())
     assert stats["repairs"]["crossings"] == 1
     assert len(stats["warnings"]) == 1

@@ -45,6 +45,12 @@ def test_photographs_need_a_threshold(run, photographs):
     run("draw grey.jpg -o b.svg", code=3, says="give a PNG, TIFF or NPY file")
 
 
+@pytest.mark.parametrize("columns", [3, 4])
+def test_points_with_further_columns_are_no_photograph(run, folder, columns):
+    np.save(folder / "a.npy", np.random.default_rng(1).random((30, columns)))
+    run("delaunay a.npy", code=3, says=f"(30, {columns}), is it a list of points?")
+
+
 def test_the_first_picture_of_an_animation_is_read_with_a_note(run, photographs):
     frames = [Image.fromarray(part) for part in (MASK, 255 - MASK)]
     frames[0].save(photographs / "b.gif", save_all=True, append_images=frames[1:])

@@ -176,7 +176,7 @@ def test_a_stack_carries_its_spacing_on(run, stack):
 def test_what_the_file_says_is_told(run, stack):
     run("tessellate --volume stack.tif -o out.tif", says="--spacing")
     stats = json.loads(run("tessellate --volume stack.tif --spacing auto -o out.tif --stats -").out)
-    assert (stats["spacing"], stats["unit"], stats["unit_of_distance2"]) == ([0.325, 0.325, 1.5], "µm", "(1/40 µm)²")
+    assert (stats["spacing"], stats["unit"], stats["unit_of_distance2"]) == ([0.325, 0.325, 1.5], "um", "(1/40 um)²")
     assert (stats["frame"], stats["voxels"], stats["labels"]) == ([0, 0, 0, 11, 9, 7], 693, 3)
     assert stats["arithmetic"].startswith("float64")
 

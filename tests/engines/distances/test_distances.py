@@ -107,3 +107,12 @@ def test_the_checker_finds_what_is_wrong():
     for each in wrong:
         with pytest.raises(VerificationError):
             verify_distances(each)
+
+
+def test_edges_that_bound_nothing_are_left_out_with_a_warning():
+    spike = shapely.Polygon([(0, 0), (10, 0), (10, 10), (5, 10), (5, 30), (5, 10), (0, 10)])
+    far = shapely.box(5, 28, 10, 40)
+    with pytest.warns(vorotool.RepairWarning, match="feature 1 of b: edges cross or overlap"):
+        assert distance(far, spike).smallest.distance == 18
+    with pytest.warns(vorotool.RepairWarning, match="feature 2 of a: "):
+        assert hausdorff([far, spike], far).from_b.distance == 0

@@ -13,7 +13,7 @@ from vorotool.cli.values.numbers import decimal
 from vorotool.errors import UsageError
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning
 from vorotool.jobs.units import AUTO, AUTO_SPACING, Measured, PixelSize
-from vorotool.numeric.length_units import METERS
+from vorotool.numeric.length_units import METERS, is_known
 
 if TYPE_CHECKING:
     from vorotool.types.pixels import PixelSides
@@ -40,7 +40,13 @@ PRUNINGS = "angle=DEG, chord=D, scale=S, length=D, ratio=Q, mask or none"
 def measured(text: str, *, is_exact: bool = False) -> Measured | None:
     """Return a length that has a unit; None for all else."""
     match = _WITH_UNIT.fullmatch(text)
-    return None if match is None else Measured(text, decimal(match[1]), match[2], is_exact)
+    return None if match is None else Measured(text, decimal(match[1]), _known_unit(match[2]), is_exact)
+
+
+def _known_unit(name: str) -> str:
+    if not is_known(name):
+        raise UnexpectedError(f"expected a number alone, or with a unit of {', '.join(METERS)}")
+    return name
 
 
 def exact_length(text: str) -> Measured | Fraction:
@@ -50,6 +56,8 @@ def exact_length(text: str) -> Measured | Fraction:
 
 def radius(text: str) -> Measured | Fraction | float:
     """Return an exact length, or infinity."""
+    if text == "auto":
+        raise UnexpectedError("expected a decimal such as 12.5: for the smallest that fits use --auto in place of -r")
     return inf if text == "inf" else exact_length(text)
 
 
@@ -113,7 +121,8 @@ def _one_or_range(part: str) -> Sequence[float | Measured]:
     numbers = [start + k * step for k in range(int(count))]
     if unit is None:
         return [float(number) for number in numbers]
-    return [Measured(f"{float(number):g}{unit[0]}", number, unit[0], is_exact=False) for number in numbers]
+    name = _known_unit(unit[0])
+    return [Measured(f"{float(number):g}{name}", number, name, is_exact=False) for number in numbers]
 
 
 # ---- places --------------------------------------------------------------------------------------
@@ -177,7 +186,7 @@ def area(text: str, *, zero: bool = False) -> Measured | Fraction:
     exact = decimal(number)
     if exact < 0 or (exact == 0 and not zero):
         raise UnexpectedError(f"expected {'0 or more' if zero else 'more than 0'}")
-    return exact if unit is None else Measured(text, exact, unit, is_exact=True, power=_POWERS[power])
+    return exact if unit is None else Measured(text, exact, _known_unit(unit), is_exact=True, power=_POWERS[power])
 
 
 def area_or_zero(text: str) -> Measured | Fraction:
@@ -218,7 +227,7 @@ def pixel_size(text: str) -> PixelSize:
     factor = decimal(match[1])
     if not factor or not 1e-100 < factor < 1e100:
         raise UnexpectedError("expected more than 0, and at most 1e100")
-    return PixelSize(factor, match[2])
+    return PixelSize(factor, match[2] and _known_unit(match[2]))
 
 
 def spacing(text: str) -> PixelSize:
@@ -230,7 +239,7 @@ def spacing(text: str) -> PixelSize:
         raise UnexpectedError(
             "expected the sides of a pixel, such as 0.325,0.5um, of a voxel, such as 1,1,2um, or auto"
         )
-    numbers, units = [decimal(match[1]) for match in matches], [match[2] for match in matches]
+    numbers, units = [decimal(match[1]) for match in matches], [match[2] and _known_unit(match[2]) for match in matches]
     if not all(1e-100 < number < 1e100 for number in numbers):
         raise UnexpectedError("expected sides of more than 0, and at most 1e100")
     ratios = _ratios(units)

@@ -12,6 +12,7 @@ from vorotool.engines.alpha.few_points import allows_empty, report_too_few
 from vorotool.engines.delaunay.delaunay import is_of_space, triangulated
 from vorotool.errors import UsageError
 from vorotool.numeric.checks import checked_threads, is_choice
+from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.types.alpha.complex import AlphaComplex
@@ -139,7 +140,7 @@ def alpha_complex(
 
 def _check_rule(rule: Any) -> None:
     if not is_choice(rule, RULES):
-        raise UsageError(f"rule is {rule!r}: use corrected, or printed for the rule as the paper prints it")
+        raise UsageError(f"rule is {shown_number(rule)}: use corrected, or printed for the rule as the paper prints it")
 
 
 def plane_complex(
@@ -167,7 +168,9 @@ def refuse_in_space(**given: Any) -> None:
     """Refuse values of parameters that apply in the plane only."""
     name = next((name for name, value in given.items() if value is not None), None)
     if name is not None:
-        raise UsageError(f"{name}={given[name]!r} is for points in the plane: leave it out for points in space")
+        raise UsageError(
+            f"{name}={shown_number(given[name])} is for points in the plane: leave it out for points in space"
+        )
 
 
 def _edges_and_sides(

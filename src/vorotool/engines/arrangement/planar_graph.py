@@ -320,7 +320,7 @@ def report_repairs(
         return
     if strict:
         raise InputError(_first_repair(given, found))
-    names = _features(given, is_repaired)
+    names = features_named(given, is_repaired)
     warn(_summary(repairs, step) + (f", in {names}" if names else ""), RepairWarning)
 
 
@@ -338,7 +338,7 @@ def report_small(given: PolygonSet, placement: Placement, *, strict: bool) -> No
     what = "1 polygon or line is" if count == 1 else f"{count} polygons or lines are"
     message = (
         f"{what} smaller than {SMALL} steps of the lattice ({step:.3g}) to which all coordinates are rounded: "
-        f"{_features(given, is_small)}; remove features that are far away, or expect rough sizes and radii"
+        f"{features_named(given, is_small)}; remove features that are far away, or expect rough sizes and radii"
     )
     if strict:
         raise InputError(f"{message}; {STRICT} refuses this")
@@ -373,7 +373,7 @@ def _are_moved(given: PolygonSet, placement: Placement, step: float) -> NDArray[
     return np.bincount(of_vertex, moved, minlength=len(given)) > 0
 
 
-def _features(given: PolygonSet, chosen: NDArray[np.bool_]) -> str:
+def features_named(given: PolygonSet, chosen: NDArray[np.bool_]) -> str:
     """Name the features of some polygons, counted from 1: the first ten."""
     labels = distinct(given.labels[chosen]).tolist()
     if not labels:

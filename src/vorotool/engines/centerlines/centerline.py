@@ -20,6 +20,7 @@ from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError, UsageError, warn
 from vorotool.numeric.arrays import Booleans, Floats, Numbers, mask_of, starts_of
 from vorotool.numeric.checks import is_choice
+from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.box import check_lengths
@@ -112,7 +113,7 @@ def centerline(
     """
     check_value(skeleton, "skeleton", "Skeleton")
     if not is_choice(ends, get_args(Ends)):
-        raise UsageError(f"ends is {ends!r}: use {', '.join(get_args(Ends))}")
+        raise UsageError(f"ends is {shown_number(ends)}: use {', '.join(get_args(Ends))}")
     is_whole = ends == "corner"
     network = Network(forked(skeleton) if is_whole else unforked(skeleton), by_edge=not is_whole)
     if start is None and end is None:

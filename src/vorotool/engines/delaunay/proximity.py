@@ -17,6 +17,7 @@ from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.numeric.arrays import mask_of
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.lazy import shapely
+from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.cells import KINDS, ProximityGraph
@@ -82,7 +83,7 @@ def proximity_graph(
     [4, 4, 3]
     """
     if not is_choice(kind, KINDS):
-        raise UsageError(f"kind is {kind!r}: use {', '.join(KINDS[:-1])} or {KINDS[-1]}")
+        raise UsageError(f"kind is {shown_number(kind)}: use {', '.join(KINDS[:-1])} or {KINDS[-1]}")
     threads = checked_threads(threads)
     if isinstance(points, Triangulation):
         mesh = points
@@ -138,7 +139,7 @@ def verify_proximity_graph(graph: ProximityGraph) -> None:
     names = dict(zip(KINDS, ("Gabriel graph", "graph of relative neighbors", "minimum spanning tree"), strict=True))
     count, index = len(graph.mesh.edges), graph.edge_index
     if graph.kind not in names:
-        raise VerificationError(f"the kind {graph.kind!r} is not one of {', '.join(KINDS)}")
+        raise VerificationError(f"the kind {shown_number(graph.kind)} is not one of {', '.join(KINDS)}")
     if len(index) and not (index[0] >= 0 and index[-1] < count and (np.diff(index) > 0).all()):
         raise VerificationError("the indices of edges are not increasing, or out of range")
     kept = mask_of(index, count)

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.convert.sites import as_sites
-from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
+from vorotool.engines.arrangement.planar_graph import features_named, graph_for_skeletons
 from vorotool.engines.arrangement.repaired_polygons import given_shapes
 from vorotool.engines.common import fail
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
-from vorotool.errors import InputError, RepairWarning
+from vorotool.errors import InputError, RepairWarning, option, warn
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, norms, ranges
 from vorotool.numeric.checks import checked_flag, checked_threads
@@ -273,8 +273,19 @@ def measured_shapes(
             )
     _check_crs(*given)
     check_magnitude(np.concatenate([polygons.xy for polygons in given]))
-    first, second = (_measured(with_used_rings(polygons), boundary, progress) for polygons in given)
+    used = (_repaired(polygons, name) for name, polygons in zip("ab", given, strict=True))
+    first, second = (_measured(polygons, boundary, progress) for polygons in used)
     return first, second
+
+
+def _repaired(polygons: PolygonSet, name: str) -> PolygonSet:
+    """Replace invalid polygons by what their edges bound, with a warning."""
+    used, invalid = with_used_rings(polygons)
+    if len(invalid):
+        named = features_named(polygons, np.isin(np.arange(len(polygons)), invalid))
+        shape = option(name.upper(), name)
+        warn(f"{named} of {shape}: edges cross or overlap, and only what they bound counts", RepairWarning)
+    return used
 
 
 def _check_crs(a: PolygonSet, b: PolygonSet) -> None:

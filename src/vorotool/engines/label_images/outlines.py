@@ -160,9 +160,9 @@ def outlines(
     [2, 7]
     """
     if not is_choice(outline, KINDS):
-        raise UsageError(f"the outline is {outline!r}: it must be one of {', '.join(KINDS)}")
+        raise UsageError(f"the outline is {shown_number(outline)}: it must be one of {', '.join(KINDS)}")
     if not is_choice(border, BORDERS):
-        raise UsageError(f"the border is {border!r}: it must be one of {', '.join(BORDERS)}")
+        raise UsageError(f"the border is {shown_number(border)}: it must be one of {', '.join(BORDERS)}")
     check_objects(mode, get_args(Objects), connectivity)
     origin = (0, 0)
     if isinstance(image, LabelImage):

@@ -182,7 +182,7 @@ def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progr
     """
     check_value(skeleton, "skeleton", "Skeleton")
     if not is_choice(criterion, CRITERIA):
-        raise UsageError(f"unknown criterion {criterion!r}: choose one of {', '.join(CRITERIA)}")
+        raise UsageError(f"unknown criterion {shown_number(criterion)}: choose one of {', '.join(CRITERIA)}")
     ends, most, kept_arc, kept_place = _core.pruning.critical_values(
         core_skeleton(skeleton, has_sites=criterion != "scale"), _core.pruning.Criterion[criterion], progress
     )

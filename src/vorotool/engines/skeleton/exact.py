@@ -33,7 +33,7 @@ EVERY_GROUP = -1
 def check_skeleton_options(side: str, gap: float, frame: Extent | None) -> None:
     """Raise UsageError for what is no side, gap or frame."""
     if not is_choice(side, SIDE_NAMES):
-        raise UsageError(f"the side is {side!r}: use {', '.join(SIDE_NAMES)}")
+        raise UsageError(f"the side is {shown_number(side)}: use {', '.join(SIDE_NAMES)}")
     if finite_double(gap, "the gap") < 0:
         raise UsageError(f"the gap is {shown_number(gap)}: use a length of 0 or more")
     if frame is not None and not is_extent(frame):
@@ -43,7 +43,7 @@ def check_skeleton_options(side: str, gap: float, frame: Extent | None) -> None:
 def check_features(features: str) -> None:
     """Raise UsageError for what tells not how features are taken."""
     if not is_choice(features, FEATURES):
-        raise UsageError(f"features is {features!r}: use {' or '.join(FEATURES)}")
+        raise UsageError(f"features is {shown_number(features)}: use {' or '.join(FEATURES)}")
 
 
 @frozen(eq=False)

@@ -56,7 +56,7 @@ def check_objects(mode: Any, modes: tuple[str, ...], connectivity: Any, axes: in
             f"connectivity is {shown_number(connectivity)}: it must be {known[0]} or {known[1]}{what}{more}"
         )
     if not is_choice(mode, (None, *modes)):
-        raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(modes)}")
+        raise UsageError(f"mode is {shown_number(mode)}: it must be one of {', '.join(modes)}")
 
 
 def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> NDArray[Any]:
@@ -199,7 +199,7 @@ def refuse_photograph(values: NDArray[Any]) -> None:
     """A label image has about as many fragments as labels; a photograph falls into far more."""
     looks, distinct, fragments = photograph_signs(values)
     if looks:
-        if min(values.shape) <= 3 < max(values.shape):  # the sides of a list, which no photograph has
+        if min(values.shape) <= 4 < max(values.shape):  # the sides of a list, which no photograph has
             raise InputError(
                 f"the array has the shape {values.shape}, is it a list of points? save x and y with shape (n, 2); for "
                 f"an image use {_AS_LABELS} or {_SOME_THRESHOLD}"

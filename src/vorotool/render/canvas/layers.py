@@ -15,6 +15,7 @@ from vorotool.frozen import frozen
 from vorotool.numeric.arrays import following, owners, starts_of, within
 from vorotool.numeric.curves.flatten import chords_of, cubic_polylines, polylines
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
+from vorotool.numeric.numbers import shown_number
 from vorotool.render.canvas.styles import INK, SEED, PictureStyle, edge_color
 from vorotool.types.box import bounds
 from vorotool.types.identity import column_of
@@ -233,7 +234,9 @@ def checked_layers(layers: Iterable[str], known: Sequence[str]) -> frozenset[str
     wanted = tuple(layers)
     for layer in wanted:
         if layer not in known:
-            raise UsageError(f"the layer {layer!r} does not exist: use {', '.join(known)}{meant(layer, known)}")
+            raise UsageError(
+                f"the layer {shown_number(layer)} does not exist: use {', '.join(known)}{meant(layer, known)}"
+            )
     return frozenset(wanted)
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import UsageError
 from vorotool.numeric.arrays import Booleans, Floats, Indices
-from vorotool.numeric.numbers import nearest_double
+from vorotool.numeric.numbers import nearest_double, shown_number
 from vorotool.types import fields as f
 from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.alpha.radii import Radius, RankedRadii, checked_radius
@@ -218,7 +218,7 @@ def cross(p: Floats, q: Floats) -> Floats:
 
 def _checked(what: str) -> str:
     if what not in SIMPLICES:
-        raise UsageError(f"invalid what {what!r}: expected {', '.join(SIMPLICES)}")
+        raise UsageError(f"invalid what {shown_number(what)}: expected {', '.join(SIMPLICES)}")
     return what
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from vorotool.errors import UsageError
 from vorotool.numeric.arrays import Floats
+from vorotool.numeric.numbers import shown_number
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.features import Rows
@@ -170,7 +171,9 @@ class Tetrahedralization(OfPoints, Tabular):
         if name == "table":
             return Rows(resolved("engines.delaunay.tetrahedralization:space_table")(self))
         if name not in parts:
-            raise UsageError(f"invalid what {what!r}: expected {', '.join([*parts, 'table'])} of a Tetrahedralization")
+            raise UsageError(
+                f"invalid what {shown_number(what)}: expected {', '.join([*parts, 'table'])} of a Tetrahedralization"
+            )
         corners: NDArray[np.int32] = getattr(self, name)
         labels = self.label_array
         columns: dict[str, Any] = {

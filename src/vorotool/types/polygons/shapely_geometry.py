@@ -97,13 +97,13 @@ def used_shapes(polygons: PolygonSet) -> NDArray[np.object_]:
     return made
 
 
-def with_used_rings(polygons: PolygonSet) -> PolygonSet:
-    """Replace the rings of invalid polygons by those of what they bound; see `used_shapes`."""
+def with_used_rings(polygons: PolygonSet) -> tuple[PolygonSet, Indices]:
+    """Replace the rings of invalid polygons by those of what they bound, see `used_shapes`; and return which."""
     import shapely
 
     invalid = np.flatnonzero(~polygons.is_line & ~shapely.is_valid(to_shapely(polygons)))
     if not len(invalid):
-        return polygons
+        return polygons, invalid
     shapes = used_shapes(RingArrays.of(polygons).taken(invalid)[0].polygons(polygons, invalid))
     parts = polygons_of_geometry(shapes, lambda own: {"feature": own}, takes_points=True)
     kept = np.flatnonzero(np.isin(np.arange(len(polygons)), invalid, invert=True))
@@ -111,7 +111,7 @@ def with_used_rings(polygons: PolygonSet) -> PolygonSet:
     order = np.argsort(source, kind="stable")
     both = RingArrays.joined([RingArrays.of(polygons), RingArrays.of(parts)])
     number = np.concatenate([kept, len(polygons) + np.arange(len(parts))])
-    return both.taken(number[order])[0].polygons(polygons, source[order])
+    return both.taken(number[order])[0].polygons(polygons, source[order]), invalid
 
 
 def _bounded(rings: list[NDArray[np.float64]]) -> Any:
