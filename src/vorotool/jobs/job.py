@@ -46,10 +46,8 @@ def process_input(run: Run, options: Options, path: str, targets: Sequence[Targe
     """Read one input, compute, check and write its results, which take their places together."""
     from vorotool.formats.io.atomic_output import make_folder
     from vorotool.formats.io.temporaries import committed_together
-    from vorotool.formats.text.tables import safe_texts, unit_column, unit_member
     from vorotool.jobs.refusals import check_system
-    from vorotool.numeric.coordinates import coordinates_written
-    from vorotool.types.identity import columns_wanted
+    from vorotool.numeric.coordinates import writing
 
     check_targets(options, targets, path)
     with run.phase("read"):
@@ -69,16 +67,22 @@ def process_input(run: Run, options: Options, path: str, targets: Sequence[Targe
     unit = None if size is None else run.stats.get("unit") if size.is_auto else size.unit
     stated = unit if size is not None or run.coordinates is None else run.coordinates.unit
     system = run.crs if size is None else getattr(products.options.unit, "crs", None)  # of tables
-    texts, columns = safe_texts(options.safe_csv), columns_wanted(options.with_columns)
-    digits: Any = {"decimals": options.decimals, "is_verified": options.verify}
+    how: dict[str, Any] = {
+        "decimals": options.decimals,
+        "is_verified": options.verify,
+        "columns": options.with_columns,
+        "unit": unit,
+        "coordinate_unit": stated,
+        "is_safe": options.safe_csv,
+    }
     in_crs: dict[str, Any] = {}
-    with committed_together(), texts, unit_column(unit), unit_member(stated), columns:
+    with committed_together():
         for target in targets:
             if options.out_dir is not None:
                 from pathlib import Path
 
                 make_folder(Path(target.path).parent)
-            with run.phase(f"write {target.what}"), coordinates_written(**digits) as written:
+            with run.phase(f"write {target.what}"), writing(**how) as written:
                 products.write(target, inputs=(path,))
             deviation = max(deviation, written.deviation)
             if written.system_unread is not None:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from vorotool import __version__
 from vorotool.errors import Kind, Message, RepairWarning, VorotoolWarning
 from vorotool.jobs.terminal import tell
-from vorotool.numeric.coordinates import coordinates_written
+from vorotool.numeric.coordinates import writing
 from vorotool.numeric.parallel import Progress, Report
 from vorotool.products.formats import resolved
 from vorotool.signals import end_by_exceptions
@@ -128,7 +128,7 @@ class Run:
         known = {name: getattr(o, name) for name in OF_MANY} | {"note": self.note}
         with nullcontext() if phase is None else self.phase(phase or made.__name__) as progress:
             known = known | {"progress": progress} | more
-            with coordinates_written(None):  # however a file is written that asks for it
+            with writing():  # however a file is written that asks for it
                 result: Made = made(*sources, **{name: known[name] for name in known if name in takes or name in more})
         return result
 

@@ -10,20 +10,18 @@ from typing import Any
 
 from vorotool.errors import UsageError
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.text.tables import unit_member
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_value
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.numeric.coordinates import coordinates_written
+from vorotool.numeric.coordinates import writing
 from vorotool.numeric.numbers import Flatten, checked_flatten, shown_number, whole_number
 from vorotool.products.formats import PICTURES, format_named
 from vorotool.products.registry import VOLUME_PRODUCTS, Product, chosen_part, is_of, parts_of, write_product
 from vorotool.render.drawing import Picture, Plot, drawn_part
 from vorotool.render.looks import World, check_layers, looks_of
 from vorotool.types.fields import Record, is_up, with_y_axis, y_axis_of
-from vorotool.types.identity import columns_wanted
 from vorotool.types.pixels import MAX_PIXELS, MAX_SIDE
 
 
@@ -156,7 +154,7 @@ def write(
             from vorotool.formats.gis.geopackage import check_layers
 
             check_layers(path, (product.what,), overwrite=overwrite)
-        with coordinates_written(decimals), columns_wanted(with_columns), unit_member(own_unit(value)):
+        with writing(decimals, columns=with_columns, coordinate_unit=own_unit(value)):
             _write(_Value(o, value, product), path, chosen)
 
 
@@ -204,7 +202,7 @@ def to_geojson(
     {'type': 'LineString', 'coordinates': [[0, 0], [2, 2]]}
     """
     tolerance = checked_flatten(flatten)
-    with columns_wanted(with_columns):
+    with writing(columns=with_columns):
         return _geojson(value, _part(value, "geojson", what, tolerance), tolerance)
 
 
@@ -217,7 +215,7 @@ def _geojson(value: Any, product: Product, flatten: float | None = None) -> dict
     from vorotool.numeric.length_units import own_unit
 
     out = io.BytesIO()
-    with unit_member(own_unit(value)):
+    with writing(coordinate_unit=own_unit(value)):
         write_product(out, value, product, "geojson", flatten=flatten)
     made: dict[str, Any] = orjson.loads(out.getvalue())
     return made

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Real
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from vorotool.errors import InputError, UsageError, option
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import is_masked_array
+from vorotool.numeric.length_units import ascii_unit
 from vorotool.numeric.numbers import nearest_double, shown_number, whole_number
 
 LARGEST_INTEGER = 2**53
@@ -116,14 +117,22 @@ _EXACT = 2.0**52
 """Numbers of steps below this, and the results of dividing them by a power of ten, are distinct doubles."""
 
 
-_DECIMALS: ContextVar[int | None] = ContextVar("decimals", default=None)
-_IS_VERIFIED: ContextVar[bool] = ContextVar("is_verified", default=False)
+class Writing(NamedTuple):
+    """How files are written."""
+
+    decimals: int | None = None  # of coordinates
+    is_verified: bool = False  # polygons are checked as they are written
+    columns: tuple[str, ...] = ()  # of the input, which rows about parts of features, or about several, have
+    unit: str | None = None  # of lengths, in ASCII, which tables name in a last column
+    coordinate_unit: str | None = None  # which collections state, where no coordinate reference system does
+    is_safe: bool = False  # spreadsheets are kept from taking texts of CSV and TSV for formulas
 
 
 @dataclass
 class Written:
     """What is known of coordinates once they are written."""
 
+    how: Writing
     deviation: float = 0.0  # the largest distance of lines from the curves that they stand for
     has_y_down: bool = False
     crs: Any = None  # the coordinate reference system of the value
@@ -131,7 +140,7 @@ class Written:
     system_unread: Any = None  # the coordinate reference system of a file whose readers assume another one
 
 
-_WRITTEN: ContextVar[Written] = ContextVar("written", default=Written())  # noqa: B039, where nobody asks
+_WRITTEN: ContextVar[Written] = ContextVar("written", default=Written(Writing()))  # noqa: B039, where nobody asks
 current_written = _WRITTEN.get
 
 
@@ -149,24 +158,30 @@ def record_value(value: Any) -> None:
 
 
 @contextmanager
-def coordinates_written(decimals: int | None, *, is_verified: bool = False) -> Iterator[Written]:
-    """Say how coordinates of files are written within."""
+def writing(
+    decimals: int | None = None, *, is_verified: bool = False, columns: Sequence[str] | None = None, **how: Any
+) -> Iterator[Written]:
+    """Say how files are written within, see `Writing`; what else is said outside stays."""
     name = option("--decimals")
     if decimals is not None and not 0 <= whole_number(decimals, name) <= MOST_DECIMALS:
         raise UsageError(f"{name} is {shown_number(decimals)}: use 0 to {MOST_DECIMALS}, or leave it out")
-    written = Written()
-    tokens = _DECIMALS.set(decimals), _IS_VERIFIED.set(is_verified), _WRITTEN.set(written)
+    if columns is not None:
+        if not isinstance(columns, list | tuple) or not all(isinstance(each, str) for each in columns):
+            raise UsageError(f"invalid with_columns {shown_number(columns)}: expected a list of names")
+        how["columns"] = tuple(columns)
+    for each in {"unit", "coordinate_unit"} & how.keys():
+        how[each] = None if how[each] is None else ascii_unit(how[each])
+    written = Written(_WRITTEN.get().how._replace(decimals=decimals, is_verified=is_verified, **how))
+    token = _WRITTEN.set(written)
     try:
         yield written
     finally:
-        _DECIMALS.reset(tokens[0])
-        _IS_VERIFIED.reset(tokens[1])
-        _WRITTEN.reset(tokens[2])
+        _WRITTEN.reset(token)
 
 
 def current_decimals() -> int | None:
     """Return the decimals of the coordinates of the file that is being written."""
-    return _DECIMALS.get()
+    return _WRITTEN.get().how.decimals
 
 
 @frozen
@@ -200,18 +215,13 @@ def finest_deviation(places: Floats) -> Floats:
     """(n,) how near to curves lines are at best: a step of the grid, for doubles 16 ulps of the largest coordinate."""
     largest = np.abs(places).max(axis=tuple(range(1, places.ndim)), initial=0)
     steps: Floats = 16 * np.spacing(largest)
-    decimals = _DECIMALS.get()
+    decimals = _WRITTEN.get().how.decimals
     return steps if decimals is None else np.maximum(steps, 1 / float(10**decimals))
-
-
-def is_verified() -> bool:
-    """Return whether polygons are checked as they are written."""
-    return _IS_VERIFIED.get()
 
 
 def on_grid(points: Floats) -> Floats:
     """Round coordinates to the decimals of the file that is being written."""
-    return rounded(points, _DECIMALS.get())
+    return rounded(points, _WRITTEN.get().how.decimals)
 
 
 def rounded(points: Floats, decimals: int | None) -> Floats:

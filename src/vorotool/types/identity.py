@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager
-from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option
+from vorotool.numeric.checks import described
+from vorotool.numeric.coordinates import current_written
 from vorotool.numeric.numbers import shown_number
-from vorotool.numeric.parallel import scoped
 from vorotool.types.points.point_set import LABEL, labels_of
 from vorotool.types.table import Lookup, Table
 
@@ -93,20 +92,10 @@ def ends_of_regions(columns: Mapping[str, Any], sites: Any) -> Table:
     return with_ends(columns, sites.properties, ends)
 
 
-_WANTED: ContextVar[tuple[str, ...]] = ContextVar("wanted", default=())
-
-
-def columns_wanted(names: Sequence[str] | None) -> AbstractContextManager[None]:
-    """Return rows about parts of features, or about several, these columns of the input."""
-    is_list = isinstance(names, list | tuple) and all(isinstance(name, str) for name in names)
-    if names is not None and not is_list:
-        raise UsageError(f"invalid with_columns {shown_number(names)}: expected a list of names")
-    return scoped(_WANTED, tuple(names or ()))
-
-
 def wanted(properties: Mapping[str, Any], further: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Return the columns that are wanted, except those that name features anyway."""
-    names = [name for name in _WANTED.get() if further is None or name in further or name not in properties]
+    asked = current_written().how.columns
+    names = [name for name in asked if further is None or name in further or name not in properties]
     return {name: chosen_column(properties, name, option("--with", "with_columns")) for name in names}
 
 
@@ -157,9 +146,6 @@ def chosen_column(columns: Mapping[str, Any], name: str, option: str) -> Any:
 
 def check_plain(values: Iterable[Any], option: str) -> None:
     """Refuse a column that holds objects or lists where texts or numbers are expected."""
-    from vorotool.numeric.checks import described
-    from vorotool.numeric.numbers import shown_number
-
     for value in values:
         if isinstance(value, Mapping | list | tuple | set):
             raise InputError(

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import vorotool
 from vorotool.formats.results.graphml import write_graphml
-from vorotool.types.identity import columns_wanted
+from vorotool.numeric.coordinates import writing
 
 SPACE = "{http://graphml.graphdrawing.org/xmlns}"
 CONTROLS = [*map(chr, range(0x20)), *"\x7f\x85\ud800\udfff\ufffe\uffff\U0001f600", "]]>", "&<>\"'"]
@@ -16,7 +16,7 @@ def written(name, value):
     skeleton = vorotool.skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
     polygons = replace(skeleton.polygons, properties={name: [value]})
     out = io.BytesIO()
-    with columns_wanted([name]):
+    with writing(columns=[name]):
         write_graphml(out, replace(skeleton, polygons=polygons))
     return ET.fromstring(out.getvalue().decode())
 

@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 import vorotool
-from vorotool.numeric.coordinates import coordinates_written
+from vorotool.numeric.coordinates import writing
 
 HOUSES = [shapely.box(x, 0, x + 8, 6) for x in (0, 11, 24)]
 FAR = shapely.box(4e5, 3e5, 4e5 + 8, 3e5 + 6)
@@ -22,11 +22,11 @@ def test_a_far_feature_changes_no_shape(make):
 def test_borders_and_skeletons_keep_their_distance():
     """Lines are within the larger of 1/2000 of the extent of a curve and 1/100 of its clearance."""
     cells = vorotool.voronoi(["LINESTRING (0 0, 100 0)", "POINT (50 1)"], frame=(0, -10, 100, 60))
-    with coordinates_written(None) as curves:
+    with writing() as curves:
         cells.to_shapely()
     assert 0 < curves.deviation <= 110 / 2000
     skeleton = vorotool.skeleton_exact([[0, 0], [10, 0], [10, 10], [5, 4], [0, 10]])
-    with coordinates_written(None) as curves:
+    with writing() as curves:
         skeleton.to_shapely()
     assert 0 < curves.deviation <= 0.05
 

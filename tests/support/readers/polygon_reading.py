@@ -9,7 +9,7 @@ from support.readers.sources import read_as
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.results.features import write_polygons
-from vorotool.numeric.coordinates import coordinates_written
+from vorotool.numeric.coordinates import writing
 
 
 def read(text, name="shapes.json", **options):
@@ -25,7 +25,7 @@ def rings(shapes):
 
 def written(shapes, fmt, *, decimals=None):
     out = io.BytesIO()
-    with coordinates_written(decimals):
+    with writing(decimals):
         write_polygons(out, shapes, fmt)
     return out.getvalue().decode()
 

@@ -5,7 +5,7 @@ import io
 
 import numpy as np
 
-from vorotool.numeric.coordinates import coordinates_written
+from vorotool.numeric.coordinates import writing
 from vorotool.products.formats import FORMATS
 from vorotool.products.registry import chosen_part, write_product
 
@@ -27,7 +27,7 @@ def bytes_of(write, *arguments, **options):
 
 def written(value, fmt, what=None, *, decimals=None, **options):
     """Give what a file would hold."""
-    with coordinates_written(decimals):
+    with writing(decimals):
         return bytes_of(write_product, value, chosen_part(value, fmt, what), fmt, **options)
 
 

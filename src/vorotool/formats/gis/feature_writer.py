@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from vorotool.convert.extras import needed
 from vorotool.formats.io.atomic_output import current_rules, failure
 from vorotool.formats.text.row_writer import Column
-from vorotool.formats.text.tables import JsonItems, current_unit, json_text
+from vorotool.formats.text.tables import JsonItems, json_text
+from vorotool.numeric.coordinates import current_written
 from vorotool.numeric.crs import crs_text
 from vorotool.types.table import Lookup
 
@@ -87,7 +88,7 @@ class FeatureRows(JsonItems):
         numbered = [list(range(1, len(self._rows) + 1)), [None] * len(self._ids)]
         if self.is_of_features and self._ids not in [*listed.values(), *numbered]:
             listed = {"feature_id" if "id" in listed else "id": self._ids} | listed
-        unit = current_unit() if self.is_of_features else None
+        unit = current_written().how.unit if self.is_of_features else None
         if unit is not None:
             listed["voro_unit" if "unit" in listed else "unit"] = [unit] * len(self._ids)
         return {name: _typed(values, is_measured=name in self._measured) for name, values in listed.items()}

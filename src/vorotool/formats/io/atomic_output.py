@@ -36,11 +36,18 @@ class Rules(NamedTuple):
     inputs: Sequence[str | os.PathLike[str]] = ()  # as for `open_output`
     option: str = OUTPUT  # as for `open_output`
 
-    def check(self, name: str) -> None:
-        """Refuse to replace or remove a file."""
-        target = followed(name, self.option)
-        if os.path.exists(target):
-            _check_replaced(name, target, self)
+    def check(self, name: str, target: str | None = None) -> None:
+        """Refuse to replace or remove a file, which is a target that links have been followed to."""
+        target = followed(name, self.option) if target is None else target
+        if not os.path.exists(target):
+            return
+        for each in self.inputs:
+            if is_same_file(target, os.fspath(each)):
+                raise UsageError(
+                    f"{name} is also an input, which is never replaced: choose another name with {self.option}"
+                )
+        if self.no_clobber:
+            raise clobber_error(name, self.option)
 
 
 _RULES: ContextVar[Rules] = ContextVar("rules", default=Rules())  # noqa: B039, they are frozen
@@ -170,20 +177,10 @@ def _checked_target(name: str, rules: Rules) -> tuple[str, bool]:
         raise OutputError(f"{name!r} is a directory: name a file in it")
     if mode is None or not stat.S_ISREG(mode):
         return target, mode is None
-    _check_replaced(name, target, rules)
+    rules.check(name, target)
     if not os.access(target, os.W_OK):
         raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with {rules.option}")
     return target, True
-
-
-def _check_replaced(name: str, target: str, rules: Rules) -> None:
-    for each in rules.inputs:
-        if is_same_file(target, os.fspath(each)):
-            raise UsageError(
-                f"{name} is also an input, which is never replaced: choose another name with {rules.option}"
-            )
-    if rules.no_clobber:
-        raise clobber_error(name, rules.option)
 
 
 def followed(name: str, option: str = OUTPUT) -> str:

@@ -67,7 +67,12 @@ class StoredParts:
 
 def read_source(path: str | os.PathLike[str], layer: str | None = None) -> Source:
     """Read a whole file, which FILE:LAYER may name, or standard input for ``-``; what gzip has packed is unpacked."""
-    name, layer = file_and_layer(os.fspath(path), layer)
+    asked = os.fspath(path)
+    name, named = split_layer(asked)
+    if named is not None and layer is not None:
+        given = option("--input-layer", "layer")
+        raise UsageError(f"{asked} names the layer {named!r}, and {given} the layer {layer!r}: leave out one of them")
+    layer = layer if named is None else named
     with explained_reading(name):
         data = read_bytes(name)
     spoken = STANDARD_INPUT if name == STANDARD else name
@@ -224,15 +229,6 @@ def check_input(name: str) -> None:
     with explained_reading(name):
         if stream_kind(file_of(name)) is None:
             os.stat(file_of(name))
-
-
-def file_and_layer(name: str, layer: str | None) -> tuple[str, str | None]:
-    """Split FILE:LAYER, and refuse a layer that is given in addition."""
-    file, named = split_layer(name)
-    if named is not None and layer is not None:
-        given = option("--input-layer", "layer")
-        raise UsageError(f"{name} names the layer {named!r}, and {given} the layer {layer!r}: leave out one of them")
-    return file, layer if named is None else named
 
 
 def output_name(name: str) -> str:

@@ -217,13 +217,10 @@ def _host() -> tuple[str, str]:
 
         machine = f"{uuid.getnode():x}"
     name = os.uname().nodename if hasattr(os, "uname") else ""  # which tells machines with copied disks apart
-    return _digest(boot), _digest(machine and f"{machine} {name}")
-
-
-def _digest(text: str) -> str:
-    """Return 48 bits of a text; hashlib would bring OpenSSL, at the start of every run."""
-    data = text.encode()
-    return f"{crc32(data):08x}{crc32(data[::-1]) & 0xFFFF:04x}" if text else _UNKNOWN
+    datas = (text.encode() for text in (boot, machine and f"{machine} {name}"))
+    # 48 bits of each: hashlib would bring OpenSSL, at the start of every run
+    one, other = (f"{crc32(data):08x}{crc32(data[::-1]) & 0xFFFF:04x}" if data else _UNKNOWN for data in datas)
+    return one, other
 
 
 class Placement(NamedTuple):

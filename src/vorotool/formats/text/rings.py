@@ -13,7 +13,7 @@ from vorotool.errors import RepairWarning, VerificationError, warn
 from vorotool.formats.text.snapping import is_among, snapped
 from vorotool.numeric.arrays import Floats, Indices, Nesting, following, owners, ranges, starts_of
 from vorotool.numeric.checks import index_of_rows
-from vorotool.numeric.coordinates import Grid, current_decimals, is_verified, on_grid, rounded
+from vorotool.numeric.coordinates import Grid, current_decimals, current_written, on_grid, rounded
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.table import Computed
 
@@ -50,7 +50,7 @@ def written_rings(
         grid = Grid.of(points, decimals)
         repair = _repair_coverage if is_coverage else _repair_each
         made, repaired = repair(given, bad, grid, threads)
-    if is_verified():
+    if current_written().how.is_verified:
         verify_written(geometry(*made), geometry(points, nesting), decimals, is_coverage=is_coverage)
     had, has = np.diff(nesting.cells) > 0, np.diff(made[1].cells) > 0
     return WrittenRings(*made, repaired, np.flatnonzero(had & ~has))

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager
-from contextvars import ContextVar
 from dataclasses import replace
 from datetime import date
 from types import TracebackType
@@ -24,9 +22,9 @@ from vorotool.formats.text.row_writer import (
     write_rows,
 )
 from vorotool.numeric.coordinates import current_written, on_grid
-from vorotool.numeric.length_units import ascii_unit, is_known
+from vorotool.numeric.length_units import is_known
 from vorotool.numeric.numbers import NumberText
-from vorotool.numeric.parallel import in_order, scoped
+from vorotool.numeric.parallel import in_order
 from vorotool.products.formats import TABLES, resolved
 from vorotool.types.features import Areas, features_of, matrix_of, rows_of
 from vorotool.types.fields import MEMBER, UP, YAxis
@@ -69,21 +67,8 @@ def placed_column(column: Column) -> Column:
 
 
 # ---- units ---------------------------------------------------------------------------------------
-_UNIT: ContextVar[str | None] = ContextVar("unit", default=None)
-
-
-def unit_column(unit: str | None) -> AbstractContextManager[None]:
-    """Give tables that are written within a last column ``unit``, in ASCII; with None they have none."""
-    return scoped(_UNIT, None if unit is None else ascii_unit(unit))
-
-
-def current_unit() -> str | None:
-    """Return the unit that tables name which are being written."""
-    return _UNIT.get()
-
-
 def _with_unit(table: Table) -> dict[str, Any]:
-    columns, unit = table.stored(), _UNIT.get()
+    columns, unit = table.stored(), current_written().how.unit
     if unit is None or not columns:
         return columns
     column: Lookup | list[str | None] = Lookup([unit], np.zeros(table.rows, dtype=np.int32))
@@ -95,14 +80,8 @@ def _with_unit(table: Table) -> dict[str, Any]:
 
 
 # ---- CSV and TSV ---------------------------------------------------------------------------------
-_SAFE: ContextVar[bool] = ContextVar("safe", default=False)
 _FORMULA = r"[=+\-@\t\r]"
 _NUMBER = r"[+-]?(\d++(?:\.\d*+)?|\.\d++)([eE][+-]?\d+)?"
-
-
-def safe_texts(is_wanted: bool = True) -> AbstractContextManager[None]:
-    """Keep spreadsheets from taking texts of the CSV and TSV written within for formulas: see `safe_text`."""
-    return scoped(_SAFE, is_wanted)
 
 
 def safe_text(text: str) -> str:
@@ -111,7 +90,7 @@ def safe_text(text: str) -> str:
 
 
 def _write_delimited(out: BinaryIO, columns: list[Column], by_tabs: bool, precision: int | None, threads: int) -> None:
-    is_safe = _SAFE.get()
+    is_safe = current_written().how.is_safe
 
     def text(value: Any) -> str:
         return safe_text(value) if is_safe and isinstance(value, str) else _text_of(value, precision)
@@ -267,17 +246,9 @@ def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Loo
             member.write(part.data)
 
 
-_COORDINATE_UNIT: ContextVar[str | None] = ContextVar("unit of coordinates", default=None)
-
-
-def unit_member(unit: str | None) -> AbstractContextManager[None]:
-    """State the unit of coordinates in collections that are written within, in ASCII, where no system states it."""
-    return scoped(_COORDINATE_UNIT, None if unit is None else ascii_unit(unit))
-
-
 def collection_opening(crs: Any, y_axis: YAxis) -> bytes:
     """Return the text before the features of a collection, whose ``crs`` member may be None."""
-    unit = _COORDINATE_UNIT.get() if crs is None else None
+    unit = current_written().how.coordinate_unit if crs is None else None
     member = "" if crs is None else f'"crs":{json_text(crs)},'
     member += "" if unit is None else f'"unit":{json_text(unit)},'
     member += "" if y_axis == UP else f'"{MEMBER}":"{y_axis}",'

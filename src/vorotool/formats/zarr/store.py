@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _METADATA = ("zarr.json", ".zarray", ".zgroup")
+is_folder = os.path.isdir
+"""Whether a path is a folder; what must not be looked at is none, and who opens it says why."""
 
 
 def is_store(path: str | os.PathLike[str]) -> bool:
@@ -24,11 +26,6 @@ def is_store(path: str | os.PathLike[str]) -> bool:
     name = os.fspath(path)
     is_named = is_folder(name) and name.rstrip(os.sep).lower().endswith(".zarr")
     return is_named or any(os.path.isfile(os.path.join(name, each)) for each in _METADATA)
-
-
-def is_folder(path: str | os.PathLike[str]) -> bool:
-    """Whether a path is a folder; what must not be looked at is none, and who opens it says why."""
-    return os.path.isdir(path)
 
 
 def is_array(path: str | os.PathLike[str]) -> bool:
