@@ -217,9 +217,9 @@ def _host() -> tuple[str, str]:
 
         machine = f"{uuid.getnode():x}"
     name = os.uname().nodename if hasattr(os, "uname") else ""  # which tells machines with copied disks apart
-    datas = (text.encode() for text in (boot, machine and f"{machine} {name}"))
+    known = (text.encode() for text in (boot, machine and f"{machine} {name}"))
     # 48 bits of each: hashlib would bring OpenSSL, at the start of every run
-    one, other = (f"{crc32(data):08x}{crc32(data[::-1]) & 0xFFFF:04x}" if data else _UNKNOWN for data in datas)
+    one, other = (f"{crc32(data):08x}{crc32(data[::-1]) & 0xFFFF:04x}" if data else _UNKNOWN for data in known)
     return one, other
 
 
