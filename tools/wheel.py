@@ -69,7 +69,8 @@ def check_wheel(wheel: Path) -> None:
         [core] = [name for name in names if name.startswith("vorotool/_core.")]
         instructions = archive.read(core)
         [metadata] = [archive.read(name).decode() for name in names if name.endswith(".dist-info/METADATA")]
-    wanted = ["vorotool/py.typed", "vorotool/_core/__init__.pyi"]
+    wanted = ["vorotool/py.typed", "vorotool/__init__.pyi", "vorotool/_core/__init__.pyi"]
+    wanted += [f"vorotool/render/pages/{page.name}" for page in (ROOT / "src/vorotool/render/pages").glob("*.[hj]*")]
     missing = [name for name in wanted if name not in names]
     for shared in ("man/man1/vorotool.1", "doc/vorotool/README.md", "doc/vorotool/docs/start/shell.md"):
         missing += [] if any(name.endswith(f"share/{shared}") for name in names) else [shared]

@@ -16,6 +16,7 @@ import xarray
 
 import vorotool
 import vorotool as v
+from support.families.values import example_values
 from support.few import few
 from vorotool import VorotoolError
 from vorotool.convert.images import as_label_image, as_raster
@@ -308,19 +309,17 @@ CALLBACKS = ("progress", "note", "check")
 
 @pytest.fixture(scope="module")
 def known():
-    """Arguments that are right, by the names of parameters, and by a function before these."""
+    """Arguments that are right, by the names of parameters or by their types, and by a function before these."""
     mask = np.eye(4, dtype=bool)
     skeleton = vorotool.skeleton_exact([RING])
     digital = vorotool.digital_triangulation(RING)
     image = vorotool.tessellate([[1, 1], [3, 2]], shape=(4, 4))
-    made = dict.fromkeys(("points", "seeds", "sites", "shapes", "a", "b", "source"), RING)
+    made = example_values() | dict.fromkeys(("points", "seeds", "sites", "shapes", "a", "b", "source"), RING)
     made |= {"mask": mask, "raster": mask, "labels": mask.astype(int), "volume": mask[None], "image": image}
     made |= {"skeleton": skeleton, "lines": skeleton, "joined": vorotool.join_junctions(skeleton), "polygons": [RING]}
-    made |= {"extended": vorotool.extend_ends(skeleton), "pruned": vorotool.prune(skeleton, length=0)}
-    made |= {"smoothed": vorotool.smooth(skeleton, 0.1), "offsets": vorotool.offset([RING], [1])}
-    made |= {"discs": vorotool.largest_discs([RING]), "necks": vorotool.necks([RING]), "parts": vorotool.parts([RING])}
-    made |= {"family": vorotool.alpha_complex([*RING, [5, 5]]), "shape": vorotool.alpha_shape(RING, r=5)}
-    made |= {"mesh": vorotool.delaunay(RING), "graph": vorotool.planar_graph([RING])}
+    made |= {"pruned": vorotool.prune(skeleton, length=0), "family": vorotool.alpha_complex([*RING, [5, 5]])}
+    made |= {"shape": vorotool.alpha_shape(RING, r=5), "mesh": vorotool.delaunay(RING)}
+    made |= {"graph": vorotool.planar_graph([RING])}
     made |= {"r": 5, "distances": [1], "every": 1, "tolerance": 0.1, "criterion": "length", "name": "dots.csv"}
     made |= {"value": skeleton, "path": "out.json", "cells": vorotool.voronoi_cells(RING), "found": digital}
     made |= {"thickness": vorotool.local_thickness(mask)}
@@ -364,7 +363,9 @@ def test_odd_arguments(name, part, known, tmp_path, monkeypatch):
     plain = [each for each in parameters if each.kind not in (each.VAR_KEYWORD, each.VAR_POSITIONAL)]
     made, special = known
     needed = {
-        each.name: special.get((name, each.name), made.get(each.name)) for each in plain if each.default is each.empty
+        each.name: special.get((name, each.name), made.get(each.name, made.get(each.annotation)))
+        for each in plain
+        if each.default is each.empty
     }
     needed |= MORE.get(name, {})
     failed = raised(function, needed)

@@ -168,3 +168,7 @@ def test_faults_are_found():
     apart = replace(joined, arcs=np.where(joined.arcs == joined.arcs[-1, 1], joined.arcs[0, 0], joined.arcs))
     with pytest.raises(VerificationError, match=r"cycles|connected parts|ends"):
         verify_joining(apart, made)
+    both = skeleton_exact([BRICK, [[100, 0], [104, 0], [100, 3]]])
+    for verify in (verify_joining, vorotool.verify_pruning):
+        with pytest.raises(VerificationError, match="another number of polygons: 1, not 2"):
+            verify(made, both)

@@ -120,6 +120,8 @@ def _ratio(a: Floats, b: Floats) -> Floats:
 
 def check_counts(made: Skeleton, skeleton: Skeleton, name: str) -> None:
     """Raise unless a skeleton that was made of another one has as many connected parts and cycles as that."""
+    if len(made.polygons) != len(skeleton.polygons):
+        fail(f"the {name} skeleton has another number of polygons: {len(made.polygons)}, not {len(skeleton.polygons)}")
     counts = [_counts(value) for value in (skeleton, made)]
     for what, before, after in zip(("connected parts", "cycles"), *counts, strict=True):
         if (at := first_wrong(before != after)) is not None:
