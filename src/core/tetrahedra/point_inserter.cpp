@@ -46,18 +46,21 @@ bool PointInserter::locate(const Point3& p) {
   while (!mesh_.is_ghost(slot)) {
     const Row& row = mesh_.row(slot);
     std::size_t out = 4;
+    bool is_beyond = false;
     for (std::size_t i = 0; i < 4 && out == 4; ++i) {
       if (i == from) continue;
       const auto [k, l, m] = facet_vertices[i];
       const Point3 &a = mesh_.point(row[k]), &b = mesh_.point(row[l]), &c = mesh_.point(row[m]);
-      if (mesh_.predicates().orient(a, b, c, p) < 0) out = i;
+      if (mesh_.predicates().orient(a, b, c, p) >= 0) continue;
+      if (owns_slot(TetrahedralMesh::slot_of(mesh_.across(slot)[i]))) out = i;
+      is_beyond = true;
     }
+    if (out == 4 && is_beyond) return false;
     if (out == 4) break;
     last_ = slot;
     const Index next = mesh_.across(slot)[out];
     slot = TetrahedralMesh::slot_of(next);
     from = TetrahedralMesh::place_of(next);
-    if (!owns_slot(slot)) return false;
   }
   cavity_.size = 0;
   *cavity_.room(1) = static_cast<std::uint32_t>(slot);
@@ -80,8 +83,7 @@ bool PointInserter::holds(std::size_t slot, const Point3& p) const {
 }
 
 // Lists the neighbors of a slot that were not seen before.
-template <bool is_alone>
-bool PointInserter::look_around(std::size_t inner) {
+void PointInserter::look_around(std::size_t inner) {
   Sides* sides = sides_.room(4);
   std::uint32_t* seen = seen_.room(4);
   const Row across = mesh_.across(inner);
@@ -89,12 +91,6 @@ bool PointInserter::look_around(std::size_t inner) {
     const std::size_t outer = TetrahedralMesh::slot_of(across[i]);
     Mark& mark = mesh_.mark(outer);
     const bool is_new = mark == Mark::live, is_removed = mark == Mark::removed;
-    if constexpr (!is_alone) {  // or else there is a branch
-      if (is_new && !owns_slot(outer)) {
-        seen_.end_at(seen);
-        return false;
-      }
-    }
     *sides = {TetrahedralMesh::facet(inner, i), across[i]};
     sides += !is_removed;
     *seen = static_cast<std::uint32_t>(outer);
@@ -103,18 +99,17 @@ bool PointInserter::look_around(std::size_t inner) {
   }
   sides_.end_at(sides);
   seen_.end_at(seen);
-  return true;
 }
 
-// Marks what is removed; false where that is not known without slots of others.
+// Marks what is removed; false where others own some of it.
 bool PointInserter::dig(const Point3& p) {
   seen_.size = sides_.size = 0;
   mesh_.mark(cavity_[0]) = Mark::removed;
   std::size_t looked = 0, tested = 0;
   do {
     for (const std::size_t end = cavity_.size; looked < end; ++looked) {
-      if (!(is_alone_ ? look_around<true>(cavity_[looked]) : look_around<false>(cavity_[looked])))
-        return false;
+      if (!owns_slot(cavity_[looked])) return false;
+      look_around(cavity_[looked]);
     }
     for (const std::size_t end = seen_.size; tested < end; tested += lanes)
       test(tested, std::min(lanes, end - tested), p);
@@ -168,7 +163,7 @@ void PointInserter::list_walls() {
     const auto& [k, l, m] = others[TetrahedralMesh::place_of(inside)];
     *wall++ = {row[k], row[l], row[m], outside, {}};
     for (const std::size_t place : {k, l, m}) {
-      if (row[place] != infinity) numbers_[static_cast<std::size_t>(row[place])] = unnumbered;
+      if (row[place] != infinity) notes_.numbers[static_cast<std::size_t>(row[place])] = unnumbered;
     }
   }
 }
@@ -207,6 +202,7 @@ void PointInserter::fill(Index v) {
         TetrahedralMesh::facet(slot, 0);
     if (wall.c != mesh_.infinity()) last_ = slot;
   }
+  notes_.slots[static_cast<std::size_t>(v)] = static_cast<std::uint32_t>(last_);
   if (!are_few) link_many();
 }
 
@@ -214,7 +210,7 @@ void PointInserter::fill(Index v) {
 // all have left in a table which facet is beside it, each finds the other. Its vertices are numbered below `few` for
 // that, in bytes which list_walls has cleared.
 void PointInserter::number_edges() {
-  const auto byte_of = numbers_.data();
+  const auto byte_of = notes_.numbers.data();
   const Index infinity = mesh_.infinity();
   constexpr std::uint32_t side = few, infinite = few - 1;
   std::uint32_t count = 0;

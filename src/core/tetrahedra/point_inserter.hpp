@@ -18,14 +18,21 @@ namespace vorotool::core::tetrahedra {
 // the facet alone, ties included.
 //
 // An inserter owns the vertices of an interval, which may go on from the last to the first of all, and the slots all of
-// whose finite vertices it owns; it changes no others, and reads beside its own only neighbors of those. As these share vertices with its own, no inserter of
-// another interval changes them: several may work at the same time, without locks.
+// whose finite vertices it owns. Beside those it looks at, marks and links only their neighbors, which have at most one
+// vertex that another owns: so that they are neither slots nor neighbors of another's. Several inserters may work at the
+// same time, without locks.
 class PointInserter {
  public:
-  // `numbers` has a byte a point, which inserters share.
-  PointInserter(TetrahedralMesh& mesh, std::span<std::uint8_t> numbers, std::size_t begin, std::size_t size)
+  // What inserters share, of each point: its number among those of a cavity, and a slot that it once was in. As slots
+  // are filled again with what is there then, that is still near it.
+  struct Notes {
+    std::span<std::uint8_t> numbers;
+    std::span<std::uint32_t> slots;
+  };
+
+  PointInserter(TetrahedralMesh& mesh, const Notes& notes, std::size_t begin, std::size_t size)
       : mesh_(mesh),
-        numbers_(numbers),
+        notes_(notes),
         begin_(static_cast<std::uint32_t>(begin)),
         size_(static_cast<std::uint32_t>(size)),
         is_alone_(size == mesh.points().size()),
@@ -80,8 +87,7 @@ class PointInserter {
   bool locate(const Point3& p);
   bool holds(std::size_t slot, const Point3& p) const;
   bool dig(const Point3& p);
-  template <bool is_alone>
-  bool look_around(std::size_t inner);
+  void look_around(std::size_t inner);
   void test(std::size_t begin, std::size_t count, const Point3& p);
   void undo();
   void list_walls();
@@ -91,7 +97,7 @@ class PointInserter {
   void link_many();
 
   TetrahedralMesh& mesh_;
-  std::span<std::uint8_t> numbers_;
+  const Notes notes_;
   const std::uint32_t begin_, size_;
   const bool is_alone_;
   const SphereBatch batch_;

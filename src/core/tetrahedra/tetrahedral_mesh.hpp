@@ -83,10 +83,12 @@ class TetrahedralMesh {
 
  private:
   void grow();
+  std::size_t whole_pieces(std::size_t slots) const;
 
   std::span<const Point3> points_;
   const SetPredicates& predicates_;
   const Index infinity_;
+  const std::size_t slots_at_once_;
   std::size_t slots_ = 0;
   std::mutex growing_;  // guards the number of slots
   base::LargeArray<Tetrahedron> tetrahedra_;
