@@ -14,7 +14,7 @@ from support.few import few
 from support.processes.leftovers import contents
 from support.refusals import refused
 from vorotool.convert.polygons import as_polygons
-from vorotool.errors import OutputError
+from vorotool.errors import OutputError, VorotoolWarning
 from vorotool.formats.io.temporaries import Temporary
 
 PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
@@ -106,3 +106,26 @@ def test_links_of_all_parts_stay_links(older):
     vorotool.write(boxes(900, "EPSG:2056"), older / "links/b.shp")
     assert all((older / f"links/b{part}").is_symlink() for part in PARTS)
     assert len(vorotool.read(older / "a.shp")) == 900
+
+
+def test_what_a_shapefile_cannot_hold_is_told(tmp_path):
+    columns = {"population_total": [7], "text": ["x" * 300], "tiny": [1e-300], "huge": [2**62 + 1], "empty": [""]}
+    kept = {
+        "n": [None],
+        "third": [1 / 3],
+        "million": [1e6],
+        "b": [True],
+        "day": ["2020-01-31"],
+        "k": [-5],
+        "nan": [None],
+    }
+    square = [shapely.box(0, 0, 1, 1)]
+    for properties in (columns, kept):
+        table = vorotool.offset(geopandas.GeoDataFrame(properties, geometry=square), -0.25)
+        if properties is kept:
+            vorotool.write(table, tmp_path / "a.shp")
+            continue
+        with pytest.warns(VorotoolWarning) as told:
+            vorotool.write(table, tmp_path / "a.shp")
+        (line,) = told
+        assert "population_total is population; values of text, tiny, huge differ; a GeoPackage" in str(line.message)

@@ -12,7 +12,7 @@ import vorotool
 from support.families.vector_files import DRIVERS, load
 from support.refusals import refused
 from vorotool.convert.polygons import as_polygons
-from vorotool.errors import OutputError, UsageError
+from vorotool.errors import OutputError, UsageError, silent
 from vorotool.formats.gis.feature_writer import FeatureRows
 from vorotool.types.polygons.polygon_set import PolygonSet
 
@@ -125,7 +125,8 @@ def test_every_coordinate_comes_back_to_the_bit(tmp_path):
     points = np.random.default_rng(3).standard_normal((500, 2)) * 10.0 ** np.arange(-12, 13, 0.05)[:500, None]
     cells = vorotool.voronoi_cells(points[:200])
     for fmt in ("gpkg", "fgb", "parquet", "shp"):
-        vorotool.write(cells, tmp_path / f"a.{fmt}")
+        with silent():
+            vorotool.write(cells, tmp_path / f"a.{fmt}")
         made = load(tmp_path / f"a.{fmt}").geometry
         assert len(made) == 200
         expected = vorotool.to_geojson(cells)["features"]

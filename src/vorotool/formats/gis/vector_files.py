@@ -23,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.extras import needed
-from vorotool.errors import INPUT_FORMAT, InputError, LimitError, OutputError, UsageError, option
+from vorotool.errors import INPUT_FORMAT, InputError, LimitError, OutputError, UsageError, option, warn
 from vorotool.formats.gis.feature_table import Features, checked_geometry, chosen_layer
-from vorotool.formats.gis.feature_writer import GdalFeatures, common_kind, move_into
+from vorotool.formats.gis.feature_writer import GdalFeatures, TypedColumn, common_kind, move_into
 from vorotool.formats.io.atomic_output import (
     Rules,
     check_output,
@@ -301,11 +301,11 @@ class Shapefile(GdalFeatures):
         rules, whole = current_rules(), Path(self.path)
         with committed_together() as commit:
             place = Path(commit.make(os.path.realpath(whole), new_folder).path) / "layer.shp"
-            self.gdal_write(
-                place, self.columns(), driver="ESRI Shapefile", layer_options={"DBF_DATE_LAST_UPDATE": "1970-01-01"}
-            )
+            columns, options = self.columns(), {"DBF_DATE_LAST_UPDATE": "1970-01-01"}
+            self.gdal_write(place, columns, driver="ESRI Shapefile", layer_options=options)
             if not is_whole(place, len(self.geometry)):
                 raise failure(self.path, OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), rules.option)
+            self._warn_of_losses(place, columns)
             written = [extension for extension in PARTS if place.with_suffix(extension).exists()]
             for older in older_parts(whole, written):
                 commit.add(removal(older, rules))
@@ -313,3 +313,39 @@ class Shapefile(GdalFeatures):
                 with open_output(whole.with_suffix(extension), binary=True, **rules._asdict()) as out:
                     move_into(place.with_suffix(extension), out)
             move_into(place, self.out)
+
+    def _warn_of_losses(self, place: Path, columns: Mapping[str, TypedColumn]) -> None:
+        """Warn of names and values that a Shapefile cannot hold, by reading those that it holds."""
+        if not columns:
+            return
+        names, values = self._attributes(place)
+        shortened = [f"{name} is {short}" for name, short in zip(columns, names, strict=True) if name != short]
+        pairs = zip(columns.items(), values, strict=True)
+        changed = [name for (name, column), held in pairs if _differs(column, held)]
+        if shortened or changed:
+            losses = [*shortened, *([f"values of {', '.join(changed)} differ"] if changed else [])]
+            warn(
+                f"{self.path}: a Shapefile has names of 10 bytes, texts of 254 and numbers of at most 15 decimals: "
+                f"{'; '.join(losses)}; a GeoPackage (.gpkg) keeps them"
+            )
+
+    def _attributes(self, place: Path) -> tuple[list[str], list[NDArray[Any]]]:
+        meta, _, _, values = self._gdal.raw.read(place, read_geometry=False)
+        return list(meta["fields"]), values
+
+
+MOST_LOSS = 1e-9
+"""Part of a number that a Shapefile may change without a warning."""
+
+
+def _differs(column: TypedColumn, held: NDArray[Any]) -> bool:
+    """Tell whether a column is another one after it is read back; times are text in a Shapefile."""
+    is_there = ~column.missing if column.values.dtype.kind != "O" else ~column.missing & (column.values != "")
+    own, held = column.values[is_there], held[is_there]
+    if own.dtype.kind == "M":
+        return False
+    if own.dtype.kind == "f":
+        is_number = np.isfinite(own)
+        own, held = own[is_number], held[is_number].astype(np.float64)
+        return bool((np.abs(own - held) > MOST_LOSS * np.abs(own)).any())
+    return not np.array_equal(own, held.astype(own.dtype))
