@@ -44,7 +44,7 @@ def other_columns(properties: Mapping[str, Any], labels: NDArray[np.int64]) -> d
 
 def ids_of(polygons: PolygonSet, polygon: Rows) -> Lookup:
     """Return the column of the input's ids of polygons; -1 has none."""
-    return _looked_up([None] * len(polygons) if polygons.ids is None else polygons.ids, polygon)
+    return _looked_up([None] * len(polygons) if polygons.feature_ids is None else polygons.feature_ids, polygon)
 
 
 def _looked_up(values: Sequence[Any], polygon: Rows) -> Lookup:
@@ -105,7 +105,7 @@ def described_shapes(own: Mapping[str, Any], polygons: PolygonSet, polygon: Rows
     ids = names.pop("id")[:].tolist()
     columns = with_columns_of({**names, **own}, polygons, polygon)
     properties = {name: column.tolist() for name, column in columns.items()}
-    return {"ids": None if polygons.ids is None else ids, "properties": properties}
+    return {"ids": None if polygons.feature_ids is None else ids, "properties": properties}
 
 
 def _taken(values: NDArray[np.integer], polygon: Rows) -> NDArray[np.int64]:

@@ -137,6 +137,23 @@ def test_rows_made_of_polygons_refer_to_features_by_label(run, tmp_path, what, f
         assert "polygon" not in found
 
 
+@pytest.mark.parametrize("what", [*OF_PARTS, "offset"])
+@pytest.mark.parametrize("fmt", ["csv", "geojson", "gpkg"])
+def test_a_column_id_is_the_id_of_features_that_have_no_other(run, tmp_path, what, fmt):
+    if fmt not in registry.PRODUCTS["skeleton-exact"][what].written:
+        pytest.skip("not a format of this result")
+    path, more = tmp_path / f"out.{fmt}", {"points": ["--every", "3"], "offset": ["-d", "-1"]}.get(what, [])
+    rows = [{"id": "seven", "name": "A"}, {"id": "nine", "name": "B"}]
+    (tmp_path / "in.geojson").write_text(collection([squares((0,)), squares((30,))], rows))
+    run(f"skeleton-exact {tmp_path}/in.geojson --what {what} -o {path}", *more, "-q")
+    if fmt == "geojson":
+        found = {"id": [feature["id"] for feature in json.loads(path.read_text())["features"]]}
+    else:
+        found = columns_of(path)
+    assert list(dict.fromkeys(found["id"])) == ["seven", "nine"]
+    assert "voro_id" not in found
+
+
 READ_BACK = ["csv", "json", "geojson", "npz", "gpkg"]
 
 

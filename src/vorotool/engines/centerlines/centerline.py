@@ -279,7 +279,7 @@ def _warn_missing(lines: Centerlines) -> None:
         return
     polygons = lines.path.polygons
     total = int(np.count_nonzero(~polygons.is_line))
-    ids = polygons.ids
+    ids = polygons.feature_ids
     has_ids = ids is not None and all(ids[k] is not None for k in missing.tolist())
     named = [str(ids[k] if ids is not None and has_ids else k + 1) for k in missing[:MOST_NAMED].tolist()]
     more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""

@@ -140,8 +140,14 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
 
     @cached_property
     def other_columns(self) -> dict[str, Any]:
-        """The properties without the column that holds the labels."""
-        return other_columns(self.properties, self.labels)
+        """The properties without the columns that hold the labels and the ids."""
+        found = other_columns(self.properties, self.labels)
+        return found if self.ids is not None else {name: column for name, column in found.items() if name != "id"}
+
+    @property
+    def feature_ids(self) -> Sequence[Any] | None:
+        """The ids of the input, or its column ``id``."""
+        return self.properties.get("id") if self.ids is None else self.ids
 
     @property
     def as_given(self) -> PolygonSet:
@@ -202,7 +208,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
 
         every = np.arange(len(self))
         names = names_of(self, every)
-        if self.ids is None:
+        if self.feature_ids is None:
             del names["id"]
         return Rows(names, self.other_columns, self, every, self)
 
