@@ -281,6 +281,7 @@ def measured_shapes(
 def _repaired(polygons: PolygonSet, name: str) -> PolygonSet:
     """Replace invalid polygons by what their edges bound, with a warning."""
     used, invalid = with_used_rings(polygons)
+    invalid = invalid[np.isin(polygons.feature[invalid], used.feature[~used.is_line])]  # the rest are points and lines
     if len(invalid):
         named = features_named(polygons, np.isin(np.arange(len(polygons)), invalid))
         shape = option(name.upper(), name)
