@@ -25,7 +25,7 @@ from vorotool.engines.sampled_skeleton.hausdorff import (
 from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of
 from vorotool.render.canvas.styles import FAINT, INK, PALE, RESULT, SEED
 from vorotool.render.canvas.svg import write_layers_svg
-from vorotool.types.skeleton.skeleton import EDGE
+from vorotool.types.skeleton.segment_voronoi import EDGE
 
 DATA = Path(__file__).parents[2] / "data"
 SHAPES = {"shape.json": "interior", "two-shapes.json": "interior", "two-segments.wkt": "exterior"}

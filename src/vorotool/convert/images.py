@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.convert.spacings import grid_of
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.numeric.checks import (
+    MAX_PIXELS,
     column_names,
     described,
     is_choice,
@@ -22,7 +23,6 @@ from vorotool.numeric.checks import (
 from vorotool.numeric.coordinates import MOST_AXES
 from vorotool.numeric.numbers import real_number, shown_number
 from vorotool.types.images import LabelImage, Raster
-from vorotool.types.pixels import MAX_PIXELS
 
 EXPECTED = "an image: a Raster, a LabelImage, or a 2-D array of truth values or integers"
 POINT_WIDTHS = (2, 3)

@@ -5,16 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from math import isnan
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.convert.features import HeldFeatures, held_features, is_shapely
-from vorotool.convert.images import as_raster, is_image
-from vorotool.convert.points import as_points
-from vorotool.convert.polygons import as_polygons, is_ring
-from vorotool.convert.tables import MISSING_TYPES, is_table, listed
 from vorotool.errors import InputError, UsageError, option, warn
 from vorotool.frozen import frozen
 from vorotool.numeric.checks import index_of_rows, items_of, naming, unexpected
@@ -22,16 +17,17 @@ from vorotool.numeric.crs import note_degrees
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import shown_number
 from vorotool.products.formats import resolved
+from vorotool.products.registry import is_of
 from vorotool.types.box import Box, bounds
 from vorotool.types.fields import UP
 from vorotool.types.identity import check_plain, column_of
-from vorotool.types.images import LabelImage
-from vorotool.types.pixels import PixelGrid
-from vorotool.types.points.point_set import PointSet
-from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
-from vorotool.types.polygons.shapely_geometry import polygons_of_geometry
 from vorotool.types.values import counted
+
+if TYPE_CHECKING:
+    from vorotool.convert.features import HeldFeatures
+    from vorotool.types.pixels import PixelGrid
+    from vorotool.types.points.point_set import PointSet
 
 _BY = option("--by", "by")
 EXPECTED = (
@@ -68,7 +64,13 @@ def _features(source: Any, name: str) -> Sites:
         source = items_of(source)
     if isinstance(source, PolygonSet | Sites):
         return _of_polygons(source) if isinstance(source, PolygonSet) else source
-    if isinstance(source, PointSet | SeedSet):
+    from vorotool.convert.features import held_features
+    from vorotool.convert.images import is_image
+    from vorotool.convert.points import as_points
+    from vorotool.convert.polygons import as_polygons, is_ring
+    from vorotool.convert.tables import is_table
+
+    if is_of(source, "PointSet", "SeedSet"):
         return _of_points(as_points(source, name))
     if is_image(source, name):
         return _of_image(source, name)
@@ -84,6 +86,8 @@ def _features(source: Any, name: str) -> Sites:
 
 
 def _of_held(held: HeldFeatures, name: str) -> Sites:
+    from vorotool.types.polygons.shapely_geometry import polygons_of_geometry
+
     items = np.empty(len(held.items), dtype=object)
     items[:] = [_shapely_of(item) for item in held.items]
     made = polygons_of_geometry(items, lambda own: {"feature": own, **held.described(own)}, takes_points=True)
@@ -93,6 +97,8 @@ def _of_held(held: HeldFeatures, name: str) -> Sites:
 
 def _shapely_of(item: Any) -> Any:
     """Geometry of shapely for an object of GeoJSON."""
+    from vorotool.convert.features import is_shapely
+
     if item is None or is_shapely(item):
         return item
     if not isinstance(item, Mapping):
@@ -126,11 +132,12 @@ def _of_points(points: PointSet) -> Sites:
 
 def _of_image(source: Any, name: str) -> Sites:
     """Sites that are the objects of an image; their ids are the labels."""
-    image = source if isinstance(source, LabelImage) else as_raster(source, name)
+    is_labels = is_of(source, "LabelImage")
+    image: Any = source if is_labels else resolved("convert.images:as_raster")(source, name)
     outlines: PolygonSet = resolved("engines.label_images.outlines:outlines")(image)
     if image.grid is None or image.grid.transform is None:
         return _of_polygons(outlines)
-    first = (image.frame.x, image.frame.y) if isinstance(image, LabelImage) else (0, 0)
+    first = (image.frame.x, image.frame.y) if is_labels else (0, 0)
     return _of_polygons(_on_map(outlines, image.grid, first))
 
 
@@ -176,7 +183,7 @@ def _values(features: Sites, by: Any) -> list[Any]:
             raise UsageError(f"invalid {_BY} {shown_number(by)}: expected a column of the sites ({names}){more}")
         by = found
     try:
-        values = [*listed(by)]
+        values = [*resolved("convert.tables:listed")(by)]
     except (TypeError, ValueError, IndexError):  # a closed file is a ValueError, a table with gaps an IndexError
         raise InputError(f"invalid {_BY} {shown_number(by)}: expected a column, or one value per feature") from None
     if len(values) != features.count:
@@ -190,6 +197,8 @@ def _values(features: Sites, by: Any) -> list[Any]:
 
 
 def _is_missing(value: Any) -> bool:
+    from vorotool.convert.tables import MISSING_TYPES
+
     return value is None or type(value).__name__ in MISSING_TYPES or (isinstance(value, float) and isnan(value))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,11 @@ from vorotool.errors import InputError, UsageError, warn
 from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.length_units import ratio
 from vorotool.numeric.numbers import shown_number
+from vorotool.products.registry import is_of
 from vorotool.types.pixels import ALIKE, PixelGrid, PixelSides, map_grid, pixel_sides, rounded_side, sides_of_grid
-from vorotool.types.volumes.volume import VoxelGrid
+
+if TYPE_CHECKING:
+    from vorotool.types.volumes.volume import VoxelGrid
 
 AUTO = "auto"
 
@@ -61,13 +64,13 @@ def carried_grid(source: Any, axes: int) -> PixelGrid | VoxelGrid | None:
     grid = getattr(source, "grid", None)
     if axes == 2 and not isinstance(grid, PixelGrid) and _has_axes(source, 2):
         grid = grid_of(source)
-    if axes == 3 and not isinstance(grid, VoxelGrid) and _has_axes(source, 3):
+    if axes == 3 and not is_of(grid, "VoxelGrid") and _has_axes(source, 3):
         grid = _voxels(source)
     if isinstance(grid, PixelGrid) and axes == 2:
         is_plain = grid.unit is None and grid.width == grid.height == 1
         is_angular = grid.unit == "deg" or is_geographic(grid.crs)
         return None if (not grid.is_size and grid.unit is not None) or is_plain or is_angular else grid
-    if isinstance(grid, VoxelGrid) and axes == 3:
+    if axes == 3 and grid is not None and is_of(grid, "VoxelGrid"):
         return None if grid.unit is None and set(grid.sides) == {1} else grid
     return None
 
@@ -78,6 +81,8 @@ def _has_axes(source: Any, axes: int) -> bool:
 
 def _voxels(source: Any) -> VoxelGrid | None:
     """Give the steps of the coordinates of three axes, in the unit of the last one."""
+    from vorotool.types.volumes.volume import VoxelGrid
+
     if any(axis not in source.coords for axis in source.dims):
         return None
     steps, units = [], []

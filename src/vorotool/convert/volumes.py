@@ -10,12 +10,20 @@ import numpy as np
 from vorotool.convert.features import HeldFeatures, held_features
 from vorotool.convert.tables import is_table, volume_points_of_table
 from vorotool.errors import InputError, LimitError
-from vorotool.numeric.checks import column_names, described, is_masked_array, items_of, naming, refuse_paths, unexpected
+from vorotool.numeric.checks import (
+    MAX_PIXELS,
+    column_names,
+    described,
+    is_masked_array,
+    items_of,
+    naming,
+    refuse_paths,
+    unexpected,
+)
 from vorotool.numeric.coordinates import number_array
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import real_number
 from vorotool.types.images import LabelImage, Raster
-from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.points.point_set import VolumePoints
 from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds
 

@@ -21,11 +21,11 @@ from vorotool.engines.tessellation.frames import frame_at, require_memory
 from vorotool.engines.tessellation.raster_objects import label_values, numbered_components
 from vorotool.engines.tessellation.tessellator import Tessellator, surrounded
 from vorotool.errors import InputError, LimitError, UsageError, option
-from vorotool.numeric.checks import checked_flag
+from vorotool.numeric.checks import MAX_PIXELS, checked_flag
 from vorotool.numeric.numbers import real_number, shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.images import Raster
-from vorotool.types.pixels import MAX_PIXELS, Frame, PixelSides, as_decimal
+from vorotool.types.pixels import Frame, PixelSides, as_decimal
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.volumes.volume import VolumeSeeds
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal, cast, overload
 
-from vorotool.types.pixels import MAX_PIXELS
+from vorotool.numeric.checks import MAX_PIXELS
 
 if TYPE_CHECKING:
     from pathlib import Path

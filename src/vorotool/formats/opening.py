@@ -9,9 +9,8 @@ from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
-from vorotool.formats.io.arrays import MAGIC, npy_header
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.io.sources import Source, read_source, reading
+from vorotool.formats.io.sources import NPY, Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note, with_crs, with_stated_axis
 from vorotool.formats.sniffing import PICTURES, TIFF_MAGIC, UTF8_MARK, image_of
 from vorotool.formats.zarr.store import is_folder, is_store
@@ -176,7 +175,7 @@ def recognized(
 ) -> tuple[Holds, Source]:
     """Tell what a source holds, and give it with its format; what was parsed to tell comes with it."""
     result = _result(source.data) if geometry is None and said in (None, "json", "geojson") else None
-    may_be_points = columns is not None and source.data.startswith(MAGIC)
+    may_be_points = columns is not None and source.data.startswith(NPY)
     image = None if may_be_points or result else image_format(source, said)
     if image is not None:
         return "image", replace(source, format=image)
@@ -215,8 +214,8 @@ def refuse_for_images(options: ReadOptions, layer: str | None) -> None:
 
 def image_source(source: Source, said: str | None = None) -> Source:
     """Give a source, which must be an image, with its format; an NPY file of two columns is one, too."""
-    said = "npy" if said is None and source.data.startswith(MAGIC) else said
-    found = said if said == "npy" and source.data.startswith(MAGIC) else image_format(source, said)
+    said = "npy" if said is None and source.data.startswith(NPY) else said
+    found = said if said == "npy" and source.data.startswith(NPY) else image_format(source, said)
     if found is None:
         raise InputError(
             f"{source.name} is not an image in a supported format (PNG, TIFF, PGM, PBM, NPY, "
@@ -246,6 +245,8 @@ def image_format(source: Source, said: str | None = None) -> str | None:
 
 
 def _is_npy_image(source: Source) -> bool:
+    from vorotool.formats.io.arrays import npy_header
+
     try:
         shape = npy_header(source).shape
     except InputError:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from vorotool.formats.io.arrays import MAGIC, NPZ_MAGIC
+from vorotool.formats.io.sources import NPY, NPZ
 
 TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 RECORD_MARK = b"\x1e"
@@ -41,7 +41,7 @@ _WKT = (
 _IMAGES = (
     Sign("png", b"\x89PNG"),
     *(Sign("tiff", head) for head in TIFF_MAGIC),
-    Sign("npy", MAGIC),
+    Sign("npy", NPY),
     Sign("pnm", b"P", pattern=rb"P([1-6])" + GAP + rb"(?=[0-9])"),
     Sign("jpeg", b"\xff\xd8\xff"),
     *(Sign("gif", b"GIF87a"), Sign("gif", b"GIF89a")),
@@ -57,7 +57,7 @@ _OTHERS = (
     *(Sign(".pdf", b"%PDF-"), Sign(".ps", b"%!PS"), Sign(".eps", b"\xc5\xd0\xd3\xc6"), Sign(".otf", b"OTTO\0")),
     *(Sign(".ttf", b"\0\1\0\0\0"), Sign(".woff", b"wOFF"), Sign(".woff2", b"wOF2"), Sign(".ttc", b"ttcf")),
     Sign(".dwg", b"AC10", pattern=rb"AC10\d\d\0"),
-    *(Sign("npy", MAGIC), Sign("npz", NPZ_MAGIC), Sign("gpkg", b"SQLite format 3\0"), Sign("fgb", b"fgb\x03fgb")),
+    *(Sign("npy", NPY), Sign("npz", NPZ), Sign("gpkg", b"SQLite format 3\0"), Sign("fgb", b"fgb\x03fgb")),
     *(Sign("shp", b"\0\0\x27\x0a"), Sign("parquet", b"PAR1"), Sign("las", b"LASF")),
     *(Sign("ply", b"ply\n"), Sign("ply", b"ply\r")),
     *(Sign("geojson", b"{"), Sign("json", b"["), Sign("jsonl", RECORD_MARK)),

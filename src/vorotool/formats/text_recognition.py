@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from vorotool.convert.tables import coordinate_columns
 from vorotool.errors import INPUT_FORMAT, OTSU, InputError, UsageError, option
-from vorotool.formats.io.arrays import NPZ_MAGIC, npz_holds
-from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.json import holds_shapes, is_json_lines, parse_json
-from vorotool.formats.points.delimited import geometry_column, header_fields
+from vorotool.formats.io.sources import NPZ, Source
 from vorotool.formats.sniffing import UTF8_MARK, format_of
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS, Holds
@@ -76,6 +72,9 @@ def _by_header(source: Source, chosen: str, columns: str | None = None) -> str:
     """Take points from a column of well-known text where the header names such a one, and no coordinates."""
     if chosen != "csv" or columns is not None:
         return chosen
+    from vorotool.convert.tables import coordinate_columns
+    from vorotool.formats.points.delimited import geometry_column, header_fields
+
     fields = header_fields(text_source(source, chosen).data)
     return "csv-wkt" if geometry_column(fields) is not None and coordinate_columns(fields) is None else chosen
 
@@ -100,6 +99,8 @@ def polygon_format(source: Source) -> str:
         raise InputError(
             f"{source.name} is empty, but polygons, lines or an image are expected; check the program that wrote it"
         )
+    from vorotool.formats.points.delimited import geometry_column, header_fields
+
     is_table = found == "csv" and geometry_column(header_fields(text_source(source, found).data)) is None
     if "polygons" in INPUTS[found].readers and not is_table:
         return found
@@ -121,7 +122,8 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
         source = replace(source, document=resolved("formats.gis.feature_table:features_of")(source))
         return ("polygons" if source.document.holds_shapes else "points"), source
     if chosen == "npz":
-        return npz_holds(source.data), source
+        holds = resolved("formats.io.arrays:npz_holds")(source.data)
+        return holds, source
     if chosen in DRAWN or chosen == "wkt":
         has_shapes = chosen != "wkt" or resolved("formats.gis.feature_table:names_shapes")(source.data)
         return ("polygons" if has_shapes else "points"), source
@@ -140,6 +142,8 @@ def _in_json(source: Source, said: str | None) -> tuple[Holds, Source]:
     """Tell whether JSON holds polygons or lines."""
     if _is_flat(source.data):
         return "points", source
+    from vorotool.formats.parsing.json import holds_shapes, parse_json
+
     document = parse_json(source)
     if isinstance(document, list):
         is_table = resolved("formats.points.tables:is_table")(document)
@@ -179,7 +183,7 @@ def text_source(source: Source, chosen: str) -> Source:
     """Take the byte order mark off, and refuse what is no text in an encoding that is read; tell JSON from lines."""
     if source.data.startswith(_UTF16_MARKS):
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
-    if source.data.startswith(NPZ_MAGIC):
+    if source.data.startswith(NPZ):
         raise InputError(
             f"{source.name} is an NPZ or ZIP archive: for NPZ leave out {INPUT_FORMAT}, or name the file .npz; unpack "
             "a ZIP archive"
@@ -190,7 +194,7 @@ def text_source(source: Source, chosen: str) -> Source:
             f"name the format with {INPUT_FORMAT}"
         )
     data = source.data.removeprefix(UTF8_MARK)
-    is_lines = chosen in ("json", "geojson") and is_json_lines(data)
+    is_lines = chosen in ("json", "geojson") and resolved("formats.parsing.json:is_json_lines")(data)
     return replace(source, data=data, format="jsonl" if is_lines else chosen)
 
 

@@ -10,8 +10,7 @@ from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.gis.feature_table import Features
 from vorotool.formats.images.band_reader import read_rows
 from vorotool.formats.images.label_images import label_image_of
-from vorotool.formats.io.arrays import MAGIC
-from vorotool.formats.io.sources import Source, read_source, reading
+from vorotool.formats.io.sources import NPY, Source, read_source, reading
 from vorotool.formats.opening import image_format, image_source, open_zarr, read_recognized, recognized
 from vorotool.formats.parsing.reader_options import ReadOptions, with_stated_axis
 from vorotool.formats.points.tables import is_table
@@ -149,7 +148,7 @@ def _read(run: Run, o: Options, given: JobInput) -> LabelImage | Lined:
         return label_image_of(read_rows(array, max_pixels=o.max_pixels), given.path)
     source = read_source(given.path, o.input_layer)
     holds: Holds
-    if source.data.startswith(MAGIC):  # of two columns, too: points are not drawn
+    if source.data.startswith(NPY):  # of two columns, too: points are not drawn
         holds, source = "image", image_source(source, said)
     elif source.data.strip() or image_format(source, said):
         holds, source = recognized(source, said=said)

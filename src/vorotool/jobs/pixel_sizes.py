@@ -20,6 +20,7 @@ from vorotool.jobs.units import (
     unit_stats,
 )
 from vorotool.products.options import flag, options_of
+from vorotool.products.registry import is_of
 from vorotool.types.fields import UP
 
 if TYPE_CHECKING:
@@ -151,13 +152,9 @@ def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
     return replace(stretched(polygons, 1, -1) if size.y_up else polygons, y_axis=UP, crs=size.crs)
 
 
-def placed_sites(
-    run: Run, o: Options, given: JobInput, points: PointSet | SeedSet
-) -> tuple[Options, PointSet | SeedSet]:
+def placed_sites(run: Run, o: Options, given: JobInput, points: Any) -> tuple[Options, PointSet | SeedSet]:
     """Give options with the size of pixels, see `with_pixel_size`, and seeds of an image as they lie on its map."""
-    from vorotool.types.points.seed_set import SeedSet
-
-    if not isinstance(points, SeedSet):
+    if not is_of(points, "SeedSet"):
         return lengths_in_steps(o), points
     o = lengths_in_steps(with_pixel_size(run, o, given, points.grid))
     if o.pixel_size is None or not o.pixel_size.y_up:
@@ -167,13 +164,12 @@ def placed_sites(
     return o, stretched(points, 1, -1)
 
 
-def in_steps(o: Options, points: PointSet | SeedSet) -> PointSet:
+def in_steps(o: Options, points: Any) -> PointSet:
     """Give points in pixels, or the sites of an image, in steps of ``--spacing``."""
-    from vorotool.types.pixels import SQUARE
-    from vorotool.types.points.point_set import PointSet
-
-    if isinstance(points, PointSet) and (o.pixel_size is None or sides_of(o) == SQUARE):
-        return replace(points, xy=points.xy + 0.0)  # there is no -0
+    sides = None if o.pixel_size is None or o.pixel_size.sides is None else sides_of(o)
+    if is_of(points, "PointSet") and (sides is None or set(sides.units) == {1} == {sides.step}):
+        made: PointSet = replace(points, xy=points.xy + 0.0)  # there is no -0
+        return made
     from vorotool.convert.points import as_points
     from vorotool.types.scaling import stretched
 

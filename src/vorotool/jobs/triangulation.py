@@ -26,8 +26,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import Amount, box_amounts, in_units, refuse_lengths, sides_of, table_in_units, unit_columns
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
-from vorotool.types.points.point_set import PointSet
-from vorotool.types.points.seed_set import SeedSet
+from vorotool.products.registry import is_of
 
 if TYPE_CHECKING:
     from vorotool.render.drawing import Drawing
@@ -36,6 +35,7 @@ if TYPE_CHECKING:
     from vorotool.types.mesh.space_cells import SpaceCellSet
     from vorotool.types.mesh.tables import CellStatistics
     from vorotool.types.mesh.triangulation import DigitalComparison
+    from vorotool.types.points.seed_set import SeedSet
 
 TRIANGULATE, VERIFY = "engines.delaunay.delaunay:delaunay", "engines.delaunay.delaunay:verify_triangulation"
 
@@ -46,15 +46,16 @@ def products(run: Run, o: Options, given: JobInput) -> MeshProducts:
     return kinds[o.triangulated_by](run, o, given)
 
 
-def seeds_of(run: Run, o: Options, points: PointSet | SeedSet) -> SeedSet:
+def seeds_of(run: Run, o: Options, points: Any) -> SeedSet:
     """Give the seeds of an image, or points in their frame."""
-    if isinstance(points, SeedSet):
-        return points
+    if is_of(points, "SeedSet"):
+        seeds: SeedSet = points
+        return seeds
     place, frame = "engines.tessellation.seeding:seeds_in_frame", partial(frame_of, o)
     return run.call(o, place, points, frame, phase=None, sides=sides_of(o))
 
 
-def digital_mesh(run: Run, o: Options, points: PointSet | SeedSet, seeds: SeedSet) -> tuple[Any, Any]:
+def digital_mesh(run: Run, o: Options, points: Any, seeds: SeedSet) -> tuple[Any, Any]:
     """Triangulate by the digital rule, or by its certified repair, which is told of as well."""
     where: dict[str, Any] = {"window": window_of(o, seeds), "spacing": sides_of(o).units}
     mesh: Any
@@ -63,7 +64,7 @@ def digital_mesh(run: Run, o: Options, points: PointSet | SeedSet, seeds: SeedSe
         mesh = run.call(o, "engines.digital.triangulation:digital_triangulation", seeds, phase="triangulate", **where)
     else:
         mesh, repair = run.call(o, "engines.digital.triangulation:repair_digital", seeds, phase="triangulate", **where)
-    if isinstance(points, PointSet):
+    if is_of(points, "PointSet"):
         numbers = {} if repair is None else {"first_number": points.first_number}
         mesh = replace(mesh, y_axis=points.y_axis, crs=points.crs, **numbers)
     return mesh, repair
@@ -90,13 +91,13 @@ class MeshProducts(Results):
             check_columns(o, self.mesh.properties)
         self.edged: Any = self._with_graph() if self.wants_mesh else None
 
-    def _clipped(self, given: JobInput, points: PointSet | SeedSet) -> tuple[Any, Sequence[Any]]:
+    def _clipped(self, given: JobInput, points: Any) -> tuple[Any, Sequence[Any]]:
         """Read the polygons of ``--clip``."""
         from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
         from vorotool.types.polygons.shapely_geometry import to_shapely
 
         o = self.options
-        if isinstance(points, SeedSet):
+        if is_of(points, "SeedSet"):
             crs = None if points.grid is None else points.grid.crs
             first = First(given.name, points, unit_of_image(o, points.grid), is_image=True, crs=crs)
         else:

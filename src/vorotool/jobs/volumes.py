@@ -16,9 +16,8 @@ from vorotool.engines.tessellation.volume_seeding import (
     seeds_from_xyz,
 )
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.formats.io.arrays import MAGIC
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
-from vorotool.formats.io.sources import reading
+from vorotool.formats.io.sources import NPY, reading
 from vorotool.formats.volumes.opening import kind_of_head, open_volume
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
@@ -180,7 +179,7 @@ def _is_volume(o: Options, path: str) -> bool:
         return o.columns is None and o.size is None and o.window is None
     try:
         with Path(path).open("rb") as file:
-            head = file.read(len(MAGIC))
+            head = file.read(len(NPY))
     except (OSError, ValueError):
         return False  # who reads it says what is wrong
     kind = kind_of_head(head)

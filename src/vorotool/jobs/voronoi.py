@@ -20,8 +20,6 @@ from vorotool.jobs.inputs import (
     tell_empty_cells,
 )
 from vorotool.jobs.options import Options
-from vorotool.jobs.outlined_images import ReadPolygons, outlined
-from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.results import Results
@@ -36,6 +34,8 @@ from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
+    from vorotool.jobs.outlined_images import ReadPolygons
+    from vorotool.render.looks import World
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.discs import Discs
 
@@ -61,7 +61,13 @@ class VoronoiProducts(Results):
         has_place[self.cells.polygon_site] = True  # of the others it was told when they were read
         tell_empty_cells(run, self.cells.labels, (self.cells.components == 0) & has_place)
         check_columns(self.options, self.cells.properties)
-        self.world = world_of_polygons(run, self.options, self.cells.polygons, size=self.options.pixel_size)
+
+    @cached_property
+    def world(self) -> World:
+        """Where what is drawn lies."""
+        from vorotool.jobs.picture_world import world_of_polygons
+
+        return world_of_polygons(self.run, self.options, self.cells.polygons, size=self.options.pixel_size)
 
     def _read(self, run: Run, o: Options, given: JobInput) -> tuple[Sites, ReadPolygons | None, Options]:
         """Read points, lines and polygons, each feature a site, or the objects of an image, whose outlines are kept."""
@@ -69,7 +75,7 @@ class VoronoiProducts(Results):
             o, value = read_opened(run, o, given, source, columns=o.columns)
         if is_of(value, "Raster"):
             refuse({"columns": o.columns}, "applies to lists of points, but the input is an image")
-            image = outlined(run, o, given, value)
+            image: ReadPolygons = resolved("jobs.outlined_images:outlined")(run, o, given, value)
             return as_sites(image.polygons), image, image.options
         of_images = {**o.for_images, "simplify": o.simplify}
         refuse(of_images, "applies to images, but the input holds points, lines or polygons")

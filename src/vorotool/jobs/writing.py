@@ -15,6 +15,7 @@ from vorotool.jobs.picture_world import world_of_value
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.numeric.checks import MAX_PIXELS
 from vorotool.numeric.coordinates import writing
 from vorotool.numeric.numbers import Flatten, checked_flatten, shown_number, whole_number
 from vorotool.products.formats import PICTURES, format_named
@@ -22,7 +23,7 @@ from vorotool.products.registry import VOLUME_PRODUCTS, Product, chosen_part, is
 from vorotool.render.drawing import Picture, Plot, drawn_part
 from vorotool.render.looks import World, check_layers, looks_of
 from vorotool.types.fields import Record, is_up, with_y_axis, y_axis_of
-from vorotool.types.pixels import MAX_PIXELS, MAX_SIDE
+from vorotool.types.pixels import MAX_SIDE
 
 
 def write(

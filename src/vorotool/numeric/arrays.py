@@ -105,3 +105,20 @@ def with_length(
     if has_length.all():
         return points, start.astype(np.int64), has_length
     return points[np.repeat(has_length, sizes)], starts_of(sizes[has_length]), has_length
+
+
+def connected_roots(pairs: NDArray[np.integer], count: int) -> NDArray[np.int64]:
+    """(count,) the smallest number that each is connected with by pairs."""
+    root = np.arange(count)
+    a, b = np.asarray(pairs).reshape(-1, 2).T
+    while len(a):
+        low, high = np.minimum(root[a], root[b]), np.maximum(root[a], root[b])
+        apart = low != high
+        a, b = a[apart], b[apart]
+        np.minimum.at(root, high[apart], low[apart])
+        while True:  # follow chains of roots to their ends, each step twice as far
+            further = root[root]
+            if (further == root).all():
+                break
+            root = further
+    return root

@@ -18,6 +18,9 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.numbers import plain_text, shown_number
 
+MAX_PIXELS = 2**31
+"""Pixels held in memory at most, unless told otherwise (``--max-pixels``)."""
+
 MOST_THREADS = 1024
 """More help nothing."""
 

@@ -328,9 +328,6 @@ def check_frame(frame: Any, cells: str, instead: str) -> None:
 CELL = {2: "pixel", 3: "voxel"}
 """What frames of so many axes consist of."""
 
-MAX_PIXELS = 2**31
-"""Pixels held in memory at most, unless told otherwise (``--max-pixels``)."""
-
 MAX_SIDE = 2**30
 """Pixels a side at most: rows and columns are counted in 32-bit integers."""
 

@@ -16,7 +16,8 @@ from vorotool.engines.arrangement.repaired_polygons import placed_shapes, repair
 from vorotool.errors import VorotoolWarning
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL
 from vorotool.types.polygons.shapely_geometry import to_shapely
-from vorotool.types.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import Skeleton
 
 SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]
 

@@ -14,7 +14,7 @@ import vorotool
 from support.oracles.outline_oracle import random_labels
 from vorotool.engines.pruning.pruning import default_pruning_for_masks
 from vorotool.errors import VerificationError
-from vorotool.types.skeleton.tables import connected_roots
+from vorotool.numeric.arrays import connected_roots
 
 SIDE, ACROSS = 64, 20
 COUNT = 80

@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 
 from vorotool import critical_values, prune
-from vorotool.types.skeleton.skeleton import EDGE
+from vorotool.types.skeleton.segment_voronoi import EDGE
 
 SAMPLES = 6
 TOLERANCE = 1e-7

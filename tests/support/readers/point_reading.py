@@ -7,7 +7,7 @@ import pytest
 
 from support.readers.sources import read_as
 from vorotool.errors import InputError
-from vorotool.formats.io.arrays import MAGIC
+from vorotool.formats.io.sources import NPY as MAGIC
 from vorotool.formats.io.sources import Source
 from vorotool.formats.opening import read_recognized
 from vorotool.formats.parsing.reader_options import ReadOptions

@@ -9,7 +9,7 @@ import pytest
 
 import vorotool
 from vorotool.numeric import parallel
-from vorotool.types.skeleton.tables import connected_roots
+from vorotool.numeric.arrays import connected_roots
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
 MADE = vorotool.skeleton_exact(SHAPES, side="both")

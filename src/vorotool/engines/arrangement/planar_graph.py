@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.repaired_polygons import flat_holes, given_shapes, with_flat_shells_as_lines
 from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError, warn
 from vorotool.frozen import frozen
@@ -18,6 +17,7 @@ from vorotool.numeric.arrays import divides, norms, owners, ranges, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, Run
+from vorotool.products.formats import resolved
 from vorotool.types.arguments import check_value
 from vorotool.types.box import check_magnitude
 from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
@@ -88,16 +88,24 @@ def planar_graph(
     >>> graph.coordinates().tolist(), graph.largest_move
     ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], 0.0)
     """
-    given = as_polygons(polygons)
+    given = _set_of(polygons)
     if len(given.xy) > MOST_VERTICES:
         raise LimitError(f"the input has {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
     placement = placed_vertices(given, threads=threads, progress=progress)
     return graph_of_placement(given, placement, strict=strict, progress=progress)
 
 
+def _set_of(polygons: Any) -> PolygonSet:
+    """Give a set of polygons, made of anything else that holds them."""
+    if isinstance(polygons, PolygonSet):
+        return polygons
+    made: PolygonSet = resolved("convert.polygons:as_polygons")(polygons)
+    return made
+
+
 def graph_for_skeletons(polygons: Any, *, strict: bool = False, **run: Unpack[Run]) -> PlanarGraph:
     """Make the planar graph that a skeleton is computed of; arguments, errors and warnings as of `planar_graph`."""
-    given = with_flat_shells_as_lines(as_polygons(polygons))
+    given = with_flat_shells_as_lines(_set_of(polygons))
     check_magnitude(given.xy)
     return planar_graph(given, strict=strict, **run)
 

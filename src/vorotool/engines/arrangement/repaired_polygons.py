@@ -10,12 +10,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
+from vorotool.numeric.arrays import Indices, connected_roots, owners, ranges, starts_of
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
-from vorotool.types.skeleton.skeleton import EDGE, VERTEX, SiteTable
-from vorotool.types.skeleton.tables import connected_roots
+from vorotool.types.skeleton.segment_voronoi import EDGE, VERTEX, SiteTable
 
 
 def given_shapes(graph: PlanarGraph) -> tuple[PolygonSet, NDArray[np.int32]]:

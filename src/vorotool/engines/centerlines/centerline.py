@@ -25,7 +25,8 @@ from vorotool.numeric.parallel import Progress
 from vorotool.types.arguments import check_value
 from vorotool.types.box import check_lengths
 from vorotool.types.skeleton.lines import Centerlines, without_centerline
-from vorotool.types.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import PointsLike

@@ -38,9 +38,9 @@ from vorotool.engines.centerlines.twigs import (
 )
 from vorotool.engines.skeleton.parts import with_straight_arcs
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Booleans, Floats, Numbers, norms, starts_of
-from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton, ends_of_sites
-from vorotool.types.skeleton.tables import connected_roots
+from vorotool.numeric.arrays import Booleans, Floats, Numbers, connected_roots, norms, starts_of
+from vorotool.types.skeleton.segment_voronoi import ends_of_sites
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 
 @frozen(eq=False)

@@ -14,12 +14,22 @@ from vorotool.engines.from_skeleton.points_along import first_crossings, first_h
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Booleans, Floats, Numbers, mask_of, norms, owners, starts_of, within
+from vorotool.numeric.arrays import (
+    Booleans,
+    Floats,
+    Numbers,
+    connected_roots,
+    mask_of,
+    norms,
+    owners,
+    starts_of,
+    within,
+)
 from vorotool.numeric.parallel import Progress, Run
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.lines import ExtendedSkeleton, LedOn
-from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
-from vorotool.types.skeleton.tables import connected_roots
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 TIP = sqrt(4 + 2 * sqrt(2))
 """1 over the sine of half of 45 degrees: the way along the bisector of such a corner in which radii fall by 1."""

@@ -28,7 +28,8 @@ from vorotool.numeric.arrays import (
 )
 from vorotool.numeric.numbers import difference, is_among, product
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
+from vorotool.types.skeleton.segment_voronoi import EDGE, ends_of_sites
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 
 @frozen(eq=False)

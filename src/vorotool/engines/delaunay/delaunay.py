@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool import _core
-from vorotool.convert.points import as_points
 from vorotool.errors import STRICT, InputError, LimitError, VerificationError, warn
 from vorotool.numeric.checks import as_array, checked_flag, checked_threads, joined_index, whole_numbers
 from vorotool.numeric.parallel import Progress, Run, running
@@ -17,7 +16,6 @@ from vorotool.products.registry import is_of
 from vorotool.types.arguments import check_value
 from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.points.point_set import PointSet, known_of_points
-from vorotool.types.points.seed_set import SeedSet
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -132,7 +130,7 @@ def _point_set(points: Any) -> PointSet:
 
 def is_of_space(points: Any) -> bool:
     """Tell whether points have three coordinates: by their type, or as arrays and lists of triples."""
-    if isinstance(points, PointSet | SeedSet):
+    if is_of(points, "PointSet", "SeedSet"):
         return False
     if is_of(points, "VolumePoints", "VolumeSeeds", "Tetrahedralization", "SpaceAlphaComplex"):
         return True
@@ -337,7 +335,7 @@ Indices = NDArray[np.int32]
 
 def triangulation_of(points: Any, triangles: ArrayLike) -> Triangulation:
     """Make a `Triangulation` of points and the triangles that another program has found."""
-    given = as_points(points)
+    given: PointSet = resolved("convert.points:as_points")(points)
     corners = _counter_clockwise(given.xy, _checked_triangles(triangles, len(given.xy)))
     if not len(corners):
         raise InputError("triangles is empty: vorotool.delaunay computes a triangulation of points")

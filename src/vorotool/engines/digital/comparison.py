@@ -19,13 +19,13 @@ from vorotool.engines.tessellation.frames import as_seeds, asked_frame, default_
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import Message, option
 from vorotool.frozen import frozen
-from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.arrays import connected_roots
+from vorotool.numeric.checks import MAX_PIXELS, checked_threads
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.parallel import Progress
 from vorotool.types.images import LabelImage
 from vorotool.types.mesh.triangulation import DigitalComparison, DigitalTriangulation, Triangulation
-from vorotool.types.pixels import MAX_PIXELS, Frame
-from vorotool.types.skeleton.tables import connected_roots
+from vorotool.types.pixels import Frame
 from vorotool.types.table import Table
 
 if TYPE_CHECKING:

@@ -25,12 +25,12 @@ from vorotool.engines.tessellation.tessellate import verify_labels
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, VerificationError, option, warn
 from vorotool.frozen import frozen
-from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.checks import MAX_PIXELS, checked_threads
 from vorotool.numeric.parallel import Progress, running
 from vorotool.types.arguments import check_value
 from vorotool.types.images import LabelImage
 from vorotool.types.mesh.triangulation import DigitalTriangulation, Triangulation
-from vorotool.types.pixels import MAX_PIXELS, Frame, PixelSides
+from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.scaling import scaled
 

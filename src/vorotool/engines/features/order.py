@@ -14,7 +14,7 @@ from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranks_of, starts_of, within
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
-from vorotool.types.skeleton.skeleton import SiteTable
+from vorotool.types.skeleton.segment_voronoi import SiteTable
 
 
 @frozen(eq=False)

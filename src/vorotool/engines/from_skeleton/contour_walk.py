@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Indices, following, mask_of, owners, ranks_of
+from vorotool.numeric.arrays import Indices, connected_roots, following, mask_of, owners, ranks_of
 from vorotool.numeric.curves.inverse_functions import angle_of
-from vorotool.types.skeleton.skeleton import EDGE, Skeleton
-from vorotool.types.skeleton.tables import connected_roots
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import Skeleton
 
 
 @frozen(eq=False)

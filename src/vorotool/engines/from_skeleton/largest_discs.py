@@ -18,7 +18,8 @@ from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.skeleton.arc_measures import ArcMeasures
 from vorotool.types.skeleton.discs import Discs
-from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, PolygonsLike

@@ -27,7 +27,8 @@ from vorotool.numeric.numbers import Flatten, checked_flatten
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
-from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
+from vorotool.types.skeleton.segment_voronoi import EDGE, ends_of_sites
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 _ULPS = 8
 """Of the largest coordinate: what two feet of one disc may differ by, times how much each is magnified."""

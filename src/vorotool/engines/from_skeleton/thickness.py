@@ -18,7 +18,8 @@ from vorotool.numeric.numbers import pair_of_doubles, shown_number, whole_number
 from vorotool.numeric.parallel import Progress, report
 from vorotool.types.arguments import check_value
 from vorotool.types.fields import is_up
-from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 SLACK = 46
 """A disc covers what is at most 2^-46 of the largest coordinate beyond it: 64 units in the last place of that."""

@@ -84,7 +84,7 @@ def _check_feet(discs: Discs, tolerance: float) -> None:
     away = np.abs(norms(discs.feet - discs.xy[disc]) - discs.radius[disc])
     if (at := first_wrong(~(away <= tolerance))) is not None:
         fail(f"a foot of disc {disc[at]} is {away[at]} off its circle")
-    from vorotool.types.skeleton.skeleton import ends_of_sites
+    from vorotool.types.skeleton.segment_voronoi import ends_of_sites
 
     ends = ends_of_sites(discs.polygons, discs.site_table, discs.foot_site)
     if (at := first_wrong(~(off_segments(discs.feet, *ends.swapaxes(0, 1)) <= tolerance))) is not None:

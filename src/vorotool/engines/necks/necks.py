@@ -18,7 +18,8 @@ from vorotool.numeric.parallel import Progress, Run
 from vorotool.types.polygons.planar_graph import moved_feet, projected
 from vorotool.types.skeleton.arc_measures import ClearanceCourse
 from vorotool.types.skeleton.necks import Necks
-from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, PolygonsLike

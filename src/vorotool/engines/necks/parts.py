@@ -19,14 +19,14 @@ from vorotool.engines.from_skeleton.contour_walk import (
 from vorotool.engines.necks.necks import Feet, FoundNecks, Ways, check_neck, found_necks, whole_skeleton
 from vorotool.engines.skeleton.parts import PER_ARC
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, following, owners, ranges, ranks_of
+from vorotool.numeric.arrays import Floats, Indices, connected_roots, following, owners, ranges, ranks_of
 from vorotool.numeric.parallel import Progress
 from vorotool.types.polygons.planar_graph import moved_feet, places_as_given
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.necks import Necks, Parts
-from vorotool.types.skeleton.skeleton import EDGE, Skeleton
-from vorotool.types.skeleton.tables import connected_roots
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, PolygonsLike

@@ -31,7 +31,8 @@ from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.types.box import check_lengths
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.offsets import Offsets
-from vorotool.types.skeleton.skeleton import SiteTable, Skeleton
+from vorotool.types.skeleton.segment_voronoi import SiteTable
+from vorotool.types.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, ShapesLike

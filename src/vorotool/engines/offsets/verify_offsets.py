@@ -27,7 +27,7 @@ from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import SHELL
 from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.skeleton.offsets import Offsets
-from vorotool.types.skeleton.skeleton import EDGE, ends_of_sites
+from vorotool.types.skeleton.segment_voronoi import EDGE, ends_of_sites
 
 FLATTEN = 1e-4
 """Of the distance: how far chords are from arcs where places are told to be in a shape or not; nearer ones are not

@@ -14,7 +14,8 @@ from vorotool.engines.skeleton.parts import PER_ARC, core_skeleton
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats, Indices, norms, ranges, ranks_of
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import Skeleton
 
 SNAP = 2.0**-30
 """Of an arc: what is cut as near to its end is cut there."""

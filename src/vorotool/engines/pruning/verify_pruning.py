@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
-from vorotool.numeric.arrays import Floats, mask_of, norms, owners, ranges
+from vorotool.numeric.arrays import Floats, connected_roots, mask_of, norms, owners, ranges
 from vorotool.numeric.lazy import shapely
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.arc_measures import ArcMeasures
 from vorotool.types.skeleton.skeleton import Skeleton
-from vorotool.types.skeleton.tables import branch_table, connected_roots
+from vorotool.types.skeleton.tables import branch_table
 
 PRECISION = 2.0**-40
 """Of the largest coordinate: how far places may be from the arc that they are a part of. A place on an arc is computed

@@ -30,7 +30,8 @@ from vorotool.types.box import Extent, default_frame
 from vorotool.types.identity import names_of, part_table, place_columns
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.skeleton.skeleton import SiteTable, Skeleton
+from vorotool.types.skeleton.segment_voronoi import SiteTable
+from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.table import Lookup, Table
 
 

@@ -18,7 +18,8 @@ from vorotool.frozen import frozen
 from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.box import Extent, widened
-from vorotool.types.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import Skeleton
 
 
 def error_summary(found: ApproximateSkeleton | FeatureApproximation, *, step: float | None = None) -> dict[str, Any]:

@@ -11,8 +11,8 @@ from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress, Run
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.arc_measures import ClearanceCourse
-from vorotool.types.skeleton.segment_voronoi import LATTICE_LIMIT
-from vorotool.types.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE, LATTICE_LIMIT
+from vorotool.types.skeleton.skeleton import Skeleton
 
 ULPS = 32
 """Of the largest coordinate: by how much distances may differ. A node is right to 8 ulp of the radius and 2 of its

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any, Generic, TypeVar, Unpack
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,23 +28,23 @@ from vorotool.engines.skeleton.exact import (
     whole_diagram,
 )
 from vorotool.engines.skeleton.parts import PER_ARC, without_equal_nodes
-from vorotool.engines.skeleton.shortened_edges import (
-    ElementDiagram,
-    ShortEdges,
-    elements_of_graph,
-    elements_of_shapes,
-    skeleton_of_elements,
-    whole_element_diagram,
-)
 from vorotool.errors import silent
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import starts_of
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Run
+from vorotool.products.formats import resolved
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.skeleton.skeleton import EDGE, SiteTable, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE, SiteTable
+from vorotool.types.skeleton.skeleton import Skeleton
+
+if TYPE_CHECKING:
+    from vorotool.engines.skeleton.shortened_edges import ElementDiagram, ShortEdges
+
+_SHORTENED = "engines.skeleton.shortened_edges"
+"""What is only needed with a gap."""
 
 Seen = TypeVar("Seen")
 
@@ -183,7 +183,7 @@ def _branches(arcs: Places, skeletons: Sequence[Skeleton]) -> NDArray[np.int32]:
     return (np.cumsum(arcs.arranged([np.empty(0, dtype=bool), *begins])) - 1).astype(np.int32)
 
 
-AnyDiagram = ShapeDiagram | ElementDiagram
+AnyDiagram: TypeAlias = "ShapeDiagram | ElementDiagram"
 
 
 def is_of_single_features(side: str, features: str) -> bool:
@@ -228,7 +228,8 @@ def diagram_of_all(
     graph_of = graph_for_skeletons if features == "together" else together
     graph = graph_of(polygons, strict=strict, **run)
     if gap:
-        return elements_of_graph(graph, gap, **run)
+        made: ElementDiagram = resolved(f"{_SHORTENED}:elements_of_graph")(graph, gap, **run)
+        return made
     return diagram_of_graph(graph, interior_only=interior_only, **run)
 
 
@@ -250,13 +251,15 @@ def skeleton_in(
 def _skeleton_of(diagram: AnyDiagram, *, complete: bool, **wanted: Any) -> Skeleton:
     if isinstance(diagram, ShapeDiagram):
         return skeleton_of(diagram, **wanted)
-    return skeleton_of_elements(diagram, complete=complete, **wanted)
+    made: Skeleton = resolved(f"{_SHORTENED}:skeleton_of_elements")(diagram, complete=complete, **wanted)
+    return made
 
 
 def all_edges(diagram: AnyDiagram, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:
     """Give all edges of a diagram as arcs, cut by a frame: what it is before anything is deleted."""
     if isinstance(diagram, ShapeDiagram):
         return without_equal_nodes(whole_diagram(diagram, frame=frame, threads=threads))
+    whole_element_diagram = resolved(f"{_SHORTENED}:whole_element_diagram")
     return without_equal_nodes(whole_element_diagram(diagram, frame=frame, threads=threads))
 
 
@@ -270,6 +273,7 @@ def feature_elements(
     **run: Unpack[Run],
 ) -> FeatureSkeleton[Seen]:
     """Compute the skeleton inside polygons by the paper's decomposition of each feature alone."""
+    from vorotool.engines.skeleton.shortened_edges import ShortEdges, elements_of_shapes, skeleton_of_elements
 
     def work(shapes: BatchShapes, run: Run) -> tuple[ShortEdges, list[tuple[Skeleton, list[Seen]]]]:
         short = ShortEdges.of(shapes.graph, gap)
@@ -298,6 +302,8 @@ def _refuse(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, ShortEdges]
     """Raise InputError if features have edges that nothing would be left of, naming the first along the input."""
     if not any(len(short) for _, short in parts):
         return
+    from vorotool.engines.skeleton.shortened_edges import ShortEdges
+
     order = InputOrder.of(whole, [shapes for shapes, _ in parts])
     numbers = [own[short.site] for own, (_, short) in zip(order.site_numbers, parts, strict=True)]
     short = ShortEdges(
@@ -332,6 +338,8 @@ def sides_of(
     placed = replace(placed, polygons=replace(placed.polygons, connectivity=inside.polygons.connectivity))
     again: AnyDiagram
     if gap:
+        from vorotool.engines.skeleton.shortened_edges import ShortEdges, elements_of_shapes
+
         ShortEdges.of(graph, gap).refuse(placed.polygons, placed.sites, gap)
         again = elements_of_shapes(graph, placed, gap, **run)
     else:

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Indices, mask_of, norms, ranks_of
+from vorotool.numeric.arrays import Indices, connected_roots, mask_of, norms, ranks_of
 from vorotool.numeric.parallel import Progress
 from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
-from vorotool.types.skeleton.tables import connected_roots
 
 PER_ARC = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
 

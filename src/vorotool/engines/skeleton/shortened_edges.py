@@ -32,8 +32,8 @@ from vorotool.numeric.parallel import Run
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
-from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
-from vorotool.types.skeleton.skeleton import SiteTable, Skeleton
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram, SiteTable
+from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.values import counted
 
 DEVIATION_STEPS = 2.0**-14

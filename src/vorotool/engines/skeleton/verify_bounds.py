@@ -13,14 +13,13 @@ from vorotool.engines.skeleton.diagrams import batch_diagram
 from vorotool.engines.skeleton.exact import diagram_of_graph, interior_skeleton, skeleton_of
 from vorotool.engines.skeleton.parts import outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.verify_regions import border_components, with_corners_apart
-from vorotool.numeric.arrays import mask_of, norms, owners
+from vorotool.numeric.arrays import connected_roots, mask_of, norms, owners
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Run
 from vorotool.types.box import widened
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
-from vorotool.types.skeleton.tables import connected_roots
 
 PLACE_ERROR = 2.0**-18
 """Of a lattice step: how far distances of nodes may be wrong. They are rounded to input units, which may be coarser."""

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.engines.skeleton.shortened_edges import corner_sectors
-from vorotool.numeric.arrays import Floats, Indices, norms
+from vorotool.numeric.arrays import Floats, Indices, connected_roots, norms
 from vorotool.numeric.numbers import distinct, is_among
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
-from vorotool.types.skeleton.tables import connected_roots
 
 AREA = 1e-9
 AREA_ULPS = 8

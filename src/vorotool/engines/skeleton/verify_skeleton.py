@@ -25,14 +25,13 @@ from vorotool.engines.skeleton.verify_regions import (
     with_corners_apart,
 )
 from vorotool.errors import silent
-from vorotool.numeric.arrays import Floats, Indices, norms
+from vorotool.numeric.arrays import Floats, Indices, connected_roots, norms
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
-from vorotool.types.skeleton.tables import connected_roots
 
 
 def _is_on_border(skeleton: Skeleton, graph: PlanarGraph) -> tuple[NDArray[np.bool_], Indices]:

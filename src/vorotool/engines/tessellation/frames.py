@@ -21,9 +21,10 @@ from vorotool.convert.spacings import asked_sides
 from vorotool.engines.common import described
 from vorotool.engines.tessellation.seeding import FrameOf, moved_to, seeds_from_raster, seeds_in_frame
 from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
+from vorotool.numeric.checks import MAX_PIXELS
 from vorotool.numeric.numbers import real_number, shown_number
 from vorotool.types.images import LabelImage
-from vorotool.types.pixels import CELL, MAX_PIXELS, SQUARE, Frame, PixelSides
+from vorotool.types.pixels import CELL, SQUARE, Frame, PixelSides
 from vorotool.types.points.point_set import PointSet
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds, VoxelFrame

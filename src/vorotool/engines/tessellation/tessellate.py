@@ -28,12 +28,12 @@ from vorotool.engines.tessellation.frames import (
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, UsageError, VerificationError, option
-from vorotool.numeric.checks import checked_threads, is_choice
+from vorotool.numeric.checks import MAX_PIXELS, checked_threads, is_choice
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import Progress, report
 from vorotool.types.arguments import check_value
 from vorotool.types.images import LabelImage
-from vorotool.types.pixels import MAX_PIXELS, SQUARE, Frame, PixelSides, distance_as_written
+from vorotool.types.pixels import SQUARE, Frame, PixelSides, distance_as_written
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.volumes.volume import LabelVolume, VolumeSeeds, VoxelFrame
 

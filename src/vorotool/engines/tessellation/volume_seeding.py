@@ -30,9 +30,9 @@ from vorotool.engines.tessellation.seeding import (
 )
 from vorotool.engines.tessellation.tessellator import inner_runs, surrounded
 from vorotool.errors import LimitError, option
+from vorotool.numeric.checks import MAX_PIXELS
 from vorotool.numeric.numbers import finite_double, whole_number
 from vorotool.numeric.parallel import Progress
-from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.points.point_set import VolumePoints
 from vorotool.types.volumes.volume import LabelVolume, Volume, VolumeSeeds, VoxelFrame
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.planar_graph import (
     MOST_VERTICES,
     Placement,
@@ -26,6 +25,7 @@ from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress, Run
+from vorotool.products.formats import resolved
 from vorotool.types.box import Extent, Sides, bounds, check_magnitude, default_frame, extent_sides
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, SHELL, PolygonSet, set_of_rings
@@ -381,7 +381,7 @@ def given_cuts(clip: Any, enclosures: Any, crs: Any) -> GivenCuts:
     """Take polygons to clip by, and lines and polygons that enclose."""
     made = []
     for name, source in (("clip", clip), ("enclosures", enclosures)):
-        given = None if source is None else as_polygons(source, name)
+        given = None if source is None else resolved("convert.polygons:as_polygons")(source, name)
         if given is not None:
             given = _in_crs(given, crs, name)
         made.append(given)

@@ -18,9 +18,10 @@ from vorotool.formats.io.arrays import plain_values
 from vorotool.formats.io.sources import StoredParts, check_pixels, decoding
 from vorotool.formats.zarr.reader import StoredArray, ZarrImage
 from vorotool.frozen import frozen
+from vorotool.numeric.checks import MAX_PIXELS
 from vorotool.numeric.length_units import ratio
 from vorotool.types.images import Raster
-from vorotool.types.pixels import MAX_PIXELS, PixelGrid
+from vorotool.types.pixels import PixelGrid
 
 
 @frozen

@@ -11,9 +11,9 @@ from vorotool.formats.images.pictures import picture_pages
 from vorotool.formats.images.png_writer import SIGNATURE
 from vorotool.formats.images.reader import png_header, pnm_header
 from vorotool.formats.images.tiff_reader import count_pages, opened_tiff, page_of
-from vorotool.formats.io.arrays import MAGIC, npy_header
+from vorotool.formats.io.arrays import npy_header
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.io.sources import GZIP, Source, check_pixels, decoding, explained_reading, read_source
+from vorotool.formats.io.sources import GZIP, NPY, Source, check_pixels, decoding, explained_reading, read_source
 from vorotool.formats.opening import image_format, open_zarr
 from vorotool.formats.sniffing import PICTURES, TIFF_MAGIC, image_of
 from vorotool.frozen import frozen
@@ -69,7 +69,7 @@ def _plain_size(source: Source) -> tuple[int, int]:
     if image_of(source.data) == "pnm":
         pnm = pnm_header(source)
         return pnm.width, pnm.height
-    if source.data.startswith(MAGIC):
+    if source.data.startswith(NPY):
         shape = npy_header(source).shape
         if len(shape) >= 2:
             return shape[1], shape[0]

@@ -19,7 +19,6 @@ from vorotool.formats.parsing.reader_options import ReadOptions
 if TYPE_CHECKING:
     import zipfile
 
-MAGIC = b"\x93NUMPY"
 _LONGEST_HEADER = 65_536
 
 
@@ -161,7 +160,6 @@ def stored(band: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
     return np.ascontiguousarray(band, dtype=dtype)
 
 
-NPZ_MAGIC = b"PK\x03\x04"
 _SKELETON = frozenset({"arc_source", "vertex_r", "ring_starts"})
 _OFFSETS = frozenset({"piece_start_x", "shape_distance", "about"})
 _VORONOI = frozenset({"cell_ring_arcs", "cell_starts", "vertex_r", "about"})

@@ -21,6 +21,8 @@ from vorotool.numeric.parallel import start
 STANDARD_INPUT = "standard input"
 GZIP = b"\x1f\x8b\x08"
 """The first bytes of what gzip has packed."""
+NPY, NPZ = b"\x93NUMPY", b"PK\x03\x04"
+"""The first bytes of an array of NumPy, and of several; of other ZIP archives, too."""
 MOST_OF_GZIP = 2**30
 """Bytes that gzip may have packed in an input."""
 MOST_BLANKS = 2**12

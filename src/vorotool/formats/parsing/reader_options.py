@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, LimitError, Message, UsageError, option
 from vorotool.frozen import frozen
+from vorotool.numeric.checks import MAX_PIXELS
 from vorotool.numeric.crs import TO_CRS, crs_member, crs_name, crs_text, note_degrees, same_crs
 from vorotool.types.fields import DOWN, UP, YAxis, with_y_axis
-from vorotool.types.pixels import MAX_PIXELS
-from vorotool.types.points.point_set import PointSet
 from vorotool.types.values import counted
 
 if TYPE_CHECKING:
+    from vorotool.types.points.point_set import PointSet
     from vorotool.types.polygons.polygon_set import PolygonSet
 
 LARGEST_LABEL = 0xFFFFFFFF
@@ -132,7 +132,7 @@ def shortened(value: Any, size: int = 40) -> str:
 _CRS = option("--input-crs", "crs")
 _Y_DOWN = option("--y-down", "y_up=False")
 
-Placed = TypeVar("Placed", PointSet, "PolygonSet")
+Placed = TypeVar("Placed", "PointSet", "PolygonSet")
 
 
 def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import accumulate, pairwise
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from vorotool.convert.sites import Sites, as_sites
 from vorotool.errors import AS_JSON, InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.json import (
@@ -25,7 +24,6 @@ from vorotool.formats.parsing.json import (
     refuse_table,
 )
 from vorotool.formats.parsing.reader_options import ReadOptions, note_unnamed, position_array, shortened
-from vorotool.formats.text.rings import ring_texts
 from vorotool.formats.text.row_writer import Column, RowShape
 from vorotool.formats.text.tables import json_bytes, json_text, stated_unit, write_collection
 from vorotool.numeric.arrays import Nesting
@@ -35,6 +33,9 @@ from vorotool.types.fields import UNSTATED, UP
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 from vorotool.types.polygons.shapely_geometry import closed_ring
 from vorotool.types.table import Computed
+
+if TYPE_CHECKING:
+    from vorotool.convert.sites import Sites
 
 _AS_GEOJSON = option("--what offset -f geojson", 'fmt="geojson"')
 
@@ -73,14 +74,16 @@ def read_json(source: Source, options: ReadOptions) -> PolygonSet:
 
 def read_sites(source: Source, options: ReadOptions) -> Sites:
     """Read polygons and lines, or where the object has a type GeoJSON, whose points are sites, too."""
+    sites: Sites
     document = parse_json(source)
     if isinstance(document, dict) and document.get("type") == "vorotool.voronoi":
         options.note(f"{source.name} holds a Voronoi map: its sites are read")
-        sites: Sites = resolved("formats.results.voronoi_files:read_sites")(source, options)
+        sites = resolved("formats.results.voronoi_files:read_sites")(source, options)
         return sites
     if isinstance(document, dict) and "polygons" not in document and "type" in document:
         return read_geojson_sites(source, options)
-    return as_sites(read_json(source, options))
+    sites = resolved("convert.sites:as_sites")(read_json(source, options))
+    return sites
 
 
 def _note_holes(name: str, polygons: PolygonSet, options: ReadOptions) -> None:
@@ -204,6 +207,8 @@ def read_geojson(source: Source, options: ReadOptions) -> PolygonSet:
 
 def read_geojson_sites(source: Source, options: ReadOptions) -> Sites:
     """Read points, lines and polygons, each feature a site; one without a geometry is a site without places."""
+    from vorotool.convert.sites import Sites
+
     polygons, features = _read(source, options, takes_points=True)
     options.note_empty(source.name, len(features) - len(set(polygons.feature.tolist())))
     known = _described(source.name, features, range(len(features)), options)
@@ -293,6 +298,8 @@ def feature_texts(polygons: PolygonSet, style: str) -> Computed | None:
     if not len(polygons) or polygons.is_line.any() or (np.diff(polygons.ring_starts) < 3).any():
         return None
     starts = np.array([first for first, _ in feature_ranges(polygons)] + [len(polygons)], dtype=np.int64)
+    from vorotool.formats.text.rings import ring_texts
+
     return ring_texts(polygons.xy, Nesting(polygons.ring_starts, polygons.polygon_starts, starts), style)
 
 

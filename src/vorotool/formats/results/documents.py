@@ -24,7 +24,7 @@ from vorotool.formats.text.tables import json_bytes, json_text, write_arrays
 from vorotool.types.fields import MEMBER as Y_AXIS
 from vorotool.types.fields import UNSTATED
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.skeleton.skeleton import SiteTable
+from vorotool.types.skeleton.segment_voronoi import SiteTable
 from vorotool.types.table import Lookup
 
 ABOUT = "about"

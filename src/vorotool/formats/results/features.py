@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, BinaryIO, NamedTuple
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.polygons.json import feature_columns, feature_ranges, feature_texts, write_geojson, write_json
-from vorotool.formats.polygons.poly import write_poly
 from vorotool.formats.text.rings import report_emptied, ring_texts, written_polygons, written_rings
 from vorotool.formats.text.row_writer import Column, RowShape, coordinate_text, write_list_rows, write_rows
 from vorotool.formats.text.tables import (
@@ -22,11 +21,14 @@ from vorotool.formats.text.tables import (
 )
 from vorotool.numeric.arrays import Nesting, owners, within
 from vorotool.numeric.coordinates import current_decimals, current_written, on_grid
+from vorotool.products.formats import resolved
 from vorotool.types.features import Areas, Corners, Lines, Mixture, Rows, features_of, parts_of, rows_of
 from vorotool.types.fields import MEMBER as Y_AXIS
-from vorotool.types.mesh.cells import CellSet
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Computed, Lookup
+
+if TYPE_CHECKING:
+    from vorotool.types.mesh.cells import CellSet
 
 
 class GeometryText(NamedTuple):
@@ -211,13 +213,13 @@ _WRITERS: dict[str, Callable[[BinaryIO, PolygonSet], None]] = {
     "json": write_json,
     "geojson": write_geojson,
     "wkt": write_wkt,
-    "poly": write_poly,
 }
 
 
 def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str) -> None:
     """Write polygons and lines; polygons are valid on the grid of the file."""
-    _WRITERS[fmt](out, written_polygons(polygons))
+    write = resolved("formats.polygons.poly:write_poly") if fmt == "poly" else _WRITERS[fmt]
+    write(out, written_polygons(polygons))
 
 
 # ---- cells ---------------------------------------------------------------------------------------

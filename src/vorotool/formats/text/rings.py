@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import RepairWarning, VerificationError, warn
-from vorotool.formats.text.snapping import is_among, snapped
 from vorotool.numeric.arrays import Floats, Indices, Nesting, following, owners, ranges, starts_of
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.coordinates import Grid, current_decimals, current_written, on_grid, rounded
@@ -153,6 +152,8 @@ def _repair_each(given: Rings, bad: NDArray[np.bool_], grid: Grid, _threads: int
     """Repair features one by one: others may overlap them."""
     import shapely
 
+    from vorotool.formats.text.snapping import snapped
+
     chosen = np.flatnonzero(bad)
     pieces = []
     for feature in chosen.tolist():
@@ -166,6 +167,8 @@ def _repair_each(given: Rings, bad: NDArray[np.bool_], grid: Grid, _threads: int
 
 def _repair_coverage(given: Rings, bad: NDArray[np.bool_], grid: Grid, threads: int) -> tuple[Rings, int]:
     """Repair features along with those that share vertices with them, more of them until all fit together."""
+    from vorotool.formats.text.snapping import snapped
+
     made, touched, tries = given, np.zeros_like(bad), 0
     while bad.any():
         if touched.all() and tries > 1:
@@ -181,6 +184,8 @@ def _repair_coverage(given: Rings, bad: NDArray[np.bool_], grid: Grid, threads: 
 
 def _with_neighbors(points: Floats, nesting: Nesting, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Add the features that have a vertex in common with chosen ones."""
+    from vorotool.formats.text.snapping import is_among
+
     feature = owners(np.diff(nesting.rings[nesting.polygons[nesting.cells]]))
     wider = chosen.copy()
     wider[feature[is_among(points, points[chosen[feature]])]] = True

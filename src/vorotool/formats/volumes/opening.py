@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
-from vorotool.formats.io.arrays import MAGIC, npy_header, npy_values
+from vorotool.formats.io.arrays import npy_header, npy_values
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
-from vorotool.formats.io.sources import STANDARD_INPUT, Source, explained_reading, read_source, reading
+from vorotool.formats.io.sources import NPY, STANDARD_INPUT, Source, explained_reading, read_source, reading
 from vorotool.formats.opening import recognized
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.points.columns import PointRows, parse_columns
@@ -22,10 +22,9 @@ from vorotool.formats.sniffing import image_of
 from vorotool.formats.volumes.source import NpyVolume, Spool, VolumeSource, ZarrVolume, check_voxels, slabs_of
 from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.formats.zarr.store import is_folder, is_store
-from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.checks import MAX_PIXELS, checked_threads
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS, NAMES_WITH, SPACE_FORMATS, VOLUME_NAMES, known_input_format
-from vorotool.types.pixels import MAX_PIXELS
 from vorotool.types.points.point_set import VolumePoints
 from vorotool.types.volumes.volume import Volume
 
@@ -135,7 +134,7 @@ def read_xyz(
 
 
 def _points(source: Source, said: str | None, options: ReadOptions) -> PointRows:
-    if said == "npy" or (said is None and source.data.startswith(MAGIC)):
+    if said == "npy" or (said is None and source.data.startswith(NPY)):
         return _of_array(source, options)
     holds, source = recognized(source, "points", said, options.columns)
     if holds != "points" or source.format not in SPACE_FORMATS:

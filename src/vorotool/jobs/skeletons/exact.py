@@ -14,7 +14,6 @@ from vorotool.engines.skeleton.diagrams import (
 )
 from vorotool.engines.skeleton.exact import ShapeDiagram
 from vorotool.engines.skeleton.parts import outside_of
-from vorotool.engines.skeleton.shortened_edges import ElementDiagram, exact_for, exact_inside, gap_deviation
 from vorotool.frozen import frozen
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options
@@ -83,7 +82,9 @@ class ExactProducts(SkeletonProducts):
         if self.options.verify:
             resolved(_VERIFY_DIAGRAM)(diagram.diagram, threads=1)
         deviation = 0.0
-        if isinstance(diagram, ElementDiagram) and self.options.stats is not None:
+        if not isinstance(diagram, ShapeDiagram) and self.options.stats is not None:
+            from vorotool.engines.skeleton.shortened_edges import exact_inside, gap_deviation
+
             deviation = gap_deviation(made, exact_inside(diagram))
         return Seen(len(diagram.diagram), len(diagram.diagram.edges), deviation)
 
@@ -146,5 +147,7 @@ class ExactProducts(SkeletonProducts):
             if side == "interior":
                 return inside
             made, side = outside_of(made), "exterior"
-        assert isinstance(self.of_all, ElementDiagram)  # there is a gap
+        from vorotool.engines.skeleton.shortened_edges import exact_for, gap_deviation
+
+        assert not isinstance(self.of_all, ShapeDiagram)  # there is a gap
         return max(inside, gap_deviation(made, exact_for(self.of_all, side, frame=made.frame, threads=o.threads)))

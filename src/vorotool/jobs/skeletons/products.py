@@ -17,7 +17,6 @@ from vorotool.errors import InputError, Kind, Message, RepairWarning, silent
 from vorotool.jobs.inputs import JobInput, check_columns
 from vorotool.jobs.options import Options, Place
 from vorotool.jobs.outlined_images import read_polygons
-from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop, written_grid
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.refusals import refuse
@@ -36,13 +35,14 @@ from vorotool.jobs.units import (
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
 from vorotool.products.registry import DERIVED, Made, is_of
-from vorotool.render.drawing import Drawing, Plot, drawing_of
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import EXTERIOR, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.diagrams import FeatureSkeleton
     from vorotool.engines.skeleton.exact import ShapeDiagram
+    from vorotool.render.drawing import Drawing, Plot
+    from vorotool.render.looks import World
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.arc_measures import ThicknessImage
     from vorotool.types.skeleton.discs import Discs
@@ -68,10 +68,17 @@ class SkeletonProducts(Results, ABC):
         self.backdrop = placed_backdrop(run, options, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_columns(options, self._polygons.properties)
-        is_cut = options.side != "interior" or "diagram" in options.what
-        self.world = world_of_polygons(run, options, self._polygons, size=options.pixel_size, is_cut=is_cut)
         self._derived: dict[Made, Any] = {}
         self._lines: dict[str, Skeleton | LedOn | SmoothLines] = {}
+
+    @cached_property
+    def world(self) -> World:
+        """Where what is drawn lies."""
+        from vorotool.jobs.picture_world import world_of_polygons
+
+        o = self.options
+        is_cut = o.side != "interior" or "diagram" in o.what
+        return world_of_polygons(self.run, o, self._polygons, size=o.pixel_size, is_cut=is_cut)
 
     @contextmanager
     def telling_once(self) -> Iterator[None]:
@@ -361,6 +368,7 @@ class SkeletonProducts(Results, ABC):
 
     def drawing(self, what: str, fmt: str) -> Drawing | Plot:
         """Prepare a picture: of thickness it has the pixels of the image."""
+        from vorotool.render.drawing import Plot, drawing_of
         from vorotool.render.label_images.amounts import write_thickness_png
 
         product, wanted, o = self.products[what], self.wanted, self.options
@@ -377,8 +385,8 @@ class SkeletonProducts(Results, ABC):
 
     def frames(self, what: str) -> Callable[[Fraction], NDArray[np.uint8]]:
         """Draw offset curves whose distances grow from nothing, on the page of the last ones."""
-        shapes, whole = self.exact_shapes(), self.drawing(what, "png")
-        assert isinstance(whole, Drawing)  # which offset curves have
+        shapes: Any = self.exact_shapes()
+        whole: Any = self.drawing(what, "png")
 
         def draw(part: Fraction) -> NDArray[np.uint8]:
             distances = [float(distance * part) for distance in map(Fraction, self.options.distance or ())]

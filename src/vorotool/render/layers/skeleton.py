@@ -30,7 +30,8 @@ from vorotool.render.layers.polygons import feature_names, names_of_features, po
 from vorotool.types.skeleton.lines import Centerlines, LedOn, SmoothLines
 from vorotool.types.skeleton.necks import Necks, Parts
 from vorotool.types.skeleton.points_along import SkeletonPoints
-from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 from vorotool.types.skeleton.tables import site_labels
 
 _WIDEST_CUT = 2.0

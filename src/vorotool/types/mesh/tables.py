@@ -5,20 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import field
 from math import sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import mask_of
+from vorotool.products.registry import is_of
 from vorotool.types.arguments import check_value
 from vorotool.types.features import Corners, Rows, chosen, point_rows, without_places
 from vorotool.types.identity import with_ends
-from vorotool.types.mesh.cells import ProximityGraph
 from vorotool.types.mesh.triangulation import AnyTriangulation, Triangulation
 from vorotool.types.table import Computed, Lookup, Table
 from vorotool.types.values import Tabular, Value, counted
+
+if TYPE_CHECKING:
+    from vorotool.types.mesh.cells import ProximityGraph
 
 
 def edge_table(mesh: AnyTriangulation | ProximityGraph) -> Table:
@@ -125,10 +128,10 @@ def mesh_rows(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows
     return Rows(makers.get(what, edge_table)(mesh))
 
 
-def mesh_features(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows:
+def mesh_features(mesh: Any, what: str | None) -> Rows:
     """Return the rows of a part with their geometry, by default of the triangles."""
     parts: dict[str, Callable[[], Rows]] = {"edges": lambda: _of_corners(mesh, edge_table(mesh), mesh.edges)}
-    if not isinstance(mesh, ProximityGraph):
+    if not is_of(mesh, "ProximityGraph"):
         parts = {
             "triangles": lambda: _of_corners(mesh, triangle_table(mesh), mesh.triangles),
             **parts,

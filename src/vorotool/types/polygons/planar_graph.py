@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,8 +16,11 @@ from vorotool.types import fields as f
 from vorotool.types.features import Corners, Rows
 from vorotool.types.fields import record
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.skeleton.skeleton import Skeleton, ends_of_sites
+from vorotool.types.skeleton.segment_voronoi import ends_of_sites
 from vorotool.types.values import Geometric, Graph, Pictured, Tabular, Value, counted
+
+if TYPE_CHECKING:
+    from vorotool.types.skeleton.skeleton import Skeleton
 
 REPAIRS = (
     "repeated_vertices",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,9 @@ from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import inverse_sinh
 from vorotool.types import fields as f
 from vorotool.types.fields import Record, record
-from vorotool.types.pixels import PixelGrid
+
+if TYPE_CHECKING:
+    from vorotool.types.pixels import PixelGrid
 
 _FLAT = 0.125
 """Slopes that differ by less along an arc: 8 Gauss nodes integrate it to 2^-60, where closed forms cancel."""

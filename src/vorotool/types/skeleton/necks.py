@@ -15,7 +15,8 @@ from vorotool.types.features import Rows, of_polygons, of_segments, of_shapes, w
 from vorotool.types.fields import record
 from vorotool.types.identity import described_shapes, names_of, part_table, place_columns, with_columns_of
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.table import Lookup, Table, object_column
 from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted
 

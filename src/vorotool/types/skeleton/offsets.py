@@ -18,7 +18,7 @@ from vorotool.types.features import Rows, of_shapes
 from vorotool.types.fields import record
 from vorotool.types.identity import described_shapes, names_of, part_table, place_columns
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
-from vorotool.types.skeleton.skeleton import SiteTable
+from vorotool.types.skeleton.segment_voronoi import SiteTable
 from vorotool.types.table import Lookup, Table
 from vorotool.types.values import Curved, Pictured, Tabular, Value, counted
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -17,9 +17,10 @@ from vorotool.numeric.parallel import in_chunks
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.box import extent_sides
-from vorotool.types.fields import Record, record
+from vorotool.types.fields import record
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.arc_measures import ArcMeasures
+from vorotool.types.skeleton.segment_voronoi import EDGE, SiteTable, ends_of_sites
 from vorotool.types.table import Lookup
 from vorotool.types.values import Branched, Pictured, Tabular, Value, counted
 
@@ -31,50 +32,6 @@ INTERIOR, EXTERIOR = 0, 1
 
 SIDES = ("interior", "exterior")
 KINDS = ("line", "parabola")
-VERTEX, EDGE = 0, 1
-"""Kinds of sites."""
-
-
-@record
-class SiteTable(Record):
-    """The elements of sites: a vertex of a polygon as it was used, or the open edge that begins at a vertex."""
-
-    kind: NDArray[np.int8] = f.numbers(np.int8, "sites")  # (s,) int8 array: `VERTEX` or `EDGE`
-    # (s,) int32 array: the polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the
-    # edge begins
-    polygon: NDArray[np.int32] = f.index("sites")
-    # (s,) int32 array: the polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the
-    # edge begins
-    ring: NDArray[np.int32] = f.index("sites")
-    # (s,) int32 array: the polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the
-    # edge begins
-    index: NDArray[np.int32] = f.index("sites")
-    # (s,) int32 array: the ring of the input, counted over all polygons, and the vertex or edge there that it is, or
-    # is a part of; -1 for a crossing of edges
-    source_ring: NDArray[np.int32] = f.index("sites")
-    # (s,) int32 array: the ring of the input, counted over all polygons, and the vertex or edge there that it is, or
-    # is a part of; -1 for a crossing of edges
-    source_index: NDArray[np.int32] = f.index("sites")
-    # (s, 2, 2) float64 array: where sites are that need not be whole edges of the polygons, or their vertices: those
-    # of what is outside, where features overlap. NaN for others
-    ends: NDArray[np.float64] | None = f.position("sites", 2, 2, default=None)
-
-    def __len__(self) -> int:
-        return len(self.kind)
-
-    def rings(self, polygons: PolygonSet, sites: Any = slice(None)) -> NDArray[np.int64]:
-        """Rings of all polygons that some sites are on, or all."""
-        return polygons.polygon_starts[self.polygon[sites]] + self.ring[sites]
-
-    def vertices(self, polygons: PolygonSet, sites: Any = slice(None)) -> NDArray[np.int64]:
-        """Vertices of all polygons that some sites are at, or begin at."""
-        return polygons.ring_starts[self.rings(polygons, sites)] + self.index[sites]
-
-    def taken(self, chosen: NDArray[np.intp]) -> SiteTable:
-        """Some of the sites."""
-        columns = (getattr(self, column.name) for column in fields(self))
-        taken: list[Any] = [None if column is None else column[chosen] for column in columns]
-        return SiteTable(*taken)
 
 
 @record
@@ -336,23 +293,6 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         branches = counted(int(self.branch[-1]) + 1 if len(self) else 0, "branch", "branches")
         text = f"{counted(len(self), 'arc')} in {branches}, {counted(len(self.vertices), 'node')}"
         return f"{text}, of {counted(len(self.polygons), 'polygon')}"
-
-
-def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(None)) -> NDArray[np.float64]:
-    """(…, 2, 2) the ends of all or some sites of polygons; a vertex has one place twice."""
-    polygon, ring, index, kind = (
-        column[sites] if isinstance(sites, slice) else column.take(sites)
-        for column in (table.polygon, table.ring, table.index, table.kind)
-    )
-    first = polygons.ring_starts.take(polygons.polygon_starts.take(polygon) + ring) + index
-    places = np.empty((*first.shape, 2), dtype=np.int64)
-    places[..., 0] = first
-    places[..., 1] = np.where(kind == EDGE, polygons.following.take(first), first)
-    ends: NDArray[np.float64] = polygons.xy.take(places, axis=0)
-    if table.ends is not None:
-        own = table.ends[sites] if isinstance(sites, slice) else table.ends.take(sites, axis=0)
-        ends = np.where(np.isnan(own), ends, own)
-    return ends
 
 
 def arc_radii(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import mask_of
+from vorotool.numeric.arrays import connected_roots, mask_of
 from vorotool.numeric.checks import described, is_choice
 from vorotool.numeric.curves.flatten import chained
 from vorotool.numeric.numbers import distinct, shown_number
@@ -21,7 +21,8 @@ from vorotool.types.features import Lines, Rows, of_polygons
 from vorotool.types.identity import names_of, part_table
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import to_shapely
-from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, KINDS, Skeleton
+from vorotool.types.skeleton.segment_voronoi import EDGE
+from vorotool.types.skeleton.skeleton import INTERIOR, KINDS, Skeleton
 from vorotool.types.table import Lookup, Table
 
 BRANCH_TYPES = ("end-end", "junction-end", "junction-junction", "cycle")
@@ -328,23 +329,6 @@ def _components(
     root = connected_roots(number[ends].T, len(nodes))
     np.minimum.at(nodes, root[number[ends[0]]], np.minimum.reduceat(skeleton.arcs.reshape(-1), 2 * starts)[inner])
     return np.bincount(node_polygon[nodes[root == np.arange(len(root))]], minlength=count)
-
-
-def connected_roots(pairs: NDArray[np.integer], count: int) -> NDArray[np.int64]:
-    """(count,) the smallest number that each is connected with by pairs."""
-    root = np.arange(count)
-    a, b = np.asarray(pairs).reshape(-1, 2).T
-    while len(a):
-        low, high = np.minimum(root[a], root[b]), np.maximum(root[a], root[b])
-        apart = low != high
-        a, b = a[apart], b[apart]
-        np.minimum.at(root, high[apart], low[apart])
-        while True:  # follow chains of roots to their ends, each step twice as far
-            further = root[root]
-            if (further == root).all():
-                break
-            root = further
-    return root
 
 
 def _measures(polygons: PolygonSet, threads: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
