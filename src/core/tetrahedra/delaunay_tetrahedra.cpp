@@ -76,12 +76,13 @@ class Insertion {
         rounds_(count_),
         is_done_(count_),
         numbers_(count_),
-        slots_(count_),
+        slots_(count_, unknown),
         threads_(base::resolve_threads(threads)),
         monitor_(monitor),
         alone_(mesh, {numbers_, slots_}, 0, count_) {
     mesh.start({start[0], start[1], start[2], start[3]});
-    for (const Index v : start) is_done_[static_cast<std::size_t>(v)] = 1;
+    for (const Index v : start)
+      is_done_[static_cast<std::size_t>(v)] = 1, slots_[static_cast<std::size_t>(v)] = 0;
     alone_.begin_at(0);
   }
 
@@ -101,6 +102,7 @@ class Insertion {
   static constexpr std::size_t points_a_thread = std::size_t{1} << 14;
   static constexpr std::size_t points_at_once = std::size_t{1} << 17;  // of a thread: some 200 ms
   static constexpr std::size_t far = 8, farthest = 64;                 // on the curve
+  static constexpr std::uint32_t unknown = 0xffffffff;
 
   std::size_t at(std::size_t k) const { return k < count_ ? k : k - count_; }
 
@@ -124,11 +126,32 @@ class Insertion {
     return done;
   }
 
-  // A search begins near the last point before that is in the triangulation, if one is.
+  // A search begins where the last point before is, that is in the triangulation. Of parts, which must not look at what
+  // others change, this is found out by aim().
   void begin_near(PointInserter& inserter, std::size_t begin, std::size_t k) {
-    for (std::size_t left = std::min(k - begin, farthest); left > 0; --left) {
+    if (&inserter == &alone_) aim(inserter, begin, k);
+    if (slots_[at(k)] != unknown) inserter.begin_at(slots_[at(k)]);
+  }
+
+  // Finds where the search for a point is to begin: what an inserter owns then it goes on to own.
+  void aim(PointInserter& inserter, std::size_t begin, std::size_t k) {
+    std::uint32_t& slot = slots_[at(k)];
+    slot = unknown;
+    for (std::size_t left = std::min(k - begin, farthest); left > 0 && slot == unknown; --left) {
       const std::size_t i = at(--k);
-      if (is_done_[i] != 0 && inserter.begin_at(slots_[i])) return;
+      if (is_done_[i] != 0 && inserter.begin_at(slots_[i])) slot = slots_[i];
+    }
+  }
+
+  // For points of a round that are far from each other, and for some of the others.
+  void aim_all(PointInserter& inserter, int round, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin, last = begin; k < end; ++k) {
+      const std::size_t i = at(k);
+      if (rounds_.round_of(i) != round || is_done_[i] != 0) continue;
+      slots_[i] = unknown;
+      if (k - last < far) continue;
+      aim(inserter, begin, k);
+      last = k;
     }
   }
 
@@ -144,6 +167,9 @@ class Insertion {
       std::size_t slot = 0;
       while (slot < mesh_.slots() && !inserters[part]->begin_at(slot)) ++slot;
     }
+    base::parallel_for(parts, threads_, [&](std::size_t part) {
+      aim_all(*inserters[part], round, shift + part * length, end_of(part));
+    });
     std::size_t all = 0;
     for (std::size_t from = 0; from < length; from += points_at_once) {
       std::atomic<std::size_t> done{0};
