@@ -207,3 +207,14 @@ def test_features_without_geometry_are_left_out_with_a_warning():
             assert len(function(points).points) == 3
     assert len(vorotool.delaunay(geopandas.GeoSeries(points)).points) == 3
     assert vorotool.voronoi(points).areas[[1, 4]].tolist() == [0, 0]
+
+
+def test_a_frame_that_is_not_computed_yet_is_refused():
+    class LazyFrame:
+        columns = ("x", "y")
+
+        def __getitem__(self, name):
+            raise TypeError("LazyFrame is not subscriptable")
+
+    with pytest.raises(InputError, match="but got a LazyFrame"):
+        vorotool.delaunay(LazyFrame())

@@ -141,3 +141,11 @@ def test_geometry_is_not_changed_on_its_way():
     assert crs["properties"]["name"].endswith("2056")
     rebuilt, _ = as_geometry(FRAME.__geo_interface__, "clip")
     assert shapely.equals(shapely.union_all(rebuilt[:3]), shapely.union_all(SHAPES[:2]))
+
+
+def test_a_mask_of_xarray_is_a_mask():
+    xarray = pytest.importorskip("xarray")
+    mask = np.zeros((9, 9), dtype=bool)
+    mask[2:7, 2:5] = True
+    made = as_polygons(xarray.DataArray(mask, dims=("y", "x")))
+    assert made.xy.tolist() == as_polygons(mask).xy.tolist()

@@ -59,7 +59,7 @@ def _polygons_in(source: Any, name: str) -> PolygonSet:
         raise unexpected(source, f"polygons; for an image use vorotool.outlines({name})")
     if isinstance(source, Iterator):
         source = items_of(source)
-    if isinstance(source, np.ndarray) and source.ndim == 2 and source.dtype == bool:
+    if getattr(source, "ndim", 0) == 2 and getattr(source, "dtype", None) == np.dtype(bool):  # of NumPy or xarray
         outlined: PolygonSet = resolved("engines.label_images.outlines:outlines")(source)
         return outlined
     held = held_features(source)

@@ -166,7 +166,7 @@ def column_names(value: Any) -> list[Any] | None:
     fields = getattr(getattr(value, "dtype", None), "names", None)
     if isinstance(fields, tuple):
         return list(fields)
-    if hasattr(value, "dims"):  # of xarray, whose axes may have any name
+    if hasattr(value, "dims") or not hasattr(value, "__len__"):  # of xarray, whose axes may have any name; lazy frames
         return None
     names = getattr(value, "column_names", None)  # pyarrow, whose columns are arrays
     names = getattr(value, "columns", None) if names is None else names

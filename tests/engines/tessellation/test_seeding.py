@@ -162,3 +162,15 @@ def test_values_next_to_each_other_are_told_apart(low):
 def test_integers_beyond_doubles_are_compared_as_integers():
     image = Raster(np.array([[2**62, 2**62 + 1, 2**62 + 1]]))
     assert foreground_values(image, "otsu", invert=False).tolist() == [[False, True, True]]
+
+
+@pytest.mark.parametrize("dtype", ["f2", "f4", "f8", "g"])
+@pytest.mark.filterwarnings("error")
+def test_labels_of_every_floating_type(dtype):
+    values = np.zeros((5, 5), dtype)
+    values[1, 1], values[3, 3] = 2, 1
+    expected = tessellate(Raster(values.astype(np.int64))).labels
+    assert np.array_equal(tessellate(Raster(values)).labels, expected)
+    values[1, 1] = 2**32 if dtype != "f2" else 0.5  # no float32 is 2^32 - 1
+    with pytest.raises(InputError, match="in row 1, column 1: labels must be integers from 0 to 4294967295"):
+        tessellate(Raster(values))

@@ -243,9 +243,10 @@ def label_values(values: NDArray[Any], *, first: int = 0) -> NDArray[Any]:
     """Give labels in an unsigned type; the first value that is none is named with its place."""
     if values.dtype in (np.bool_, np.uint8, np.uint16, np.uint32):
         return values
-    bad = (values < 0) | (values > LARGEST_LABEL)
-    if values.dtype.kind == "f":
-        bad |= values != np.floor(values)
+    if values.dtype.kind == "f":  # the limit is a double, as shorter ones do not hold it
+        bad = (values < 0) | (values > np.float64(LARGEST_LABEL)) | (values != np.floor(values))
+    else:
+        bad = (values < 0) | (values > LARGEST_LABEL)
     if bad.any():
         at = [int(each) for each in np.unravel_index(int(bad.argmax()), bad.shape)]
         value, at[0] = values[tuple(at)], at[0] + first
