@@ -1,4 +1,4 @@
-// The edges of tetrahedra or triangles, each with the cells around it.
+// The edges of tetrahedra, triangles or other edges, each with the cells around it.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/indices.hpp"
@@ -19,160 +21,283 @@ namespace vorotool::core::tetrahedral_alpha {
 using base::at;
 using base::LargeArray;
 
-struct Edge {
-  std::array<std::int32_t, 2> ends;  // the smaller one first
-  std::uint32_t star;                // where its cells begin
-  std::uint32_t is_cut = 0;
-};
+using Ends = std::array<std::int32_t, 2>;
 
-// Puts edges, found in pieces, in the order of their ends and then their stars.
-LargeArray<Edge> sort_edges(std::vector<std::vector<Edge>>&& found, std::size_t vertices, unsigned threads,
-                            const base::Monitor& monitor);
+// The number of the side between two corners of a cell.
+inline constexpr std::array<std::array<std::uint8_t, 4>, 4> side_between{
+    {{7, 0, 1, 2}, {0, 7, 3, 4}, {1, 3, 7, 5}, {2, 4, 5, 7}}};
 
-// Of tetrahedra (width 4), which follow each other around an edge through the facets at it.
-class TetrahedronStars {
+// The edges from one vertex to later ones, of which the cells around it have several sides each.
+class VertexEdges {
  public:
-  using Row = std::array<std::int32_t, 4>;
+  struct Edge {
+    std::uint32_t end, place, is_cut;
+  };
 
-  // With the neighbors opposite to the corners, -1 outside.
-  TetrahedronStars(std::span<const Row> tetrahedra, std::span<const Row> neighbors, unsigned threads,
-                   const base::Monitor& monitor);
-
-  // The same facet of the tetrahedron across facet 4 t + k: 4 u + l, or -1.
-  std::int32_t across(std::size_t facet) const {
-    const std::int32_t u = neighbors_[facet / 4][facet % 4];
-    return u < 0 ? -1 : 4 * u + static_cast<std::int32_t>(place_across(facet, facet % 4));
+  // Forgets all; there is room for so many sides.
+  void reset(std::size_t most) {
+    count_ = 0;
+    if (sides_.size() <= most)
+      sides_.resize(2 * most + 1), edges_.resize(2 * most + 1), sorted_.resize(2 * most + 1),
+          order_.resize(2 * most + 1);
   }
 
-  // Calls visit(t, out, apex) for all facets at an edge, each once: that opposite to corner `out` of a tetrahedron t
-  // around it, whose corner off the edge is `apex`. So it is called for all tetrahedra around it. Gives false as soon as
-  // a visit does.
+  // Adds a side of a number if is_added, without a branch.
+  void add(std::size_t number, std::int32_t end, unsigned is_cut, bool is_added) {
+    sides_[count_] = {static_cast<std::uint32_t>(end), static_cast<std::uint32_t>(number), is_cut};
+    count_ += static_cast<std::size_t>(is_added);
+  }
+
+  // The edges in the order of their ends.
+  std::span<const Edge> find() {
+    const int bits = static_cast<int>(std::bit_width(count_));
+    const std::size_t last = (std::size_t{1} << bits) - 1;
+    slots_.assign(last + 1, {none, 0});
+    std::uint32_t distinct = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Edge side = sides_[i];
+      std::size_t at = side.end * 0x9e3779b1U >> (32 - bits);
+      while ((slots_[at].end != side.end) & (slots_[at].end != none)) at = (at + 1) & last;
+      const bool is_new = slots_[at].end == none;
+      const std::uint32_t place = is_new ? distinct : slots_[at].place;
+      slots_[at] = {side.end, place};
+      edges_[distinct] = {side.end, distinct, 0};  // it is the last one, or none
+      edges_[place].is_cut |= side.is_cut;
+      sides_[i].end = place;
+      distinct += static_cast<std::uint32_t>(is_new);
+    }
+    sort(distinct);
+    return std::span(sorted_).first(distinct);
+  }
+
+  // Calls visit(number, k) for the sides that were added, where k is the edge.
   template <class Visit>
-  bool visit(const Edge& edge, const Visit& visit) const {
-    const auto [k, l] = corners[5 - edge.star % 8];
-    const End end = turn(edge.star / 8, k, l, visit);
-    return end == End::outside ? turn(edge.star / 8, l, k, visit) != End::stopped : end == End::closed;
-  }
-
-  // The edges, cut where is_cut(edge, t, out, apex) holds for a facet. An edge belongs to the piece of its first
-  // tetrahedron.
-  template <class IsCut>
-  LargeArray<Edge> find(std::size_t vertices, const IsCut& is_cut, unsigned threads,
-                        const base::Monitor& monitor) const {
-    std::vector<std::vector<Edge>> found(base::piece_count(tetrahedra_.size(), tetrahedra_a_piece));
-    base::for_pieces(tetrahedra_.size(), tetrahedra_a_piece, threads, monitor,
-                     [&](std::size_t piece, std::size_t begin, std::size_t end) {
-                       std::vector<std::uint8_t> seen(end - begin);  // sides of each tetrahedron
-                       found[piece].reserve(end - begin + (end - begin) / 4);
-                       for (std::size_t t = begin; t < end; ++t) {
-                         for (unsigned left = ~unsigned{seen[t - begin]} & 63; left != 0; left &= left - 1) {
-                           Edge edge = edge_of(t, static_cast<std::size_t>(std::countr_zero(left)));
-                           if (is_first(edge, begin, seen, is_cut)) found[piece].push_back(edge);
-                         }
-                       }
-                     });
-    return sort_edges(std::move(found), vertices, threads, monitor);
+  void visit_sides(const Visit& visit) const {
+    for (std::size_t i = 0; i < count_; ++i) visit(sides_[i].place, order_[sides_[i].end]);
   }
 
  private:
-  enum class End { closed, outside, stopped };
-
-  static constexpr std::size_t tetrahedra_a_piece = std::size_t{1} << 17;  // some 50 ms
-
-  // The sides of a tetrahedron; that opposite to each has 5 less its number.
-  static constexpr std::array<std::array<std::uint8_t, 2>, 6> corners{
-      {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-  static constexpr std::array<std::array<std::uint8_t, 4>, 4> opposite_side{
-      {{6, 5, 4, 3}, {5, 6, 2, 1}, {4, 2, 6, 0}, {3, 1, 0, 6}}};
-
-  Edge edge_of(std::size_t t, std::size_t side) const {
-    const std::int32_t a = tetrahedra_[t][corners[side][0]], b = tetrahedra_[t][corners[side][1]];
-    return {{std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(8 * t + side)};
-  }
-
-  // Whether no tetrahedron around an edge comes before a piece; then it is known whether it is cut.
-  template <class IsCut>
-  bool is_first(Edge& edge, std::size_t begin, std::vector<std::uint8_t>& seen, const IsCut& is_cut) const {
-    return visit(edge, [&](std::size_t t, std::size_t out, std::size_t apex) {
-      if (t < begin) return false;
-      if (t - begin < seen.size())
-        seen[t - begin] |= static_cast<std::uint8_t>(1U << opposite_side[out][apex]);
-      edge.is_cut |= std::uint32_t{is_cut(edge, t, out, apex)};
-      return true;
-    });
-  }
-
-  // Where the neighbor across a facet has a corner of it, and for the opposite corner its own.
-  std::size_t place_across(std::size_t facet, std::size_t corner) const {
-    return places_[facet] >> 2 * corner & 3U;
-  }
-
-  template <class Visit>
-  End turn(std::size_t first, std::size_t out, std::size_t apex, const Visit& visit) const {
-    std::size_t t = first;
-    for (std::size_t steps = 0;; ++steps) {
-      if (!visit(t, out, apex)) return End::stopped;
-      const std::int32_t next = neighbors_[t][out];
-      if (next < 0) return End::outside;
-      if (at(next) == first) return End::closed;
-      const std::size_t facet = 4 * t + out, from = place_across(facet, out);
-      t = at(next);
-      out = place_across(facet, apex);
-      apex = from;
-      if (out == apex || steps > tetrahedra_.size()) refuse();
+  // Each edge goes behind those with lesser ends, which few edges count without a branch.
+  void sort(std::size_t count) {
+    if (count <= few) {
+      for (std::size_t k = 0; k < count; ++k) {
+        std::uint32_t less = 0;
+        for (std::size_t i = 0; i < count; ++i)
+          less += static_cast<std::uint32_t>(edges_[i].end < edges_[k].end);
+        order_[k] = less;
+      }
+      for (std::size_t k = 0; k < count; ++k) sorted_[order_[k]] = edges_[k];
+    } else {
+      std::copy_n(edges_.begin(), count, sorted_.begin());
+      std::sort(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(count),
+                [](const Edge& p, const Edge& q) { return p.end < q.end; });
+      for (std::size_t k = 0; k < count; ++k) order_[sorted_[k].place] = static_cast<std::uint32_t>(k);
     }
   }
 
-  void match_facets(std::size_t t);
-  [[noreturn]] static void refuse();
+  struct Slot {
+    std::uint32_t end, place;
+  };
+  static constexpr std::size_t few = 32;
+  static constexpr std::uint32_t none = 0xffffffffU;
 
-  std::span<const Row> tetrahedra_, neighbors_;
-  LargeArray<std::uint8_t> places_;  // [4 t + k] two bits for each corner
+  std::size_t count_ = 0;
+  std::vector<Edge> sides_, edges_,
+      sorted_;                        // of sides, once edges are found, `end` is the place of the edge
+  std::vector<std::uint32_t> order_;  // of edges by their places
+  std::vector<Slot> slots_;
 };
 
-// Of triangles (width 3), or edges that are the cells themselves (2).
+// The cells at each vertex but those of which it is the last corner: all that have an edge to a later vertex. Vertices
+// are numbered so that cells next to each other have near ones. They are found in blocks of vertices, which no two
+// threads share.
 template <std::size_t width>
-class PlanarStars {
+class EdgeStars {
  public:
   using Cell = std::array<std::int32_t, width>;
 
-  explicit PlanarStars(std::span<const Cell> cells) : cells_(cells) {}
-
-  // Calls visit(t) for the cells around an edge.
-  template <class Visit>
-  void visit(const Edge& edge, const Visit& visit) const {
-    for (std::size_t i = edge.star; i < sides_.size() && sides_[i].ends == edge.ends; ++i)
-      visit(std::size_t{sides_[i].star});
+  EdgeStars(std::span<const Cell> cells, std::size_t vertices, unsigned threads, const base::Monitor& monitor)
+      : vertices_(vertices),
+        threads_(threads),
+        monitor_(monitor),
+        shift_(std::max(12, static_cast<int>(std::bit_width(vertices)) - 11)),
+        block_start_((vertices >> shift_) + 2),
+        end_(vertices),
+        edge_start_(vertices + 1) {
+    gather(cells);
   }
 
-  // The edges, cut where is_cut(edge, corner) holds for an opposite corner.
-  template <class IsCut>
-  LargeArray<Edge> find(std::size_t vertices, const IsCut& is_cut, unsigned threads,
-                        const base::Monitor& monitor) {
-    std::vector<std::vector<Edge>> found(1);
-    for (std::size_t t = 0; t < cells_.size(); ++t) {
-      for (std::size_t k = 0; k < (width == 2 ? 1 : width); ++k) {
-        const std::int32_t a = cells_[t][(k + 1) % width], b = cells_[t][(k + 2) % width];
-        Edge side{{std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(t)};
-        side.is_cut = std::uint32_t{width == 3 && is_cut(side, cells_[t][k])};
-        found[0].push_back(side);
+  struct Edges {
+    LargeArray<Ends> ends;            // in increasing order, the smaller one first
+    LargeArray<std::uint8_t> is_cut;  // by one of the cells around it
+  };
+
+  // The edges; cut(t) has the bits of the sides of a cell that it cuts.
+  template <class Cut>
+  Edges find(std::span<const Cell> cells, const Cut& cut) {
+    places_ = LargeArray<std::uint8_t>(sides * members_.size());
+    std::vector<std::vector<std::uint32_t>> found(blocks());  // twice the later end, and whether it is cut
+    for_blocks([&](std::size_t block) {
+      sort_block(cells, block);
+      VertexEdges edges;
+      for (std::size_t v = first_of(block); v < first_of(block + 1); ++v) {
+        gather_sides(v, cells, cut, edges);
+        const auto sorted = edges.find();
+        for (const auto& edge : sorted) found[block].push_back(2 * edge.end | edge.is_cut);
+        edge_start_[v + 1] = static_cast<std::uint32_t>(sorted.size());
+        std::uint8_t* const places = places_.data() + sides * begin_of(v);
+        std::fill(places, places_.data() + sides * end_[v], static_cast<std::uint8_t>(sorted.size()));
+        edges.visit_sides(
+            [&](std::size_t side, std::uint32_t k) { places[side] = static_cast<std::uint8_t>(k); });
       }
-    }
-    sides_ = sort_edges(std::move(found), vertices, threads, monitor);
-    std::vector<Edge> edges;
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-      if (i == 0 || sides_[i].ends != sides_[i - 1].ends)
-        edges.push_back({sides_[i].ends, static_cast<std::uint32_t>(i)});
-      edges.back().is_cut |= sides_[i].is_cut;
-    }
-    LargeArray<Edge> result(edges.size());
-    std::copy(edges.begin(), edges.end(), result.data());
-    return result;
+    });
+    std::partial_sum(edge_start_.begin(), edge_start_.end(), edge_start_.begin());
+    return write(found);
+  }
+
+  // Calls body.start(first, last) for the edges first ... last - 1 from each vertex, body.visit(t, k, edges) for the
+  // cells around them, and body.end(first, last): k is the corner of the vertex, and first + edges[j] the edge to the
+  // j-th of the corners behind it, in a circle, or `last` if that comes before. end_of(t, k) is the number of a corner.
+  // Each block has a body.
+  template <class EndOf, class MakeBody>
+  void visit(const LargeArray<Ends>& edges, const EndOf& end_of, const MakeBody& make_body) const {
+    for_blocks([&](std::size_t block) {
+      auto body = make_body();
+      for (std::size_t v = first_of(block); v < first_of(block + 1); ++v) {
+        const std::size_t first = edge_start_[v], last = edge_start_[v + 1];
+        body.start(first, last);
+        const auto search = [&](std::size_t t, std::size_t k) {
+          const Ends wanted{static_cast<std::int32_t>(v), end_of(t, k)};
+          if (wanted[1] < wanted[0]) return last - first;
+          return static_cast<std::size_t>(
+                     std::lower_bound(edges.data() + first, edges.data() + last, wanted) - edges.data()) -
+                 first;
+        };
+        for (std::size_t i = begin_of(v); i < end_[v]; ++i) {
+          const std::size_t t = members_[i] / 4, k = members_[i] % 4;
+          body.prefetch(later_member(i) / 4);
+          std::array<std::size_t, sides> places;
+          for (std::size_t j = 0; j < sides; ++j)
+            places[j] = last - first < many ? places_[sides * i + j] : search(t, (k + 1 + j) % width);
+          body.visit(t, k, places);
+        }
+        body.end(first, last);
+      }
+    });
   }
 
  private:
-  std::span<const Cell> cells_;
-  LargeArray<Edge> sides_;  // of cells: each edge once for each one around it
+  static constexpr std::size_t sides = width - 1;                   // of a member, at its vertex
+  static constexpr std::size_t least_piece = std::size_t{1} << 16;  // cells: some milliseconds
+  static constexpr std::size_t many = 0xff;  // edges of a vertex that bytes do not number
+  static constexpr std::size_t ahead = 8;    // members whose cells are loaded before their turn
+
+  std::size_t blocks() const { return block_start_.size() - 1; }
+  std::size_t first_of(std::size_t block) const { return std::min(block << shift_, vertices_); }
+  std::size_t begin_of(std::size_t v) const {
+    return v % (std::size_t{1} << shift_) == 0 ? block_start_[v >> shift_] : end_[v - 1];
+  }
+  std::uint32_t later_member(std::size_t i) const {
+    return members_[std::min(i + ahead, members_.size() - 1)];
+  }
+
+  template <class Body>
+  void for_blocks(const Body& body) const {
+    base::parallel_for(blocks(), threads_, body, monitor_);
+  }
+
+  // Calls visit(k, block of the vertex) for the corners of a cell but the last one.
+  template <class Visit>
+  void visit_corners(const Cell& cell, const Visit& visit) const {
+    std::size_t last = 0;
+    for (std::size_t k = 1; k < width; ++k) last = cell[k] > cell[last] ? k : last;
+    for (std::size_t j = 1; j < width; ++j) {
+      const std::size_t k = (last + j) % width;
+      visit(k, at(cell[k]) >> shift_);
+    }
+  }
+
+  // Members by their blocks.
+  void gather(std::span<const Cell> cells) {
+    const std::size_t grain = std::max(least_piece, cells.size() >> 11);
+    std::vector<std::vector<std::uint32_t>> counts(base::piece_count(cells.size(), grain));
+    base::for_pieces(
+        cells.size(), grain, threads_, monitor_, [&](std::size_t piece, std::size_t begin, std::size_t end) {
+          counts[piece].resize(blocks());
+          for (std::size_t t = begin; t < end; ++t)
+            visit_corners(cells[t], [&](std::size_t, std::size_t block) { ++counts[piece][block]; });
+        });
+    std::size_t sum = 0;
+    for (std::size_t block = 0; block < blocks(); ++block) {
+      block_start_[block] = sum;
+      for (auto& count : counts) sum += std::exchange(count[block], static_cast<std::uint32_t>(sum));
+    }
+    block_start_.back() = sum;
+    members_ = LargeArray<std::uint32_t>(sum);
+    base::for_pieces(cells.size(), grain, threads_, monitor_,
+                     [&](std::size_t piece, std::size_t begin, std::size_t end) {
+                       for (std::size_t t = begin; t < end; ++t) {
+                         visit_corners(cells[t], [&](std::size_t k, std::size_t block) {
+                           members_[counts[piece][block]++] = static_cast<std::uint32_t>(4 * t + k);
+                         });
+                       }
+                     });
+  }
+
+  // By their vertices.
+  void sort_block(std::span<const Cell> cells, std::size_t block) {
+    const std::size_t first = first_of(block), count = first_of(block + 1) - first;
+    const std::vector<std::uint32_t> given(members_.data() + block_start_[block],
+                                           members_.data() + block_start_[block + 1]);
+    const auto vertex_of = [&](std::uint32_t member) { return at(cells[member / 4][member % 4]) - first; };
+    std::vector<std::uint32_t> ends(count + 1);
+    for (const std::uint32_t member : given) ++ends[vertex_of(member) + 1];
+    ends[0] = static_cast<std::uint32_t>(block_start_[block]);
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    for (const std::uint32_t member : given) members_[ends[vertex_of(member)]++] = member;
+    std::copy_n(ends.begin(), count, end_.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+
+  template <class Cut>
+  void gather_sides(std::size_t v, std::span<const Cell> cells, const Cut& cut, VertexEdges& edges) const {
+    const std::size_t begin = begin_of(v), end = end_[v];
+    edges.reset(sides * (end - begin));
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t t = members_[i] / 4, k = members_[i] % 4;
+      __builtin_prefetch(&cells[later_member(i) / 4]);
+      const unsigned cut_sides = cut(t);
+      for (std::size_t j = 0; j < sides; ++j) {
+        const std::size_t l = (k + 1 + j) % width;
+        edges.add(sides * (i - begin) + j, cells[t][l], cut_sides >> side_between[k][l] & 1U,
+                  at(cells[t][l]) > v);
+      }
+    }
+  }
+
+  Edges write(std::vector<std::vector<std::uint32_t>>& found) const {
+    Edges edges{LargeArray<Ends>(edge_start_.back()), LargeArray<std::uint8_t>(edge_start_.back())};
+    for_blocks([&](std::size_t block) {
+      const std::uint32_t* word = found[block].data();
+      for (std::size_t v = first_of(block); v < first_of(block + 1); ++v) {
+        for (std::size_t e = edge_start_[v]; e < edge_start_[v + 1]; ++e, ++word) {
+          edges.ends[e] = {static_cast<std::int32_t>(v), static_cast<std::int32_t>(*word / 2)};
+          edges.is_cut[e] = *word & 1U;
+        }
+      }
+      found[block] = {};
+    });
+    return edges;
+  }
+
+  std::size_t vertices_;
+  unsigned threads_;
+  const base::Monitor& monitor_;
+  int shift_;  // a block has so many bits of vertices
+  std::vector<std::size_t> block_start_;
+  LargeArray<std::uint32_t> members_;      // 4 t + k by blocks, then by vertices
+  LargeArray<std::uint8_t> places_;        // of the sides of members among the edges of the vertex
+  std::vector<std::uint32_t> end_;         // [vertices] of their members
+  std::vector<std::uint32_t> edge_start_;  // [vertices + 1]
 };
 
 }  // namespace vorotool::core::tetrahedral_alpha

@@ -16,6 +16,7 @@
 #include "core/numbers/fixed_integer.hpp"
 #include "core/numbers/int128.hpp"
 #include "core/numbers/sign.hpp"
+#include "core/tetrahedral_alpha/edge_stars.hpp"
 
 namespace vorotool::core::tetrahedral_alpha {
 
@@ -374,7 +375,7 @@ double squared_distance(const Point3& a, const Point3& b) {
 
 // Three squares, of a triangle's sides, have errors of 5 u each, their sum has two roundings more, and the difference of
 // it and twice one of them, which is nearly half of it where the sign is not clear, one more: 13 u of the sum.
-std::uint8_t obtuse_corners(const Simplex& simplex, bool are_integers) {
+std::uint8_t sides_cut(const Simplex& simplex, bool are_integers) {
   const auto& corner = simplex.corner;
   std::array<std::array<double, 4>, 4> square;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -386,15 +387,13 @@ std::uint8_t obtuse_corners(const Simplex& simplex, bool are_integers) {
     const std::size_t a = (k + 1) % 4, b = (k + 2) % 4, c = (k + 3) % 4;
     const double sum = square[a][b] + square[b][c] + square[c][a];
     const double error = are_integers && sum < exact_limit ? 0 : 20 * u * sum + 0x1p-1000;
-    std::size_t found = k;
     for (const auto& [v, p, q] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
       const double excess = 2 * square[p][q] - sum;
       const bool is_clear = std::abs(excess) >= error && sum < infinity;
       if (is_clear ? excess > 0
                    : is_inside_diametral_sphere(*corner[p], *corner[q], *corner[v], are_integers))
-        found = v;
+        result |= 1U << side_between[p][q];
     }
-    result |= static_cast<unsigned>(found << 2 * k);
   }
   return static_cast<std::uint8_t>(result);
 }
@@ -415,7 +414,7 @@ double ranked_radius(const Simplex& simplex, bool are_integers) {
 
 TetrahedronMeasure measure_tetrahedron(const Simplex& simplex, bool are_integers) {
   const TetrahedronEstimate found = estimate_tetrahedron(simplex, are_integers);
-  TetrahedronMeasure result{settled_radius(found.radius, simplex), 0, obtuse_corners(simplex, are_integers)};
+  TetrahedronMeasure result{settled_radius(found.radius, simplex), 0, sides_cut(simplex, are_integers)};
   const std::array<double, 4> heights = found.sphere.heights();
   std::array<int, 4> signs;
   for (std::size_t k = 0; k < 4; ++k) {

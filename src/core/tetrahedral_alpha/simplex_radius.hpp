@@ -47,11 +47,11 @@ int compare_radii(const Simplex& p, const Simplex& q, bool are_integers);
 alpha::FineRadius refine_radius(const Simplex& simplex);
 
 // The radius of a tetrahedron, the facets whose smallest spheres hold the opposite corner inside: those that divide it
-// from the center of its sphere, and the corners at which facets are obtuse. Bit k is the facet opposite to corner k, and
-// so are bits 2 k and 2 k + 1, which have k where it is not obtuse.
+// from the center of its sphere, with bit k for that opposite to corner k; and the sides opposite to the corners at which
+// facets are obtuse, which are inside the spheres on these as diameters.
 struct TetrahedronMeasure {
   double radius;
-  std::uint8_t cut, obtuse;
+  std::uint8_t cut, cut_sides;
 };
 TetrahedronMeasure measure_tetrahedron(const Simplex& simplex, bool are_integers);
 

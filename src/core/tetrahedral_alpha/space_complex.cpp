@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
-#include <type_traits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/alpha/radius_ranks.hpp"
 #include "core/base/parallel.hpp"
 #include "core/tetrahedral_alpha/edge_stars.hpp"
+#include "core/tetrahedral_alpha/facets.hpp"
 #include "core/tetrahedral_alpha/simplex_radius.hpp"
 
 namespace vorotool::core::tetrahedral_alpha {
@@ -43,21 +43,27 @@ class Builder {
         monitor_(monitor),
         cells_(cells.size()),
         order_(number_vertices(cells, points.size())),
-        stars_(stars_of_cells()),
+        stars_(std::span<const Cell>(cells_.data(), cells_.size()), order_.size(), threads, monitor),
         scaled_(points, order_),
-        cut_(width == 4 ? count_ : 0),
-        obtuse_(cut_.size()) {}
+        given_(cells) {
+    if constexpr (width == 4) facets_.emplace(cells, neighbors, threads, monitor);
+  }
 
   SpaceArrays run() {
-    LargeArray<double> radius = measure_cells();
-    if constexpr (width == 4) find_facets();
-    edges_ =
-        stars_.find(order_.size(), [this](auto... facet) { return is_cut_by(facet...); }, threads_, monitor_);
+    LargeArray<std::uint8_t> cut(cells_.size()), cut_sides(cells_.size());
+    LargeArray<double> radius = measure_cells(cut, cut_sides);
+    if constexpr (width == 4) facet_ = facets_->find(threads_, monitor_);
+    auto [ends, is_cut] =
+        stars_.find({cells_.data(), cells_.size()}, [&](std::size_t t) -> unsigned { return cut_sides[t]; });
+    cut_sides = {};
+    edges_ = std::move(ends);
     value_ = LargeArray<double>(count_ + facet_.size() + edges_.size());
     std::copy(radius.data(), radius.data() + count_, value_.data());
     radius = {};
-    measure_facets();
-    measure_edges();
+    measure_facets(cut);
+    cut = {};
+    measure_edges(is_cut);
+    is_cut = {}, cells_ = {};
     const auto compare = [&](std::uint32_t p, std::uint32_t q) {
       return compare_radii(simplex_of(p), simplex_of(q), scaled_.are_integers);
     };
@@ -65,29 +71,19 @@ class Builder {
     if (!scaled_.are_integers) refine = [&](std::uint32_t item) { return refine_radius(simplex_of(item)); };
     alpha::RadiusRanks ranks =
         alpha::rank_radii(std::move(value_), compare, threads_, monitor_, open_bits, refine);
-    cells_ = {}, scaled_.points = {};
+    scaled_.points = {};
     return write(std::move(ranks));
   }
 
  private:
-  using Stars = std::conditional_t<width == 4, TetrahedronStars, PlanarStars<width>>;
-
-  Stars stars_of_cells() const {
-    const std::span<const Cell> all(cells_.data(), cells_.size());
-    if constexpr (width == 4) {
-      return {all, neighbors_, threads_, monitor_};
-    } else {
-      return Stars(all);
-    }
-  }
-
   // Vertices get new numbers, in the order in which they first appear in the cells, so that those near each other come
   // together. Gives the old ones.
   std::vector<std::int32_t> number_vertices(std::span<const Cell> cells, std::size_t points) {
-    std::vector<std::int32_t> place(points, base::no_index), order;
+    std::vector<std::int32_t> order;
+    place_.assign(points, base::no_index);
     for (std::size_t t = 0; t < cells.size(); ++t) {
       for (std::size_t k = 0; k < width; ++k) {
-        std::int32_t& number = place[at(cells[t][k])];
+        std::int32_t& number = place_[at(cells[t][k])];
         if (number == base::no_index) {
           number = static_cast<std::int32_t>(order.size());
           order.push_back(cells[t][k]);
@@ -100,110 +96,90 @@ class Builder {
 
   const Point3& point(std::int32_t v) const { return scaled_.points[at(v)]; }
 
+  std::int32_t corner(std::size_t t, std::size_t k) const {
+    return cells_.size() != 0 ? cells_[t][k] : place_[at(given_[t][k])];
+  }
+
   Simplex simplex_of(std::size_t item) const {
     Simplex s;
     const auto put = [&](std::int32_t v) { s.corner[s.size++] = &point(v); };
     if (item < count_) {
-      for (const std::int32_t v : cells_[item]) put(v);
+      for (std::size_t k = 0; k < width; ++k) put(corner(item, k));
     } else if (item < count_ + facet_.size()) {
       const std::size_t facet = at(facet_[item - count_]);
       if constexpr (width == 4) {
-        for (const std::size_t k : facets[facet % 4]) put(cells_[facet / 4][k]);
+        for (const std::size_t k : facets[facet % 4]) put(corner(facet / 4, k));
       }
     } else {
-      for (const std::int32_t v : edges_[item - count_ - facet_.size()].ends) put(v);
+      for (const std::int32_t v : edges_[item - count_ - facet_.size()]) put(v);
     }
     return s;
   }
 
-  // Calls visit(4 t + k) for the facets at which a triangle is written: of a tetrahedron whose neighbor came before.
-  template <class Visit>
-  void visit_facets(std::size_t begin, std::size_t end, const Visit& visit) const {
-    for (std::size_t t = begin; t < end; ++t) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        if (neighbors_[t][k] < static_cast<std::int32_t>(t)) visit(4 * t + k);
-      }
-    }
-  }
-
-  void find_facets() {
-    std::vector<std::size_t> start(base::piece_count(count_, simplices_a_piece) + 1);
-    for_pieces(count_, simplices_a_piece, threads_, monitor_,
-               [&](std::size_t piece, std::size_t begin, std::size_t end) {
-                 visit_facets(begin, end, [&](std::size_t) { ++start[piece + 1]; });
-               });
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    facet_ = LargeArray<std::int32_t>(start.back());
-    for_pieces(count_, simplices_a_piece, threads_, monitor_,
-               [&](std::size_t piece, std::size_t begin, std::size_t end) {
-                 std::size_t next = start[piece];
-                 visit_facets(begin, end,
-                              [&](std::size_t f) { facet_[next++] = static_cast<std::int32_t>(f); });
-               });
-  }
-
-  std::int32_t across(std::size_t facet) const {
-    if constexpr (width == 4) return stars_.across(facet);
-    return -1;
-  }
-
-  LargeArray<double> measure_cells() {
+  LargeArray<double> measure_cells(LargeArray<std::uint8_t>& cut, LargeArray<std::uint8_t>& cut_sides) const {
     LargeArray<double> radius(count_);
-    for_items(count_, simplices_a_piece, threads_, monitor_, [&](std::size_t t) {
+    for_items(cells_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t t) {
       if constexpr (width == 4) {
         const TetrahedronMeasure found = measure_tetrahedron(simplex_of(t), scaled_.are_integers);
         radius[t] = found.radius;
-        cut_[t] = found.cut;
-        obtuse_[t] = found.obtuse;
-      } else {
+        cut[t] = found.cut;
+        cut_sides[t] = found.cut_sides;
+      } else if constexpr (width == 3) {
         radius[t] = ranked_radius(simplex_of(t), scaled_.are_integers);
+        cut_sides[t] = sides_cut(cells_[t]);
+      } else {
+        cut_sides[t] = 0;
       }
     });
     return radius;
   }
 
-  bool is_cut(std::int32_t facet) const {
-    return facet >= 0 && (cut_[at(facet) / 4] >> (facet % 4) & 1) != 0;
+  // The sides of a triangle such that the opposite corner is strictly inside the sphere on them as diameter.
+  std::uint8_t sides_cut(const Cell& cell) const {
+    unsigned result = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+      if (is_inside_diametral_sphere(point(cell[a]), point(cell[b]), point(cell[k]), scaled_.are_integers))
+        result |= 1U << side_between[a][b];
+    }
+    return static_cast<std::uint8_t>(result);
   }
 
-  void measure_facets() {
+  void measure_facets(const LargeArray<std::uint8_t>& cut) {
+    const auto is_cut = [&](std::int32_t facet) {
+      return facet >= 0 && (cut[at(facet) / 4] >> (facet % 4) & 1) != 0;
+    };
     for_items(facet_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t m) {
       const std::size_t item = count_ + m;
-      const bool is_gabriel = !is_cut(facet_[m]) && !is_cut(across(at(facet_[m])));
+      const bool is_gabriel = !is_cut(facet_[m]) && !is_cut(facets_->across(facet_[m]));
       value_[item] = is_gabriel ? ranked_radius(simplex_of(item), scaled_.are_integers) : left_out;
     });
   }
 
-  // Whether the corner of a triangle opposite to an edge is strictly inside the sphere on it as diameter.
-  bool is_cut_by(const Edge&, std::size_t t, std::size_t out, std::size_t apex) const {
-    return (obtuse_[t] >> 2 * out & 3U) == apex;
-  }
-  bool is_cut_by(const Edge& edge, std::int32_t apex) const {
-    const auto [a, b] = edge.ends;
-    return is_inside_diametral_sphere(point(a), point(b), point(apex), scaled_.are_integers);
-  }
-
-  void measure_edges() {
+  void measure_edges(const LargeArray<std::uint8_t>& is_cut) {
     for_items(edges_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
       const std::size_t item = count_ + facet_.size() + e;
-      value_[item] = edges_[e].is_cut != 0 ? left_out : ranked_radius(simplex_of(item), scaled_.are_integers);
+      value_[item] = is_cut[e] != 0 ? left_out : ranked_radius(simplex_of(item), scaled_.are_integers);
     });
   }
 
   SpaceArrays write(alpha::RadiusRanks&& ranks) {
     SpaceArrays out;
-    const auto last = static_cast<std::int32_t>(ranks.value.size());
     LargeArray<std::int32_t> facet_min(4 * count_);  // of each facet
     out.triangle_min = LargeArray<std::int32_t>(facet_.size());
     for_items(facet_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t m) {
-      const std::int32_t own = ranks.rank[count_ + m], facet = facet_[m], other = across(at(facet));
+      const std::int32_t own = ranks.rank[count_ + m], facet = facet_[m], other = facets_->across(facet);
       std::int32_t least = std::min(own, ranks.rank[at(facet) / 4]);
       if (other >= 0) least = std::min(least, ranks.rank[at(other) / 4]);
       out.triangle_min[m] = facet_min[at(facet)] = least;
       if (other >= 0) facet_min[at(other)] = least;
     });
-    write_edges(out, ranks.rank, facet_min, last);
-    (width == 4 ? out.tetrahedron_rank : out.triangle_min) = LargeArray<std::int32_t>(count_);
+    for (LargeArray<std::int32_t>* each : {&out.edge_min, &out.edge_mid, &out.edge_max})
+      *each = LargeArray<std::int32_t>(edges_.size());
+    const auto number = [&](std::size_t t, std::size_t k) { return place_[at(given_[t][k])]; };
+    stars_.visit(edges_, number, [&] { return EdgeRanks(*this, edges_, out, ranks, facet_min); });
+    out.edges = std::move(edges_);
+    facet_min = {}, (width == 4 ? out.tetrahedron_rank : out.triangle_min) = LargeArray<std::int32_t>(count_);
     std::copy(ranks.rank.data(), ranks.rank.data() + count_,
               (width == 4 ? out.tetrahedron_rank : out.triangle_min).data());
     out.facet = std::move(facet_);
@@ -218,43 +194,82 @@ class Builder {
     return out;
   }
 
-  void write_edges(SpaceArrays& out, const LargeArray<std::int32_t>& rank,
-                   const LargeArray<std::int32_t>& facet_min, std::int32_t last) const {
-    const std::size_t count = edges_.size(), first = count_ + facet_.size();
-    out.edges = LargeArray<Ends>(count);
-    out.edge_min = LargeArray<std::int32_t>(count);
-    out.edge_mid = LargeArray<std::int32_t>(count);
-    out.edge_max = LargeArray<std::int32_t>(count);
-    for_items(count, simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
-      std::int32_t min = rank[first + e], mid = last, max = width == 4 ? 0 : last;
+  // The ranks of the edges from a vertex to later ones, from those of the cells around them.
+  class EdgeRanks {
+   public:
+    EdgeRanks(const Builder& builder, LargeArray<Ends>& edges, SpaceArrays& out,
+              const alpha::RadiusRanks& ranks, const LargeArray<std::int32_t>& facet_min)
+        : builder_(builder),
+          edges_(edges),
+          out_(out),
+          rank_(ranks.rank),
+          facet_min_(facet_min),
+          last_rank_(static_cast<std::int32_t>(ranks.value.size())) {}
+
+    void start(std::size_t first, std::size_t last) {
+      found_.assign(last - first + 1, {last_rank_, last_rank_, width == 4 ? 0 : last_rank_});
+    }
+
+    void prefetch(std::size_t t) const {
       if constexpr (width == 4) {
-        stars_.visit(edges_[e], [&](std::size_t t, std::size_t opposite, std::size_t) {
-          min = std::min(min, facet_min[4 * t + opposite]);
-          mid = std::min(mid, rank[t]);
-          max = std::max(max, neighbors_[t][opposite] < 0 ? last : rank[t]);
-          return true;
-        });
-      } else if constexpr (width == 3) {
-        stars_.visit(edges_[e], [&](std::size_t t) { min = std::min(min, rank[t]); });
+        __builtin_prefetch(&facet_min_[4 * t]);
+        __builtin_prefetch(&builder_.neighbors_[t]);
       }
-      out.edge_min[e] = min, out.edge_mid[e] = mid, out.edge_max[e] = max;
-      const auto [a, b] = edges_[e].ends;
-      const std::int32_t p = order_[at(a)], q = order_[at(b)];
-      out.edges[e] = {std::min(p, q), std::max(p, q)};
-    });
-  }
+      if constexpr (width > 2) __builtin_prefetch(&rank_[t]);
+    }
+
+    void visit(std::size_t t, std::size_t k, const std::array<std::size_t, width - 1>& edges) {
+      if constexpr (width == 4) {
+        for (std::size_t j = 0; j < 3; ++j) {  // the facets opposite to the two other corners are at the edge
+          const std::size_t p = (k + 1 + (j + 1) % 3) % 4, q = (k + 1 + (j + 2) % 3) % 4;
+          const bool is_outside = (builder_.neighbors_[t][p] | builder_.neighbors_[t][q]) < 0;
+          auto& [min, mid, max] = found_[edges[j]];
+          min = std::min({min, facet_min_[4 * t + p], facet_min_[4 * t + q]});
+          mid = std::min(mid, rank_[t]);
+          max = std::max(max, is_outside ? last_rank_ : rank_[t]);
+        }
+      } else if constexpr (width == 3) {
+        for (const std::size_t e : edges) {
+          std::int32_t& min = found_[e][0];
+          min = std::min(min, rank_[t]);
+        }
+      }
+    }
+
+    void end(std::size_t first, std::size_t last) {
+      const std::size_t items = builder_.count_ + builder_.facet_.size();
+      for (std::size_t e = first; e < last; ++e) {
+        const auto& [min, mid, max] = found_[e - first];
+        out_.edge_min[e] = std::min(min, rank_[items + e]);
+        out_.edge_mid[e] = mid, out_.edge_max[e] = max;
+        const auto [a, b] = edges_[e];
+        const auto [p, q] = std::minmax(builder_.order_[at(a)], builder_.order_[at(b)]);
+        edges_[e] = {p, q};
+      }
+    }
+
+   private:
+    const Builder& builder_;
+    LargeArray<Ends>& edges_;  // which get the old numbers
+    SpaceArrays& out_;
+    const LargeArray<std::int32_t>&rank_, &facet_min_;
+    std::int32_t last_rank_;
+    std::vector<std::array<std::int32_t, 3>> found_;  // the least, middle and greatest one of each edge
+  };
 
   std::size_t count_;  // of cells that are ranked
   std::span<const Row> neighbors_;
   unsigned threads_;
   const Monitor& monitor_;
   LargeArray<Cell> cells_;           // by the new numbers
+  std::vector<std::int32_t> place_;  // the new numbers
   std::vector<std::int32_t> order_;  // the old numbers
-  Stars stars_;
+  EdgeStars<width> stars_;
   ScaledPoints scaled_;
-  LargeArray<std::uint8_t> cut_, obtuse_;  // [tetrahedra] TetrahedronMeasure
+  std::span<const Cell> given_;   // by the old numbers
+  std::optional<Facets> facets_;  // of tetrahedra
   LargeArray<std::int32_t> facet_;
-  LargeArray<Edge> edges_;
+  LargeArray<Ends> edges_;    // by the new numbers
   LargeArray<double> value_;  // [cells + facets + edges] radii at which shapes change, or left out
 };
 

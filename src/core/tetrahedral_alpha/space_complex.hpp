@@ -19,12 +19,12 @@
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
 #include "core/tetrahedra/point3.hpp"
+#include "core/tetrahedral_alpha/edge_stars.hpp"
+#include "core/tetrahedral_alpha/facets.hpp"
 
 namespace vorotool::core::tetrahedral_alpha {
 
-using Row = std::array<std::int32_t, 4>;
 using Corners = std::array<std::int32_t, 3>;
-using Ends = std::array<std::int32_t, 2>;
 
 // Of points that are not in one plane tetrahedra, positive, with the neighbors opposite to their corners, -1 outside; of
 // others triangles; of points on a line edges.
