@@ -20,11 +20,8 @@ constexpr std::size_t ahead = 12;  // tetrahedra whose neighbors are loaded befo
 // Four numbers, compared together: a lane is -1 where it is true.
 typedef std::int32_t Lanes __attribute__((vector_size(16)));
 
-Lanes lanes_of(const Row& row) { return std::bit_cast<Lanes>(row); }
-
-Lanes is_any(const Lanes& v, const Lanes& w) {
-  return (v == w) | (v == __builtin_shufflevector(w, w, 1, 2, 3, 0)) |
-         (v == __builtin_shufflevector(w, w, 2, 3, 0, 1)) | (v == __builtin_shufflevector(w, w, 3, 0, 1, 2));
+Lanes is_any(const Lanes& v, const Row& row) {
+  return (v == row[0]) | (v == row[1]) | (v == row[2]) | (v == row[3]);
 }
 
 }  // namespace
@@ -45,7 +42,7 @@ Facets::Facets(std::span<const Row> tetrahedra, std::span<const Row> neighbors, 
                          __builtin_prefetch(&tetrahedra[next]);
                          __builtin_prefetch(&neighbors[next]);
                        }
-                       const Lanes corners = lanes_of(tetrahedra[t]);
+                       const Lanes corners = std::bit_cast<Lanes>(tetrahedra[t]);
                        unsigned places = 0;
                        for (std::size_t k = 0; k < 4; ++k) {
                          const std::int32_t u = neighbors[t][k];
@@ -56,7 +53,7 @@ Facets::Facets(std::span<const Row> tetrahedra, std::span<const Row> neighbors, 
                            return static_cast<unsigned>(back[l] == static_cast<std::int32_t>(t));
                          };
                          const unsigned place = (is_back(1) + 2 * is_back(2) + 3 * is_back(3)) & 3U;
-                         wrong |= others[k] & ~is_any(corners, lanes_of(tetrahedra[at(u)]));
+                         wrong |= others[k] & ~is_any(corners, tetrahedra[at(u)]);
                          wrong[0] |= static_cast<std::int32_t>(is_back(place)) - 1;
                          places |= place << 2 * k;
                        }

@@ -17,6 +17,7 @@
 #include "core/numbers/int128.hpp"
 #include "core/numbers/sign.hpp"
 #include "core/tetrahedral_alpha/edge_stars.hpp"
+#include "core/tetrahedral_alpha/radius_bounds.hpp"
 
 namespace vorotool::core::tetrahedral_alpha {
 
@@ -27,12 +28,12 @@ using numbers::DoubleDouble;
 using numbers::DyadicGrid;
 using numbers::FixedInteger;
 using numbers::int128;
+using namespace bounds;
 
 namespace {
 
-constexpr double u = numbers::unit_roundoff;
+static_assert(u == numbers::unit_roundoff);
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double exact_limit = 0x1p52;  // integers that are sums of terms below it are doubles
 
 // ---- formulas, for numbers of any type; products of integers of fixed width are wider ----
 template <class Number>
@@ -102,25 +103,11 @@ auto four_times(const Number& value) {
 }
 
 // ---- estimates ----
-//
-// To first order in u, with the errors of differences included, which are u each: squares of lengths carry 5 u, minors
-// 4 u of the sum of their absolute terms, determinants 8 u, centers 12 u, heights 20 u (24 u the first); "of the sum
-// of their absolute terms" each. The factors below leave room for what is of second order, and for that the sums of
-// absolute terms are rounded themselves.
-constexpr double determinant_error = 10 * u, center_error = 16 * u, height_error = 32 * u;
-constexpr double normal_error = 6 * u, few_roundings = 16 * u;
-
-// Sizes in this range let nothing overflow, and what underflows matter only where the guards below say so.
-constexpr double smallest = 0x1p-60, largest = 0x1p60;
-constexpr double least_determinant = 0x1p-300;
-constexpr double height_guard = 0x1p-700;
-
 // Within `error` of the radius, relative to it; not known where that is infinite.
 struct Estimate {
   double radius, error;
 };
 constexpr Estimate unknown{0, infinity};
-constexpr double worst_error = 0x1p-41;
 
 Vector<double> from_to(const Point3& a, const Point3& b) { return {b.x - a.x, b.y - a.y, b.z - a.z}; }
 
@@ -373,8 +360,6 @@ double squared_distance(const Point3& a, const Point3& b) {
   return dot(way, way);
 }
 
-// Three squares, of a triangle's sides, have errors of 5 u each, their sum has two roundings more, and the difference of
-// it and twice one of them, which is nearly half of it where the sign is not clear, one more: 13 u of the sum.
 std::uint8_t sides_cut(const Simplex& simplex, bool are_integers) {
   const auto& corner = simplex.corner;
   std::array<std::array<double, 4>, 4> square;
@@ -386,7 +371,7 @@ std::uint8_t sides_cut(const Simplex& simplex, bool are_integers) {
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t a = (k + 1) % 4, b = (k + 2) % 4, c = (k + 3) % 4;
     const double sum = square[a][b] + square[b][c] + square[c][a];
-    const double error = are_integers && sum < exact_limit ? 0 : 20 * u * sum + 0x1p-1000;
+    const double error = are_integers && sum < exact_limit ? 0 : side_error * sum + side_guard;
     for (const auto& [v, p, q] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
       const double excess = 2 * square[p][q] - sum;
       const bool is_clear = std::abs(excess) >= error && sum < infinity;

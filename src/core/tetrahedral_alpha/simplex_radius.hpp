@@ -16,9 +16,6 @@ namespace vorotool::core::tetrahedral_alpha {
 
 using tetrahedra::Point3;
 
-// Bits of a radius that need not be right for it to be ranked.
-inline constexpr int open_bits = 20;
-
 // The corners of an edge (2), a triangle (3) or a tetrahedron (4): points that are not on one line or in one plane.
 struct Simplex {
   std::array<const Point3*, 4> corner{};
@@ -46,9 +43,9 @@ int compare_radii(const Simplex& p, const Simplex& q, bool are_integers);
 // The square of a radius of points that are not integers, in twice as many digits.
 alpha::FineRadius refine_radius(const Simplex& simplex);
 
-// The radius of a tetrahedron, the facets whose smallest spheres hold the opposite corner inside: those that divide it
-// from the center of its sphere, with bit k for that opposite to corner k; and the sides opposite to the corners at which
-// facets are obtuse, which are inside the spheres on these as diameters.
+// The radius of a tetrahedron; the facets whose smallest spheres hold the opposite corner inside: those that divide it
+// from the center of its sphere, with bit k for that opposite to corner k; and the sides, by their numbers
+// (edge_stars.hpp), that hold the third corner of one of their two facets in the spheres on them as diameters.
 struct TetrahedronMeasure {
   double radius;
   std::uint8_t cut, cut_sides;

@@ -11,6 +11,8 @@
 #include "core/base/parallel.hpp"
 #include "core/tetrahedral_alpha/edge_stars.hpp"
 #include "core/tetrahedral_alpha/facets.hpp"
+#include "core/tetrahedral_alpha/radius_bounds.hpp"
+#include "core/tetrahedral_alpha/simplex_measures.hpp"
 #include "core/tetrahedral_alpha/simplex_radius.hpp"
 
 namespace vorotool::core::tetrahedral_alpha {
@@ -70,7 +72,7 @@ class Builder {
     alpha::RefineItem refine;  // integers, where ties are many, are compared as quickly
     if (!scaled_.are_integers) refine = [&](std::uint32_t item) { return refine_radius(simplex_of(item)); };
     alpha::RadiusRanks ranks =
-        alpha::rank_radii(std::move(value_), compare, threads_, monitor_, open_bits, refine);
+        alpha::rank_radii(std::move(value_), compare, threads_, monitor_, bounds::open_bits, refine);
     scaled_.points = {};
     return write(std::move(ranks));
   }
@@ -118,19 +120,18 @@ class Builder {
 
   LargeArray<double> measure_cells(LargeArray<std::uint8_t>& cut, LargeArray<std::uint8_t>& cut_sides) const {
     LargeArray<double> radius(count_);
-    for_items(cells_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t t) {
-      if constexpr (width == 4) {
-        const TetrahedronMeasure found = measure_tetrahedron(simplex_of(t), scaled_.are_integers);
-        radius[t] = found.radius;
-        cut[t] = found.cut;
-        cut_sides[t] = found.cut_sides;
-      } else if constexpr (width == 3) {
-        radius[t] = ranked_radius(simplex_of(t), scaled_.are_integers);
-        cut_sides[t] = sides_cut(cells_[t]);
-      } else {
-        cut_sides[t] = 0;
-      }
-    });
+    for_pieces(cells_.size(), simplices_a_piece, threads_, monitor_,
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 if constexpr (width == 4) {
+                   measure_tetrahedra(scaled_, {cells_.data() + begin, end - begin},
+                                      {radius.data() + begin, cut.data() + begin, cut_sides.data() + begin});
+                 } else if constexpr (width == 3) {
+                   measure_triangles(scaled_, {cells_.data() + begin, end - begin}, radius.data() + begin);
+                   for (std::size_t t = begin; t < end; ++t) cut_sides[t] = sides_cut(cells_[t]);
+                 } else {
+                   std::fill(cut_sides.data() + begin, cut_sides.data() + end, std::uint8_t{0});
+                 }
+               });
     return radius;
   }
 
@@ -149,11 +150,24 @@ class Builder {
     const auto is_cut = [&](std::int32_t facet) {
       return facet >= 0 && (cut[at(facet) / 4] >> (facet % 4) & 1) != 0;
     };
-    for_items(facet_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t m) {
-      const std::size_t item = count_ + m;
-      const bool is_gabriel = !is_cut(facet_[m]) && !is_cut(facets_->across(facet_[m]));
-      value_[item] = is_gabriel ? ranked_radius(simplex_of(item), scaled_.are_integers) : left_out;
-    });
+    for_pieces(facet_.size(), simplices_a_piece, threads_, monitor_,
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 std::vector<Corners> gabriel(end - begin + 1);
+                 std::vector<std::size_t> item(gabriel.size());
+                 std::size_t count = 0;
+                 for (std::size_t m = begin; m < end; ++m) {
+                   const std::size_t t = at(facet_[m]) / 4;
+                   for (std::size_t k = 0; k < 3; ++k)
+                     gabriel[count][k] = cells_[t][facets[at(facet_[m]) % 4][k]];
+                   value_[count_ + m] = left_out;
+                   item[count] = count_ + m;
+                   count +=
+                       static_cast<std::size_t>(!is_cut(facet_[m]) & !is_cut(facets_->across(facet_[m])));
+                 }
+                 std::vector<double> radius(count);
+                 measure_triangles(scaled_, {gabriel.data(), count}, radius.data());
+                 for (std::size_t i = 0; i < count; ++i) value_[item[i]] = radius[i];
+               });
   }
 
   void measure_edges(const LargeArray<std::uint8_t>& is_cut) {

@@ -1,0 +1,24 @@
+// Radii of many tetrahedra or triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/tetrahedral_alpha/simplex_radius.hpp"
+
+namespace vorotool::core::tetrahedral_alpha {
+
+// A number for each tetrahedron, as TetrahedronMeasure has them.
+struct TetrahedronMeasures {
+  double* radius;
+  std::uint8_t *cut, *cut_sides;
+};
+void measure_tetrahedra(const ScaledPoints& points, std::span<const std::array<std::int32_t, 4>> corners,
+                        const TetrahedronMeasures& out);
+
+// A number for each triangle: ranked_radius.
+void measure_triangles(const ScaledPoints& points, std::span<const std::array<std::int32_t, 3>> corners,
+                       double* radius);
+
+}  // namespace vorotool::core::tetrahedral_alpha
