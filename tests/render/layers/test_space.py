@@ -72,3 +72,30 @@ def test_the_knot_of_the_gallery_is_a_closed_tube():
     covered = shapely.union_all(shapely.polygons(seen(points)[shape.surface])).area
     assert shapely.union_all(shown).area == pytest.approx(covered)
     assert len(shown) < len(shape.surface)  # backs are not drawn
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0**-600, 2.0**600])
+def test_no_face_of_a_surface_is_drawn_over_one_in_front_of_it(scale):
+    ball = np.random.default_rng(5).normal(size=(400, 3))
+    for points, r in ((ball, 0.4), (ball * [1, 1, 0.05], 0.15)):  # the second has many slivers
+        shape = vorotool.alpha_shape(points * scale, r=r * scale)
+        (faces,) = surface_layers(shape, page_of(shape), ["surface"])
+        corners = points[faces.corners.reshape(-1, 3)]
+        shown = shapely.polygons(seen(corners.reshape(-1, 3)).reshape(-1, 3, 2))
+        below, above = shapely.STRtree(shown).query(shown, predicate="overlaps")
+        below, above = below[below < above], above[below < above]
+        both = shapely.intersection(shown[below], shown[above])
+        is_wide = shapely.area(both) > 1e-6
+        assert is_wide.sum() > 100
+        places = shapely.get_coordinates(shapely.centroid(both[is_wide]))
+        depths = [_depth(corners[rows[is_wide]], places) for rows in (below, above)]
+        assert (depths[1] - depths[0] > -1e-9).all()
+
+
+def _depth(corners, places):
+    """Give how near each place of the page on a triangle is to the viewer."""
+    right, up = seen(np.eye(3)).T
+    xy, near = seen(corners.reshape(-1, 3)).reshape(-1, 3, 2), corners @ np.cross(right, up)
+    equations = np.concatenate([xy, np.ones((len(xy), 3, 1))], axis=2)
+    plane = np.linalg.solve(equations, near[:, :, None])[:, :, 0]
+    return (plane * np.column_stack([places, np.ones(len(places))])).sum(axis=1)

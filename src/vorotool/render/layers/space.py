@@ -8,7 +8,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, Indices, ranges, starts_of
 from vorotool.render.canvas.layers import (
     Layer,
     Lines,
@@ -63,7 +63,7 @@ def _layers(
     texts = column_texts(mesh.properties, page.style.label_by, mesh.label_array.tolist())
     size = min(max(crowd / 4, 2.0), 16.0)
     make: Makers = {
-        faces: lambda: [_shaded(faces, mesh.points, getattr(value, faces), is_sheer=len(names) > 1)],
+        faces: lambda: [_shaded(faces, mesh.points, value, is_sheer=len(names) > 1)],
         "edges": lambda: [Lines("edges", places, value.edges, INK, min(max(crowd / 48, 0.1), 1.0))],
         "points": lambda: [Points("points", places, radius=min(max(crowd / 16, 0.3), 3.0))],
         "labels": lambda: [without_empty(Texts("labels", places, texts, size=size, halo=WHITE))],
@@ -71,13 +71,15 @@ def _layers(
     return made_layers(names, make)
 
 
-def _shaded(name: str, points: Floats, triangles: NDArray[np.int32], *, is_sheer: bool) -> Polygons:
+def _shaded(name: str, points: Floats, value: Tetrahedralization | SpaceAlphaShape, *, is_sheer: bool) -> Polygons:
     """Fill the triangles that show their front, those behind first, the darker the more they turn from the light."""
-    exponent = -int(np.frexp(np.abs(points).max(initial=0.0))[1])  # of sizes whose products are doubles
-    a, b, c = np.moveaxis(np.ldexp(points, exponent)[triangles], 1, 0)
-    normals = np.cross(b - a, c - a)
+    triangles: NDArray[np.int32] = getattr(value, name)
+    scaled = np.ldexp(points, -int(np.frexp(np.abs(points).max(initial=0.0))[1]))  # products of sizes are doubles
+    normals = _normals(scaled, triangles)
     facing = np.flatnonzero(_along(normals, _TO_VIEWER) > 0)
-    order = facing[np.argsort(_along((a + b + c)[facing], _TO_VIEWER), kind="stable")]
+    middle = _along(scaled[triangles[facing]].sum(axis=1), _TO_VIEWER)
+    rows = _rows_in_depth(value, scaled)[facing] if isinstance(value, SpaceAlphaShape) else np.zeros(len(facing))
+    order = facing[np.lexsort((middle, rows))]
     lengths = np.sqrt((normals[order] ** 2).sum(axis=1))
     light = np.clip(_along(normals[order], _TO_LIGHT) / lengths, 0, 1)
     return Polygons(
@@ -93,6 +95,36 @@ def _shaded(name: str, points: Floats, triangles: NDArray[np.int32], *, is_sheer
         is_sheer=is_sheer,
         is_sealed=name != "hull" and not is_sheer,
     )
+
+
+def _normals(points: Floats, triangles: NDArray[np.int32]) -> Floats:
+    a, b, c = np.moveaxis(points[triangles], 1, 0)
+    return np.cross(b - a, c - a)
+
+
+def _rows_in_depth(shape: SpaceAlphaShape, points: Floats) -> Indices:
+    """Number the triangles of a surface so that no line of sight meets one of a larger number behind another.
+
+    A tetrahedron has the length of the longest row of tetrahedra behind it, each behind the next one; no such row of a
+    Delaunay triangulation ends where it begins (Edelsbrunner 1990). A triangle has the number of what is in front.
+    """
+    family = shape.family
+    towards = _along(_normals(points, family.triangles), _TO_VIEWER)
+    behind, front = np.where(towards > 0, family.sides.T, family.sides.T[::-1])
+    is_inner = (behind >= 0) & (front >= 0) & (towards != 0)
+    source, target = behind[is_inner], front[is_inner]
+    target, start = target[np.argsort(source, kind="stable")], starts_of(np.bincount(source, minlength=len(family)))
+    waiting = np.bincount(target, minlength=len(family))
+    row = np.zeros(len(family), dtype=np.int64)
+    last, step = np.flatnonzero(waiting == 0), 0
+    while len(last):
+        row[last] = step
+        reached, count = np.unique(target[ranges(start[last], np.diff(start)[last])], return_counts=True)
+        waiting[reached] -= count
+        last, step = reached[waiting[reached] == 0], step + 1
+    index = shape.surface_index
+    behind, front = behind[index], front[index]
+    return np.where(front >= 0, row[front], row[behind] + 1)
 
 
 def _shade(light: float) -> str:
