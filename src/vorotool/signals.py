@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from collections.abc import Iterable
 from typing import NoReturn
 
 MOMENT = 0.001
@@ -30,8 +31,7 @@ class _End:
 def end_at_once() -> None:
     """Let signals end the process at once, from its first line on; those that are ignored stay so."""
     _End.is_exception = False
-    for number in (signal.SIGINT, *_ENDINGS):
-        _handle(number)
+    handle_termination((signal.SIGINT, *_ENDINGS))
 
 
 def end_by_exceptions() -> None:
@@ -39,10 +39,11 @@ def end_by_exceptions() -> None:
     _End.is_exception = True
 
 
-def handle_termination() -> None:
+def handle_termination(numbers: Iterable[signal.Signals] = tuple(_ENDINGS)) -> None:
     """Let what ends a process by default be an exit; interrupts stay as they are."""
-    for number in _ENDINGS:
-        _handle(number)
+    for number in numbers:
+        if signal.getsignal(number) is not signal.SIG_IGN:  # under nohup a hang-up ends nothing
+            signal.signal(number, _end)
 
 
 def settled(code: int) -> int:
@@ -64,11 +65,6 @@ def ignore_interrupts() -> None:
 def received() -> int:
     """Exit code of a signal that came, which may have been swallowed or turned into another exception; 0 if none."""
     return _End.code
-
-
-def _handle(number: signal.Signals) -> None:
-    if signal.getsignal(number) is not signal.SIG_IGN:  # under nohup a hang-up ends nothing
-        signal.signal(number, _end)
 
 
 def _end(number: int, _frame: object) -> NoReturn:

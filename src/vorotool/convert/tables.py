@@ -57,7 +57,7 @@ def volume_points_of_table(table: Any) -> VolumePoints:
 
     names, columns = _columns_of(table)
     texts = [plain_text(each) for each in names]
-    chosen = space_columns(texts)
+    chosen = coordinate_columns(texts, axes=3)
     if chosen is None:
         raise InputError(f"expected columns x, y, z, but got {described(table)}; rename the columns")
     taken = _taken(table, texts, columns, chosen, axes=3)
@@ -199,19 +199,10 @@ MAP_NAMES = (*LONGITUDE_LATITUDE_NAMES, ("easting", "northing"), ("e", "n"))
 """Of which the second one grows northwards."""
 
 
-def coordinate_columns(names: Sequence[str]) -> list[int] | None:
+def coordinate_columns(names: Sequence[str], *, axes: int = 2) -> list[int] | None:
     """Find the columns of a table that are its coordinates, and then the one that is called label."""
-    return _known_columns(names, COORDINATE_NAMES)
-
-
-def space_columns(names: Sequence[str]) -> list[int] | None:
-    """Find the columns of a table that are coordinates of space; as `coordinate_columns` with a z."""
-    return _known_columns(names, SPACE_NAMES)
-
-
-def _known_columns(names: Sequence[str], known: Sequence[tuple[str, ...]]) -> list[int] | None:
     plain = [plain_name(name) for name in names]
-    for group in known:
+    for group in COORDINATE_NAMES if axes == 2 else SPACE_NAMES:
         if all(plain.count(each) == 1 for each in group):
             label = [plain.index("label")] if plain.count("label") == 1 else []
             return [*(plain.index(each) for each in group), *label]

@@ -93,7 +93,7 @@ class Opened:
             crs=None if crs is None else _member(crs),
             to_crs=None if to_crs is None else _member(to_crs),
             y_axis=None if y_up is None else y_axis_of(checked_flag(y_up, "y_up")),
-            flatten=checked_flatten(flatten),
+            flatten=None if flatten is None else checked_flatten(flatten),
             join_tolerance=None if join_tolerance is None else checked_tolerance(join_tolerance, allows_zero=True),
             **options,
         )
@@ -197,7 +197,8 @@ def read_recognized(holds: Holds, source: Source, options: ReadOptions) -> Any:
     reader: Callable[[Source, ReadOptions], Any] = resolved(name)
     value = reader(source, options)
     if is_of(value, "PointRows"):
-        value = resolved("formats.points.columns:point_set")(value)
+        make_set = resolved("types.points.point_set:PointSet")
+        value = make_set(value.coordinates, value.labels, value.properties, **value.placed)
     if holds not in ("points", "polygons", "sites"):
         return value
     if is_of(value, "Sites"):

@@ -31,12 +31,18 @@ def recognized_geometry(
 ) -> tuple[Holds, Source]:
     """Tell what a source holds that is no image, and give it with its format."""
     if geometry == "points" or (geometry in (None, "sites") and columns is not None):
-        return "points", _points(source, _by_header(source, said or point_format(source), columns), columns)
+        chosen = _by_header(source, said or point_format(source), columns)
+        source = text_source(source, chosen)
+        if columns is not None and source.format not in _WITH_COLUMNS:
+            raise UsageError(
+                f"{option('--columns')} applies to delimited text, but {source.name} is read as {chosen}: leave it out"
+            )
+        return "points", source
     if geometry == "sites":
         return _sites(*_either(source, said))
     if geometry == "polygons":
         holds: Holds = "polygons"
-        source = _with_format(source, said or polygon_format(source))
+        source = text_source(source, said or polygon_format(source))
     else:
         holds, source = _either(source, said)
     if holds == "polygons" and columns is not None:
@@ -73,9 +79,9 @@ def _by_header(source: Source, chosen: str, columns: str | None = None) -> str:
     if chosen != "csv" or columns is not None:
         return chosen
     from vorotool.convert.tables import coordinate_columns
-    from vorotool.formats.points.delimited import geometry_column, header_fields
+    from vorotool.formats.points.delimited import begun, geometry_column
 
-    fields = header_fields(text_source(source, chosen).data)
+    fields = begun(text_source(source, chosen).data).fields
     return "csv-wkt" if geometry_column(fields) is not None and coordinate_columns(fields) is None else chosen
 
 
@@ -99,9 +105,9 @@ def polygon_format(source: Source) -> str:
         raise InputError(
             f"{source.name} is empty, but polygons, lines or an image are expected; check the program that wrote it"
         )
-    from vorotool.formats.points.delimited import geometry_column, header_fields
+    from vorotool.formats.points.delimited import begun, geometry_column
 
-    is_table = found == "csv" and geometry_column(header_fields(text_source(source, found).data)) is None
+    is_table = found == "csv" and geometry_column(begun(text_source(source, found).data).fields) is None
     if "polygons" in INPUTS[found].readers and not is_table:
         return found
     raise InputError(
@@ -116,8 +122,8 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
         return "polygons", text_source(source, "poly")
     chosen = _by_header(source, said or _format(source))
     if chosen == "csv" or "polygons" not in INPUTS[chosen].readers:
-        return "points", _points(source, chosen, None)
-    source = _with_format(source, chosen)
+        return "points", text_source(source, chosen)
+    source = text_source(source, chosen)
     if INPUTS[chosen].features and chosen != "wkt":
         source = replace(source, document=resolved("formats.gis.feature_table:features_of")(source))
         return ("polygons" if source.document.holds_shapes else "points"), source
@@ -165,22 +171,13 @@ def _is_flat(data: bytes) -> bool:
     )
 
 
-def _points(source: Source, chosen: str, columns: str | None) -> Source:
-    source = _with_format(source, chosen)
-    if columns is not None and source.format not in _WITH_COLUMNS:
-        raise UsageError(
-            f"{option('--columns')} applies to delimited text, but {source.name} is read as {chosen}: leave it out"
-        )
-    return source
-
-
-def _with_format(source: Source, chosen: str) -> Source:
-    """Give a source with its format; of text, as `text_source` does."""
-    return replace(source, format=chosen) if "bytes" in INPUTS[chosen].has else text_source(source, chosen)
-
-
 def text_source(source: Source, chosen: str) -> Source:
-    """Take the byte order mark off, and refuse what is no text in an encoding that is read; tell JSON from lines."""
+    """Give a source with its format.
+
+    The byte order mark of text is taken off, JSON is told from lines of it, and what is no text is refused.
+    """
+    if "bytes" in INPUTS[chosen].has:
+        return replace(source, format=chosen)
     if source.data.startswith(_UTF16_MARKS):
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
     if source.data.startswith(NPZ):

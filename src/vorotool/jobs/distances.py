@@ -12,9 +12,10 @@ from vorotool.errors import InputError
 from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_polygons
+from vorotool.jobs.pixel_sizes import unit_of_vectors
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.second_files import coordinates_of, in_first_unit, unit_of_vectors
+from vorotool.jobs.second_files import in_first_unit
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress
 from vorotool.types.distances.distances import SMALLEST, Distances
@@ -60,7 +61,7 @@ class DistanceProducts(Results):
             )
         unit = unit_of_vectors(self.options, a)
         b = in_first_unit(self.run, self.options, (other.name, b), (one.name, unit), crs=a.crs)
-        self.run.coordinates = coordinates_of(self.options, a)
+        self.run.coordinates = unit_of_vectors(self.options, a, with_system=False)
         for which, mine, its in ((one, a, b), (other, b, a)):
             if mine.crs is None and its.crs is not None:
                 self.run.note(f"{which.name} states no coordinate reference system: {crs_name(its.crs)} is assumed")

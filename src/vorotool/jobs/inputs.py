@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -12,7 +12,7 @@ from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import STANDARD, input_identity
 from vorotool.formats.io.sources import file_of
 from vorotool.formats.zarr.store import is_folder, is_store
-from vorotool.jobs.options import Options, changed
+from vorotool.jobs.options import OF_FRAMES, OF_IMAGES, OF_SHAPES, OF_SITES, Options, changed
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import Measured, known_length, measured, unit_stats
@@ -71,9 +71,8 @@ def read_opened(
 
     The options that come back have lengths in its coordinates.
     """
-    from vorotool.jobs.pixel_sizes import lengths_of_image, lengths_of_vectors, side_of_pixel
+    from vorotool.jobs.pixel_sizes import lengths_of_image, lengths_of_vectors, side_of_pixel, unit_of_vectors
     from vorotool.jobs.refusals import check_image_size, check_unit
-    from vorotool.jobs.second_files import coordinates_of
     from vorotool.numeric.length_units import unit_of
 
     wants_unit = (
@@ -81,22 +80,18 @@ def read_opened(
     )  # a column may state it
     wants_properties = properties and not o.no_properties
 
-    def read(of: Opened, note: Callable[[str], None] | None = None, **more: Any) -> Any:
-        return of.read(
-            columns=columns,
-            max_pixels=o.max_pixels,
-            max_sites=o.max_sites,
-            properties=wants_properties or wants_unit,
-            threads=o.threads,
-            note=note,
-            crs=o.input_crs,
-            **more,
-        )
-
-    tolerances: dict[str, Any] = {}
-    if o.is_of_shapes:
-        source, tolerances = _tolerances(o, source, read)
-    value = read(source, run.note, to_crs=o.crs, y_up=o.y_up, curves_advice=curves_advice, **tolerances)
+    how: dict[str, Any] = {
+        "columns": columns,
+        "max_pixels": o.max_pixels,
+        "max_sites": o.max_sites,
+        "properties": wants_properties or wants_unit,
+        "threads": o.threads,
+        "crs": o.input_crs,
+    }
+    if o.command in OF_SHAPES:
+        source, tolerances = _tolerances(o, source, how)
+        how |= tolerances
+    value: Any = source.read(note=run.note, to_crs=o.crs, y_up=o.y_up, curves_advice=curves_advice, **how)
     if not is_of(value, "PointSet", "PolygonSet", "Sites", "Raster"):  # which is read where no geometry is asked for
         raise InputError(
             f"{given.name} is a {type(value).__name__}, a result of vorotool, but points or polygons are expected"
@@ -107,12 +102,12 @@ def read_opened(
         run.pixel, run.grid = side_of_pixel(value.grid), value.grid
         check_image_size(run, o, given.name, value.grid)
         return lengths_of_image(o, value.grid), value
-    if o.is_of_sites:
-        refuse(o.for_images, "applies to images, but the input is a list of points")
+    if o.command in OF_SITES:
+        refuse(o.among(*OF_IMAGES), "applies to images, but the input is a list of points")
     o = lengths_of_vectors(o, value)
     if o.pixel_size is not None and o.pixel_size.unit is not None:
         check_unit(run, o, given.name, unit_of(value))
-    run.coordinates = coordinates_of(o, value)
+    run.coordinates = unit_of_vectors(o, value, with_system=False)
     if run.coordinates is not None and o.pixel_size is None:
         run.stats["unit"] = run.coordinates.unit
     run.crs = (value.polygons if is_of(value, "Sites") else value).crs
@@ -121,7 +116,7 @@ def read_opened(
     return o, value if wants_properties or not wants_unit else replace(value, properties={})
 
 
-def _tolerances(o: Options, source: Opened, read: Callable[..., Any]) -> tuple[Opened, dict[str, Any]]:
+def _tolerances(o: Options, source: Opened, how: Mapping[str, Any]) -> tuple[Opened, dict[str, Any]]:
     """Give the tolerances of reading as numbers; where these have a unit, a first reading tells that of the input."""
     names = ("flatten", "join_tolerance")
     if any(isinstance(getattr(o, name), Measured) for name in names):
@@ -129,7 +124,7 @@ def _tolerances(o: Options, source: Opened, read: Callable[..., Any]) -> tuple[O
         from vorotool.types.images import Raster
 
         source = source.fetched()
-        first = read(source)
+        first: Any = source.read(**how)
         if not isinstance(first, Raster):
             others: dict[str, Any] = {name: None for name in measured(o) if name not in names}
             o = lengths_of_vectors(changed(o, **others), first)
@@ -194,7 +189,7 @@ def read_sites(
             report_no_geometry(run, o)
         return o, value
     refuse({"columns": o.columns}, "applies to lists of points, but the input is an image")
-    refuse(o.of_frame, "applies to lists of points, but the input is an image, which brings its own frame")
+    refuse(o.among(*OF_FRAMES), "applies to lists of points, but the input is an image, which brings its own frame")
     # The sites of objects are their centroids, but their regions are not those of the centroids.
     return o, seeds_of_image(run, o, value, None if o.seeds == "centroids" and not is_digital else o.seeds)
 

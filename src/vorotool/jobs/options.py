@@ -29,6 +29,10 @@ OF_SITES = ("tessellate", "delaunay", "alphashape")
 """Commands whose sites are points, or the seeds of an image."""
 OF_SHAPES = ("voronoi", "skeleton-approx", "skeleton-exact")
 """Commands that take shapes, or the outlines of an image."""
+OF_IMAGES = ("page", "seeds", "connectivity", "threshold", "invert", "min-area", "fill-holes", "outline", "border")
+"""Options that mean nothing for points, or for polygons and lines, for which ``--spacing`` means nothing either."""
+OF_FRAMES = ("cell-size", "like", "size", "window")
+"""Options of the frame that lists of points are tessellated in."""
 
 
 class Options:
@@ -70,30 +74,6 @@ class Options:
 
     # ---- the input
     @property
-    def is_of_sites(self) -> bool:
-        """Whether the command takes points, or the seeds of an image."""
-        return self.command in OF_SITES
-
-    @property
-    def is_of_shapes(self) -> bool:
-        """Whether the command takes shapes, or the outlines of an image."""
-        return self.command in OF_SHAPES
-
-    @property
-    def for_images(self) -> dict[str, Any]:
-        """Options that mean nothing for points, or for polygons and lines, by their names."""
-        names = ("page", "seeds", "connectivity", "threshold", "invert", "min-area", "fill-holes", "outline", "border")
-        return self._of("spacing", *names) if self.is_of_shapes else self._of(*names)
-
-    @property
-    def of_frame(self) -> dict[str, Any]:
-        """Options of the frame that lists of points are tessellated in, by their names."""
-        return self._of("cell-size", "like", "size", "window")
-
-    def _of(self, *names: str) -> dict[str, Any]:
-        return {name: getattr(self, name.replace("-", "_")) for name in names}
-
-    @property
     def is_of_space(self) -> bool:
         """Whether the input has three axes: it says so itself, or its frame or its columns do."""
         has_z = self.columns is not None and any(part.strip()[:2].lower() == "z=" for part in self.columns.split(","))
@@ -125,9 +105,13 @@ class Options:
         """Whether objects go on beyond the image that cuts them."""
         return bool(self.border == "open")
 
+    def among(self, *names: str) -> dict[str, Any]:
+        """Give some options by their names, as users type them."""
+        return {name: getattr(self, name.replace("-", "_")) for name in names}
+
     def files_of_inputs(self) -> dict[str, str]:
         """Give the files that are read beside each input, by the names of the options."""
-        return {name: path for name, path in self._of("like", "clip", "enclosures", "overlay").items() if path}
+        return {name: path for name in ("like", "clip", "enclosures", "overlay") if (path := getattr(self, name))}
 
     def files_read(self) -> dict[str, str]:
         """Give the files that are read beside the inputs, and so are never replaced, as the user names them."""

@@ -7,7 +7,7 @@ from math import ceil
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, report_no_geometry
-from vorotool.jobs.options import Options, changed
+from vorotool.jobs.options import OF_IMAGES, Options, changed
 from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
@@ -45,7 +45,7 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons:
         o, value = read_opened(run, o, given, source, curves_advice=advice)
     if is_of(value, "Raster"):
         return outlined(run, o, given, value)
-    refuse(o.for_images, "applies to images, but the input is polygons or lines")
+    refuse(o.among("spacing", *OF_IMAGES), "applies to images, but the input is polygons or lines")
     if not len(value):
         report_no_geometry(run, o)
     return ReadPolygons(

@@ -222,6 +222,16 @@ def lengths_of_vectors(o: Options, value: PointSet | PolygonSet | Sites) -> Opti
     return _converted(o, unit, _shapes(value))
 
 
+def unit_of_vectors(o: Options, value: Any, *, with_system: bool = True) -> InputUnit | None:
+    """Return the unit of coordinates: of ``--pixel-size``, else the one stated, by a reference system only if asked."""
+    from vorotool.numeric.length_units import InputUnit, unit_of
+
+    size = o.pixel_size
+    if size is not None and size.unit is not None:
+        return InputUnit(size.unit, size.factor)
+    return unit_of(value) if with_system or getattr(value, "polygons", value).crs is None else None
+
+
 def _shapes(value: PointSet | PolygonSet | Sites) -> PointSet | PolygonSet:
     from vorotool.convert.sites import Sites
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, UsageError, meant
-from vorotool.jobs.options import Options
+from vorotool.jobs.options import OF_SHAPES, Options
 from vorotool.jobs.pixel_sizes import unit_of_grid
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import Measured, check_frame
@@ -178,7 +178,7 @@ def _check_values(o: Options) -> None:
     if o.window is not None and o.cell_size is None and not all(isinstance(number, int) for number in o.window):
         shown = ",".join(f"{float(number):g}" for number in o.window)
         raise UsageError(f"invalid --window '{shown}': expected four integers X,Y,W,H, such as -10,-10,640,480")
-    if o.frame is not None and o.is_of_shapes and not any(isinstance(each, Measured) for each in o.frame):
+    if o.frame is not None and o.command in OF_SHAPES and not any(isinstance(each, Measured) for each in o.frame):
         check_frame(o.frame)
 
 

@@ -25,23 +25,6 @@ if TYPE_CHECKING:
 Data = TypeVar("Data", "PointSet", "PolygonSet")
 
 
-def unit_of_vectors(o: Options, value: Any) -> InputUnit | None:
-    """Return the unit of the coordinates of an input: of ``--pixel-size``, else as it states."""
-    from vorotool.numeric.length_units import InputUnit, unit_of
-
-    size = o.pixel_size
-    if size is not None and size.unit is not None:
-        return InputUnit(size.unit, size.factor)
-    return unit_of(value)
-
-
-def coordinates_of(o: Options, value: Any) -> InputUnit | None:
-    """Return the same, but where only a coordinate reference system states it."""
-    has_system = getattr(value, "polygons", value).crs is not None
-    states = not has_system or (o.pixel_size is not None and o.pixel_size.unit is not None)
-    return unit_of_vectors(o, value) if states else None
-
-
 def side_of_backdrop(run: Run, o: Options, grid: PixelGrid | None) -> float:
     """Return the side of a pixel of ``--overlay`` in the coordinates of points, lines and polygons drawn over it."""
     from vorotool.numeric.length_units import ratio

@@ -29,7 +29,7 @@ from vorotool.jobs.inputs import (
     seeds_of_image,
     tell_outside,
 )
-from vorotool.jobs.options import Options, changed
+from vorotool.jobs.options import OF_FRAMES, Options, changed
 from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.pixel_sizes import lengths_of_image, unit_of_grid, with_pixel_size, written_grid
 from vorotool.jobs.refusals import check_image_size, refuse
@@ -119,7 +119,7 @@ def _seeds_of(run: Run, o: Options, value: PointSet | PolygonSet | Raster) -> Se
     if isinstance(value, PointSet):
         return seeds_in_frame(value, asked_frame(o) or partial(frame_of, o), sides=sides_of(o), strict=o.strict)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
-    refuse({"columns": o.columns, **o.of_frame}, _OF_POINTS)
+    refuse(o.among("columns", *OF_FRAMES), _OF_POINTS)
     return seeds_of_image(run, o, value, o.seeds)
 
 
@@ -258,7 +258,7 @@ def _streamed(run: Run, o: Options, image: ZarrRows | TiffRows) -> StreamedImage
     """Read an image that is not held."""
     from vorotool.formats.zarr.writer import CHUNK
 
-    refuse(o.of_frame, _OF_POINTS)
+    refuse(o.among(*OF_FRAMES), _OF_POINTS)
     if image.note:
         run.note(image.note)
     assert o.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held

@@ -20,7 +20,7 @@ from vorotool.jobs.inputs import (
     window_of,
 )
 from vorotool.jobs.options import Options
-from vorotool.jobs.pixel_sizes import in_steps, placed_backdrop, placed_mesh, placed_sites
+from vorotool.jobs.pixel_sizes import in_steps, placed_backdrop, placed_mesh, placed_sites, unit_of_vectors
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import Amount, box_amounts, in_units, refuse_lengths, sides_of, table_in_units, unit_columns
@@ -93,7 +93,7 @@ class MeshProducts(Results):
 
     def _clipped(self, given: JobInput, points: Any) -> tuple[Any, Sequence[Any]]:
         """Read the polygons of ``--clip``."""
-        from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
+        from vorotool.jobs.second_files import First, read_cut, unit_of_image
         from vorotool.types.polygons.shapely_geometry import to_shapely
 
         o = self.options

@@ -112,7 +112,12 @@ def _in_steps(value: Any, step: Fraction) -> Any:
 
 def shows_units(targets: Sequence[Target]) -> bool:
     """Tell whether an output has lengths."""
-    return any(_has_units(target) for target in targets)
+    return any(  # images have lengths in thickness and plots, and in arrays of places and radii
+        target.what in ("thickness", *PLOTS)
+        or (target.fmt == "npy" and target.what in ("points", "spectrum"))
+        or not FORMATS[target.fmt].is_image
+        for target in targets
+    )
 
 
 @frozen
@@ -184,16 +189,17 @@ def refuse_lengths(o: Options, reason: str, kind: type[VorotoolError] = UsageErr
 
 def measured(o: Options) -> list[str]:
     """Names of the options that have a unit: some of those that are given."""
-    return [name for name in o.sources if _has_unit(getattr(o, name))]
+    values = {name: getattr(o, name) for name in o.sources}
+    return [
+        name
+        for name, value in values.items()
+        if any(isinstance(each, Measured) for each in (value if isinstance(value, tuple) else (value,)))
+    ]
 
 
 def _converted(o: Options, convert: Callable[[str, Measured], Any]) -> dict[str, Any]:
     """Convert the values of all options that have a unit."""
     return {name: _in_pixels(flag(o.command, name), getattr(o, name), convert) for name in measured(o)}
-
-
-def _has_unit(value: Any) -> bool:
-    return isinstance(value, Measured) or (isinstance(value, tuple) and any(isinstance(x, Measured) for x in value))
 
 
 def _in_pixels(option: str, value: Any, converted: Callable[[str, Measured], Any]) -> Any:
@@ -253,12 +259,6 @@ def check_units(o: Options, targets: Sequence[Target]) -> None:
     of_map = getattr(o, "is_laid_out", False) and any(each.what.startswith("distance") for each in targets)
     if not shows_units(targets) and not o.scale_bar and not of_map:
         raise UsageError("--pixel-size applies to tables and vectors: use --what table, or leave it out")
-
-
-def _has_units(target: Target) -> bool:
-    """Whether there are lengths in an output: of images in thickness and plots, and in arrays of places and radii."""
-    is_array = target.fmt == "npy" and target.what in ("points", "spectrum")
-    return is_array or target.what == "thickness" or target.what in PLOTS or not FORMATS[target.fmt].is_image
 
 
 def in_units(size: PixelSize | None, value: Value) -> Value:

@@ -22,7 +22,7 @@ from vorotool.formats.volumes.opening import kind_of_head, open_volume
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
 from vorotool.jobs.inputs import JobInput, frame_of, read_voxel_points, report_no_seeds
-from vorotool.jobs.options import Options, changed
+from vorotool.jobs.options import OF_FRAMES, OF_IMAGES, Options, changed
 from vorotool.jobs.outlined_images import report_cleaning
 from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.pixel_sizes import lengths_of_voxels, spacing_of
@@ -131,7 +131,7 @@ def read_volume_seeds(run: Run, o: Options, given: JobInput) -> tuple[Options, V
     """Read a volume, or points of space; options with a unit are in that of the voxels then."""
     if not _is_volume(o, given.path):
         return _read_points(run, o, given)
-    of_points = {"columns": o.columns, **o.of_frame}
+    of_points = o.among("columns", *OF_FRAMES)
     refuse(of_points, "applies to lists of points, but the input is a volume with its own frame")
     with reading(given.path):
         source = open_volume(given.path, input_format=o.input_format)
@@ -155,7 +155,7 @@ def _read_points(run: Run, o: Options, given: JobInput) -> tuple[Options, Volume
             "0.325,0.325,1.5um"
         )
     o = lengths_of_voxels(o, None)
-    of_volumes = {key: value for key, value in o.for_images.items() if key in _OF_VOLUMES}
+    of_volumes = o.among(*(name for name in OF_IMAGES if name in _OF_VOLUMES))
     refuse(of_volumes, "applies to volumes, but the input is a list of points")
     run.stats |= unit_stats(o.pixel_size)
     with reading(given.path):

@@ -19,12 +19,12 @@ from vorotool.jobs.inputs import (
     report_no_geometry,
     tell_empty_cells,
 )
-from vorotool.jobs.options import Options
-from vorotool.jobs.pixel_sizes import placed_backdrop
+from vorotool.jobs.options import OF_IMAGES, Options
+from vorotool.jobs.pixel_sizes import placed_backdrop, unit_of_vectors
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.second_files import First, read_cut, unit_of_image, unit_of_vectors
+from vorotool.jobs.second_files import First, read_cut, unit_of_image
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import Amount, box_amounts, in_units, unit_columns
 from vorotool.numeric.parallel import Progress
@@ -77,7 +77,7 @@ class VoronoiProducts(Results):
             refuse({"columns": o.columns}, "applies to lists of points, but the input is an image")
             image: ReadPolygons = resolved("jobs.outlined_images:outlined")(run, o, given, value)
             return as_sites(image.polygons), image, image.options
-        of_images = {**o.for_images, "simplify": o.simplify}
+        of_images = o.among("spacing", *OF_IMAGES, "simplify")
         refuse(of_images, "applies to images, but the input holds points, lines or polygons")
         sites = as_sites(value)
         if not len(sites.polygons):

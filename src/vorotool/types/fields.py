@@ -176,8 +176,10 @@ class Record:
 
     def __post_init__(self) -> None:
         sizes: dict[str, int] = {}
-        for name, each in declared(self).items():
-            object.__setattr__(self, name, each.settle(getattr(self, name), name, sizes))
+        for each in fields(self):  # type: ignore[arg-type]
+            own: Declared | None = each.metadata.get(_KEY)
+            if own is not None:
+                object.__setattr__(self, each.name, own.settle(getattr(self, each.name), each.name, sizes))
 
 
 YAxis = Literal["up", "down", "none"]

@@ -54,14 +54,6 @@ class Computed:
         return self.function(rows)
 
 
-def _rows_of(column: Any, name: Any) -> int:
-    """Count the rows of a column."""
-    try:
-        return len(column)
-    except TypeError:
-        raise InputError(f"column {name} is not a list or array of values: give one value per row") from None
-
-
 class Table(dict[str, Any], Tabular):
     """Columns by name, in order; a masked array or None marks fields that do not exist.
 
@@ -89,7 +81,13 @@ class Table(dict[str, Any], Tabular):
 
     def __init__(self, columns: Mapping[str, Any]) -> None:
         stored = columns.stored() if isinstance(columns, Table) else dict(columns)
-        lengths = {name: _rows_of(column, name) for name, column in stored.items()}
+        lengths: dict[str, int] = {}
+        for name, column in stored.items():
+            try:
+                lengths[name] = len(column)
+            except TypeError:
+                text = f"column {name} is not a list or array of values: give one value per row"
+                raise InputError(text) from None
         if len(set(lengths.values())) > 1:
             raise InputError(f"columns must have one length, but have {lengths}")
         super().__init__(stored)
@@ -155,7 +153,7 @@ class Table(dict[str, Any], Tabular):
 
     def stored(self) -> dict[str, Any]:
         """Columns as they were stored, before any are looked up or computed."""
-        return {name: super(Table, self).__getitem__(name) for name in self}
+        return dict(super().items())
 
     def with_properties(self, properties: Mapping[str, Any]) -> Table:
         """Add the input's own columns; on a clash of names ours take the prefix ``voro_``."""

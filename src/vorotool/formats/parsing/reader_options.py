@@ -56,15 +56,12 @@ class ReadOptions:
         """Coordinates of a point."""
         return 3 if self.wants_z else 2
 
-    def check_sites(self, name: str, count: int) -> None:
-        """Raise LimitError if ``count`` sites are too many."""
-        self._check_count(name, count, "points", LARGEST_LABEL)
-
     def check_vertices(self, name: str, count: int) -> None:
         """Raise LimitError if ``count`` vertices are too many."""
-        self._check_count(name, count, "vertices", MOST_VERTICES)
+        self.check_sites(name, count, "vertices", MOST_VERTICES)
 
-    def _check_count(self, name: str, count: int, noun: str, most: int) -> None:
+    def check_sites(self, name: str, count: int, noun: str = "points", most: int = LARGEST_LABEL) -> None:
+        """Raise LimitError if ``count`` sites are too many."""
         limit = most if self.max_sites is None else min(self.max_sites, most)
         if count > limit:
             advice = f"raise {option('--max-sites')} or split the file" if limit < most else "split the file"

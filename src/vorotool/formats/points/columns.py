@@ -8,10 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.convert.tables import coordinate_columns, plain_name, space_columns
+from vorotool.convert.tables import coordinate_columns, plain_name
 from vorotool.errors import InputError, UsageError, option
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
-from vorotool.types.points.point_set import PointSet
 
 COLUMNS, _X_Y = option("--columns"), option("--columns X,Y", 'columns="X,Y"')
 _BEGINNINGS = (("x", "y"), ("longitude", "latitude"), ("lon", "lat"), ("lng", "lat"), ("east", "north"))
@@ -84,7 +83,7 @@ def chosen_columns(name: str, fields: list[str], options: ReadOptions) -> Chosen
 
 def _recognize(name: str, fields: list[str], options: ReadOptions) -> tuple[bool, Chosen]:
     """Find the coordinates by the header; two columns without one are x, y, in space three x, y, z."""
-    chosen = space_columns(fields) if options.wants_z else coordinate_columns(fields)
+    chosen = coordinate_columns(fields, axes=options.axes)
     if chosen is not None:
         used = [fields[column] for column in chosen]
         plain = ["x", "y", "z"][: options.axes]
@@ -203,8 +202,3 @@ class PointRows(NamedTuple):
     labels: NDArray[np.int64] | None  # (n,) int64 array: the input's own
     properties: dict[str, Any]  # further columns
     placed: dict[str, Any]  # direction of y and coordinate reference system, as `PointSet` takes them
-
-
-def point_set(rows: PointRows) -> PointSet:
-    """Give points of the plane."""
-    return PointSet(rows.coordinates, rows.labels, rows.properties, **rows.placed)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,13 +84,10 @@ class DelimitedText:
 
 def read_text(source: Source, options: ReadOptions) -> PointRows:
     """Read delimited text."""
-    data = _plain_lines(source.data)
     wanted = None if options.columns is None else parse_columns(options.columns, wants_z=options.wants_z)
-    delimiter = _guess_delimiter(data)
-    first = _core.text.first_record(data, delimiter)
-    if first is None:
+    data, delimiter, line, fields = begun(source.data)
+    if not line:
         return PointRows(no_points(options.axes), None, {}, {})
-    line, _, fields = first
     header, chosen = choose(source.name, fields, wanted, options)
     layout = DelimitedText(source.name, data, delimiter, line, fields, header, chosen)
     if options.max_sites is not None and data.count(b"\n") >= options.max_sites:
@@ -106,13 +103,6 @@ def read_text(source: Source, options: ReadOptions) -> PointRows:
     return numbered
 
 
-def header_fields(data: bytes) -> list[str]:
-    """Fields of the first record of delimited text."""
-    data = _plain_lines(data)
-    first = _core.text.first_record(data, _guess_delimiter(data))
-    return [] if first is None else first[2]
-
-
 def geometry_column(fields: Sequence[str]) -> int | None:
     """Which column holds geometry, by its usual names; None if there is none."""
     lower = [field.strip().lower() for field in fields]
@@ -121,24 +111,31 @@ def geometry_column(fields: Sequence[str]) -> int | None:
 
 def delimited_text(source: Source) -> DelimitedText:
     """Take delimited text apart; its first record is a header."""
-    data = _plain_lines(source.data)
-    delimiter = _guess_delimiter(data)
+    data, delimiter, line, fields = begun(source.data)
     if delimiter == " ":  # there is one column, whose geometry has blanks and commas
         delimiter = "\t"
-    line, _, fields = _core.text.first_record(data, delimiter) or (1, "", [])
-    return DelimitedText(source.name, data, delimiter, line, fields, True, Chosen(0, 0))
+        line, _, fields = _core.text.first_record(data, delimiter) or (0, "", [])
+    return DelimitedText(source.name, data, delimiter, line or 1, fields, True, Chosen(0, 0))
 
 
-def _plain_lines(data: bytes) -> bytes:
-    """Give lines that end with LF: a text without any LF may end them with CR."""
-    return data if b"\n" in data or b"\r" not in data else data.replace(b"\r", b"\n")
+class Begun(NamedTuple):
+    """Delimited text whose first record has been looked at."""
+
+    data: bytes  # with lines that end with LF: a text without any LF may end them with CR
+    delimiter: str
+    line: int  # of the first record; 0 where there is none
+    fields: list[str]
 
 
-def _guess_delimiter(data: bytes) -> str:
+def begun(data: bytes) -> Begun:
+    """Find the delimiter of text, and the fields of its first record."""
+    data = data if b"\n" in data or b"\r" not in data else data.replace(b"\r", b"\n")
     first = _core.text.first_record(data, ",")
     text = "" if first is None else first[1]
     text = (re.sub(_QUOTED, "", text) if '"' in text else text).strip()
-    return next((delimiter for delimiter in ("\t", ";", ",") if delimiter in text), " ")
+    delimiter = next((each for each in ("\t", ";", ",") if each in text), " ")
+    line, _, fields = _core.text.first_record(data, delimiter) or (0, "", [])
+    return Begun(data, delimiter, line, fields)
 
 
 def _read_rows(layout: DelimitedText, options: ReadOptions) -> PointRows:

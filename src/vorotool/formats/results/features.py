@@ -15,7 +15,6 @@ from vorotool.formats.text.tables import (
     json_column,
     json_text,
     object_shape,
-    placed_column,
     write_collection,
     write_npz,
 )
@@ -153,7 +152,7 @@ def _features(rows: Rows, precision: int | None) -> tuple[Sequence[Column], RowS
     if isinstance(rows.geometry, PolygonSet):
         return feature_columns(written_polygons(rows.geometry))
     table = rows.table(is_file=True, has_ids=False).stored()
-    columns = [json_column(placed_column(Column.of(name, column)), precision) for name, column in table.items()]
+    columns = [json_column(Column.of(name, column), precision) for name, column in table.items()]
     geometry, (before, *between, closing), _ = geometry_text(rows, "geojson")
     ids, opening, after = _ids(rows)
     first, *others = object_shape([column.name for column in columns], "", f',"geometry":{before}').around
@@ -255,7 +254,7 @@ def _written(cells: CellSet) -> Any:
 
 def _looked_up(name: str, values: Any, cell: NDArray[np.int32], precision: int | None) -> Column:
     """The column of the polygons from that of the cells."""
-    column = json_column(placed_column(Column.of(name, values)), precision)
+    column = json_column(Column.of(name, values), precision)
     if isinstance(column.values, list):
         missing = None if column.missing is None else column.missing[cell]
         return Column(name, [column.values[i] for i in cell.tolist()], missing)
@@ -278,5 +277,5 @@ def write_cells_arrays(out: BinaryIO, cells: CellSet, *, threads: int = 0) -> No
         Y_AXIS: np.array([cells.y_axis]),
     }
     table = rows_of(cells).table().stored()
-    columns = [placed_column(Column.of(name, values)) for name, values in table.items()]
+    columns = [Column.of(name, values) for name, values in table.items()]
     write_npz(out, [*columns, *(Column.of(name, values) for name, values in arrays.items())], threads)

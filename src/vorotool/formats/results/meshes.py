@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, warn
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
-from vorotool.formats.text.tables import placed_column, write_npz
+from vorotool.formats.text.tables import write_npz
 from vorotool.numeric.arrays import Floats, owners, starts_of, within
 from vorotool.numeric.coordinates import on_grid
 from vorotool.types.features import rows_of
@@ -362,5 +362,5 @@ def _write_npz(out: BinaryIO, places: Floats, cells: SpaceCellSet, threads: int)
         "box": cells.box.reshape(-1),
     }
     table = rows_of(cells).table().stored()
-    columns = [placed_column(Column.of(name, values)) for name, values in table.items()]
+    columns = [Column.of(name, values) for name, values in table.items()]
     write_npz(out, [*columns, *(Column.of(name, values) for name, values in arrays.items())], threads)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, BinaryIO, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -13,7 +12,7 @@ from vorotool import _core
 from vorotool.errors import UsageError, option
 from vorotool.frozen import frozen
 from vorotool.numeric.checks import is_masked_array
-from vorotool.numeric.coordinates import on_grid
+from vorotool.numeric.coordinates import current_written, on_grid
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import in_order
 from vorotool.types.table import Computed, Lookup
@@ -22,6 +21,10 @@ SLICE_ROWS = 1 << 14
 """Rows whose text is made at a time: some 2 MB."""
 
 MOST_DIGITS = 17
+
+_ENDS = ("", "0", "1", "_a", "_b", "_1", "_2", "_3")
+PLACES = frozenset(["z", "cx", "cy", "bbox_x", "bbox_y", *(f"{axis}{end}" for axis in "xy" for end in _ENDS)])
+"""Columns of coordinates, which are rounded to the decimals of the file."""
 
 _WIDE = {"b": np.bool_, "i": np.int64, "u": np.uint64, "f": np.float64}
 
@@ -52,22 +55,32 @@ class Column:
 
     @staticmethod
     def of(name: str, column: Any) -> Column:
-        """Widen an array, find out what is missing, and take for a list what no array holds."""
-        if isinstance(column, Lookup):
-            values = column.values
-            return Column(name, Lookup(_widened(values), column.index) if isinstance(values, np.ndarray) else column)
-        if isinstance(column, Computed):
+        """Widen an array, find out what is missing, and round coordinates; what no array holds is a list."""
+        is_place = name.removeprefix("voro_") in PLACES
+        if is_place:
+            current_written().has_places = True
+        if isinstance(column, Computed) or (isinstance(column, Lookup) and isinstance(column.values, list)):
             return Column(name, column)
+        if isinstance(column, Lookup):
+            found: NDArray[Any] = column.values  # type: ignore[assignment]  # lists are gone
+            wide: NDArray[Any] = np.ascontiguousarray(found, dtype=_WIDE[found.dtype.kind])
+            is_place = is_place and wide.dtype.kind == "f"
+            return Column(name, Lookup(on_grid(wide) if is_place else wide, column.index), is_place=is_place)
         mask = np.ma.getmaskarray(column) if is_masked_array(column) else None
         array = _as_array(np.ma.getdata(column) if mask is not None else column)
+        values: NDArray[Any] | list[Any]
         if array is None or array.dtype.kind not in "biuf":
             values = column.tolist() if isinstance(column, np.ndarray) else list(column)
             absent = np.array([_is_absent(value) for value in values], dtype=bool)
+            is_place = False
         else:
-            values = _widened(array)
-            absent = ~np.isfinite(values) if values.dtype.kind == "f" else np.zeros(len(values), dtype=bool)
+            wide = np.ascontiguousarray(array, dtype=_WIDE[array.dtype.kind])
+            is_number = wide.dtype.kind == "f"
+            absent = ~np.isfinite(wide) if is_number else np.zeros(len(wide), dtype=bool)
+            is_place = is_place and is_number
+            values = on_grid(wide) if is_place else wide
         absent = absent if mask is None else absent | mask
-        return Column(name, values, absent if absent.any() else None)
+        return Column(name, values, absent if absent.any() else None, is_place)
 
     def mapped(self, text: Callable[[Any], str]) -> Column:
         """Make texts of the values of a list; arrays stay."""
@@ -76,16 +89,13 @@ class Column:
             return Column(self.name, Lookup([text(value) for value in values.values], values.index))
         return Column(self.name, [text(value) for value in values], self.missing) if isinstance(values, list) else self
 
-    def part(self, rows: slice) -> Column:
-        """Give some of the rows; of a lookup, not yet looked up; others are computed now."""
-        if isinstance(self.values, Lookup):
-            return replace(self, values=Lookup(self.values.values, self.values.index[rows]), missing=None)
-        missing = None if self.missing is None else self.missing[rows]
-        return replace(self, values=self.values[rows], missing=missing)
-
-
-def _widened(array: NDArray[Any]) -> NDArray[Any]:
-    return np.ascontiguousarray(array, dtype=_WIDE[array.dtype.kind])
+    def part(self, rows: slice, texts: Mapping[int, _core.text.NumberTexts]) -> tuple[Any, NDArray[np.bool_] | None]:
+        """Give some of the rows, and what is missing of them, as the core takes them; others are computed now."""
+        values, missing = self.values, None if self.missing is None else self.missing[rows]
+        if isinstance(values, Lookup):
+            return (texts.get(id(values.values), values.values), values.index[rows]), None
+        part = values[rows]
+        return part.astype(np.int64) if isinstance(part, np.ndarray) and part.dtype.kind == "b" else part, missing
 
 
 def _as_array(column: Any) -> NDArray[Any] | None:
@@ -144,9 +154,8 @@ def write_rows(
     rows = len(columns[0].values)
 
     def formatted(part: slice) -> list[bytes]:
-        parts = [column.part(part) for column in columns]
-        values = [_core_values(column, texts) for column in parts]
-        missing = [column.missing for column in parts]
+        parts = [column.part(part, texts) for column in columns]
+        values, missing = [each for each, _ in parts], [each for _, each in parts]
         return _core.text.format_rows(values, missing, each_digits, 1, shape, by_tabs)
 
     between = b"" if shape is None else shape.separator.encode()
@@ -186,17 +195,6 @@ def _lookup_texts(columns: Sequence[Column], digits: Sequence[int], threads: int
         for key, (array, n) in arrays.items()
         if isinstance(array, np.ndarray) and array.dtype.kind == "f"
     }
-
-
-def _core_values(column: Column, texts: dict[int, _core.text.NumberTexts]) -> Any:
-    values = column.values
-    if isinstance(values, Lookup):
-        return (texts.get(id(values.values), values.values), values.index)
-    if isinstance(values, list | Computed):
-        return values[:]
-    if isinstance(values, _core.text.PolygonTexts):
-        return values
-    return values.astype(np.int64) if values.dtype.kind == "b" else values
 
 
 def coordinate_text(value: float) -> str:

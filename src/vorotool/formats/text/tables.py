@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from datetime import date
+from functools import partial
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, BinaryIO, Self
 
@@ -21,7 +22,7 @@ from vorotool.formats.text.row_writer import (
     write_list_rows,
     write_rows,
 )
-from vorotool.numeric.coordinates import current_written, on_grid
+from vorotool.numeric.coordinates import current_written
 from vorotool.numeric.length_units import is_known
 from vorotool.numeric.numbers import NumberText
 from vorotool.numeric.parallel import in_order
@@ -39,31 +40,13 @@ _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at 
 def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
     """Write a table; the bytes depend on nothing but the table, the format and the precision."""
     check_precision(precision)
-    columns = [placed_column(Column.of(name, values)) for name, values in _with_unit(table).items()]
+    columns = [Column.of(name, values) for name, values in _with_unit(table).items()]
     if fmt in ("csv", "tsv"):
         _write_delimited(out, columns, fmt == "tsv", precision, threads)
     elif fmt == "json":
         _write_json(out, columns, precision, threads)
     else:
         write_npz(out, columns, threads)
-
-
-_ENDS = ("", "0", "1", "_a", "_b", "_1", "_2", "_3")
-_PLACES = frozenset(["z", "cx", "cy", "bbox_x", "bbox_y", *(f"{axis}{end}" for axis in "xy" for end in _ENDS)])
-"""Columns of coordinates."""
-
-
-def placed_column(column: Column) -> Column:
-    """Round a column of coordinates to the decimals of the file."""
-    values = column.values
-    if column.name.removeprefix("voro_") not in _PLACES:
-        return column
-    current_written().has_places = True
-    if isinstance(values, Lookup) and isinstance(values.values, np.ndarray) and values.values.dtype.kind == "f":
-        return replace(column, values=Lookup(on_grid(values.values), values.index), is_place=True)
-    if isinstance(values, np.ndarray) and values.dtype.kind == "f":
-        return replace(column, values=on_grid(values), is_place=True)
-    return column
 
 
 # ---- units ---------------------------------------------------------------------------------------
@@ -90,20 +73,16 @@ def safe_text(text: str) -> str:
 
 
 def _write_delimited(out: BinaryIO, columns: list[Column], by_tabs: bool, precision: int | None, threads: int) -> None:
-    is_safe = current_written().how.is_safe
-
-    def text(value: Any) -> str:
-        return safe_text(value) if is_safe and isinstance(value, str) else _text_of(value, precision)
-
+    text = partial(_text_of, precision=precision, is_safe=current_written().how.is_safe)
     write_rows(out, [Column(column.name, [text(column.name)]) for column in columns], by_tabs=by_tabs)
     texts = [column.mapped(text) for column in columns]
     write_rows(out, texts, by_tabs=by_tabs, precision=precision, threads=threads)
 
 
-def _text_of(value: Any, precision: int | None) -> str:
+def _text_of(value: Any, precision: int | None, *, is_safe: bool = False) -> str:
     """Text of a mixed column: numbers as in other columns, lists and objects as JSON."""
     if isinstance(value, str):
-        return value
+        return safe_text(value) if is_safe else value
     if value is None:
         return ""
     if isinstance(value, float):
