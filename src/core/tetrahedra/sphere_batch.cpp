@@ -13,6 +13,16 @@ struct Portable {
   static unsigned mask(const Chosen& chosen) {
     return static_cast<unsigned>((chosen[0] & 1) | (chosen[1] & 2));
   }
+  // As T. J. Dekker (1971), of factors below 2^996.
+  template <class Vector>
+  static Vector product_error(const Vector& a, const Vector& b, const Vector& product) {
+    const auto head_of = [](const Vector& v) {
+      const Vector large = v * (0x1p27 + 1);
+      return large - (large - v);
+    };
+    const Vector a_head = head_of(a), b_head = head_of(b), a_tail = a - a_head, b_tail = b - b_head;
+    return a_tail * b_tail - (((product - a_head * b_head) - a_tail * b_head) - a_head * b_tail);
+  }
 };
 
 }  // namespace

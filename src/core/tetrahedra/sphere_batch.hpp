@@ -27,6 +27,9 @@ struct SphereBound {
 // ties broken.
 struct SphereSides {
   unsigned inside, outside;
+
+  bool are_all(int tetrahedra) const { return (inside | outside) + 1 == 1U << tetrahedra; }
+  void add(const SphereSides& more) { inside |= more.inside, outside |= more.outside; }
 };
 
 // Four tetrahedra of an array that has the numbers of their vertices at the front of records of eight. Of one that has

@@ -14,6 +14,10 @@ struct Avx2 {
   static unsigned mask(const Chosen& chosen) {
     return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<const __m256d&>(chosen)));
   }
+  template <class Vector>
+  static Vector product_error(const Vector& a, const Vector& b, const Vector& product) {
+    return _mm256_fmsub_pd(a, b, product);
+  }
 };
 
 }  // namespace

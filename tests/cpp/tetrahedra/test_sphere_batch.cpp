@@ -28,14 +28,16 @@ std::vector<Point3> drawn_points(Random& random, std::int64_t most, int exponent
   return points;
 }
 
-void batch_agrees(SphereBatch kernel, const std::vector<Point3>& points, const SetPredicates& predicates,
-                  bool is_exact) {
+// How many lanes tell.
+int batch_agrees(SphereBatch kernel, const std::vector<Point3>& points, const SetPredicates& predicates,
+                 bool is_exact) {
   const Point3& p = points.back();
   int records[4][8] = {};
   const unsigned tetrahedra[4] = {2, 0, 3, 1};
   for (int k = 0; k < 4; ++k) {
     for (int vertex = 0; vertex < 4; ++vertex) records[k][vertex] = 4 * k + vertex;
   }
+  int told = 0;
   const SphereSides sides = kernel(points.data(), records, tetrahedra, p, predicates.sphere_bound());
   for (unsigned k = 0; k < 4; ++k) {
     const Point3* corners = &points[4 * tetrahedra[k]];
@@ -44,7 +46,9 @@ void batch_agrees(SphereBatch kernel, const std::vector<Point3>& points, const S
     const int found = static_cast<int>(sides.inside >> k & 1) - static_cast<int>(sides.outside >> k & 1);
     CHECK((sides.inside & sides.outside) == 0);
     if (found != 0 || is_exact) equal(found, side);
+    told += found != 0;
   }
+  return told;
 }
 
 bool is_among(const Point3& p, const std::vector<Point3>& points) {
@@ -54,13 +58,18 @@ bool is_among(const Point3& p, const std::vector<Point3>& points) {
   return false;
 }
 
-}  // namespace
-
-TEST(lanes_tell_on_which_side_of_a_sphere_a_point_is) {
+std::vector<SphereBatch> all_batches() {
   std::vector<SphereBatch> batches{kernels::spheres_portable()};
 #if defined(__x86_64__)
   if (supports(Simd::avx2)) batches.push_back(kernels::spheres_avx2());
 #endif
+  return batches;
+}
+
+}  // namespace
+
+TEST(lanes_tell_on_which_side_of_a_sphere_a_point_is) {
+  const std::vector<SphereBatch> batches = all_batches();
   Random random(7);
   for (int i = 0; i < 6000; ++i) {
     const std::int64_t most = std::array{1, 2, 200, 1 << 20}[static_cast<std::size_t>(i % 4)];
@@ -70,5 +79,24 @@ TEST(lanes_tell_on_which_side_of_a_sphere_a_point_is) {
     if (is_among(points.back(), points)) continue;
     const SetPredicates predicates(points);
     for (const SphereBatch batch : batches) batch_agrees(batch, points, predicates, is_whole && most <= 200);
+  }
+}
+
+// Points that would be on a sphere, but for rounding, are left to wider numbers by the first filters.
+TEST(lanes_tell_points_that_are_nearly_on_a_sphere) {
+  const std::vector<SphereBatch> batches = all_batches();
+  Random random(8);
+  for (const SphereBatch batch : batches) {
+    int told = 0;
+    for (int i = 0; i < 500; ++i) {
+      std::vector<Point3> points;
+      for (std::size_t k = 0; k < corners_and_point; ++k) {
+        const auto drawn = [&] { return static_cast<double>(random.whole(-1'000'000, 1'000'000)) / 1e6; };
+        const double turn = 3 * drawn(), z = drawn(), r = std::sqrt(1 - z * z);
+        points.push_back({3 + r * std::cos(turn), r * std::sin(turn) - 5, z});
+      }
+      told += batch_agrees(batch, points, SetPredicates(points), false);
+    }
+    CHECK(told > 1900);  // of 2000
   }
 }
