@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import click
 
-from vorotool.cli.help_page import GroupedCommand
+from vorotool.cli.command import GroupedCommand
 from vorotool.cli.main import COMMANDS, vorotool
 from vorotool.products.formats import FORMATS
 from vorotool.products.registry import PRODUCTS

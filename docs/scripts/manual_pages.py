@@ -13,7 +13,7 @@ from pathlib import Path
 import click
 
 from vorotool import __version__
-from vorotool.cli.help_page import GroupedCommand
+from vorotool.cli.command import GroupedCommand
 from vorotool.cli.main import COMMANDS, vorotool
 
 FOLDER = Path(__file__).parents[1] / "man/man1"

@@ -15,10 +15,10 @@ from vorotool.engines.alpha.few_points import unjoined
 from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
 from vorotool.jobs.inputs import JobInput, check_columns, note_repeated_labels, read_sites
+from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_sites
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
-from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.triangulation import TRIANGULATE, digital_mesh, seeds_of

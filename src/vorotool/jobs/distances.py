@@ -10,10 +10,10 @@ import numpy as np
 from vorotool.convert.sites import as_sites
 from vorotool.errors import InputError
 from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
+from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pixel_sizes import unit_of_vectors
-from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import in_first_unit
 from vorotool.numeric.crs import crs_name, same_crs

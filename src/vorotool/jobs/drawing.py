@@ -16,11 +16,11 @@ from vorotool.formats.parsing.reader_options import ReadOptions, with_stated_axi
 from vorotool.formats.points.tables import is_table
 from vorotool.formats.text_recognition import has_no_rows
 from vorotool.jobs.inputs import JobInput, check_column, note_other_size
+from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of, world_of_polygons
 from vorotool.jobs.pixel_sizes import size_of_file
 from vorotool.jobs.refusals import check_drawn_layers, refuse
-from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize

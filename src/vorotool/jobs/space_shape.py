@@ -16,8 +16,8 @@ from vorotool.jobs.inputs import (
     read_voxel_points,
     report_no_geometry,
 )
+from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
-from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.triangulation import TRIANGULATE
 from vorotool.jobs.units import Amount, measured

@@ -17,8 +17,8 @@ from vorotool.engines.tessellation.tessellator import Band, SeedBands, Tessellat
 from vorotool.errors import LimitError
 from vorotool.frozen import frozen
 from vorotool.jobs.inputs import JobInput, check_columns, frame_of
+from vorotool.jobs.job import Results
 from vorotool.jobs.options import AUTO_LEVELS, Options
-from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, table_in_units

@@ -19,9 +19,9 @@ from vorotool.jobs.inputs import (
     tell_empty_cells,
     window_of,
 )
+from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import in_steps, placed_backdrop, placed_mesh, placed_sites, unit_of_vectors
-from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import Amount, box_amounts, in_units, refuse_lengths, sides_of, table_in_units, unit_columns
 from vorotool.numeric.parallel import Progress

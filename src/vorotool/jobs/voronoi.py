@@ -19,10 +19,10 @@ from vorotool.jobs.inputs import (
     report_no_geometry,
     tell_empty_cells,
 )
+from vorotool.jobs.job import Results
 from vorotool.jobs.options import OF_IMAGES, Options
 from vorotool.jobs.pixel_sizes import placed_backdrop, unit_of_vectors
 from vorotool.jobs.refusals import refuse
-from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import First, read_cut, unit_of_image
 from vorotool.jobs.targets import Target

@@ -10,9 +10,9 @@ from typing import Any
 
 from vorotool.errors import UsageError
 from vorotool.formats.io.descriptors import stream_kind
+from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of_value
-from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.numeric.checks import MAX_PIXELS

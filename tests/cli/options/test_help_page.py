@@ -6,7 +6,7 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from vorotool.cli.help_page import COMMON, MOST, GroupedCommand
+from vorotool.cli.command import COMMON, MOST, GroupedCommand
 from vorotool.cli.main import COMMANDS, vorotool
 from vorotool.products.options import GROUPS
 

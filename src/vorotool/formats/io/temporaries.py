@@ -296,8 +296,14 @@ class Commit:
                     each.check()
                 if each.temporary is not None:
                     each.temporary.check()
-        if len(self._placements) == 1 and _put_at_once(self._placements[0]):
-            return
+        if len(self._placements) == 1:  # in one step, where the system has one
+            target, temporary, explained, _ = self._placements[0]
+            if temporary is not None and not (os.path.isdir(target) and _is_folder(temporary)):
+                with explained():
+                    temporary.move_to(target)
+                return
+            if temporary is not None and _exchange(temporary.path, target):
+                return
         begun: list[Placement] = []
         try:
             for each in self._placements:
@@ -365,16 +371,6 @@ def committed_together() -> Iterator[Commit]:
         commit.run()
     finally:
         commit.close()
-
-
-def _put_at_once(placement: Placement) -> bool:
-    """Put an output in its place in one step, or return False where the system has none."""
-    target, temporary = placement.target, placement.temporary
-    if temporary is None or (os.path.isdir(target) and _is_folder(temporary)):
-        return temporary is not None and _exchange(temporary.path, target)
-    with placement.explained():
-        temporary.move_to(target)
-    return True
 
 
 def _is_folder(temporary: Temporary | None) -> bool:

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, Message, RepairWarning, silent
 from vorotool.jobs.inputs import JobInput, check_columns
+from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options, Place
 from vorotool.jobs.outlined_images import read_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop, written_grid
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.refusals import refuse
-from vorotool.jobs.results import Results
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import (

@@ -75,7 +75,7 @@ class OfPoints(Value):
     @property
     def duplicates(self) -> int:
         """Number of duplicate points."""
-        return int(np.count_nonzero(self.is_duplicate))
+        return int(np.count_nonzero(self.first != np.arange(len(self.first))))
 
 
 @record
