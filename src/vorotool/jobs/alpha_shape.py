@@ -17,22 +17,17 @@ from vorotool.errors import warn
 from vorotool.jobs.inputs import JobInput, check_columns, note_repeated_labels, read_sites
 from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
-from vorotool.jobs.picture_world import world_of_sites
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.triangulation import TRIANGULATE, digital_mesh, seeds_of
 from vorotool.jobs.units import Amount, length_in_units, measured, unit_text
 from vorotool.numeric.numbers import nearest_double
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
-from vorotool.products.registry import OF_ONE_SHAPE, PLOTS
-from vorotool.render.drawing import Drawing, Plot, drawing_of
+from vorotool.products.registry import OF_ONE_SHAPE, PLOTS, is_of
 from vorotool.types.alpha.complex import RegionPersistence
 from vorotool.types.alpha.radii import Radius
 from vorotool.types.alpha.shape import AlphaShape
-from vorotool.types.points.point_set import PointSet
-from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Table
 
@@ -40,6 +35,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from vorotool.render.drawing import Drawing, Plot
+    from vorotool.render.looks import World
     from vorotool.types.alpha.complex import AlphaComplex
     from vorotool.types.alpha.shape import AlphaHull
 
@@ -59,12 +56,11 @@ class ShapeProducts(Results):
         self._has_told_regions = False
         self.backdrop = placed_backdrop(run, o, given.backdrop)
         mesh = self._triangulation(points)
-        mesh = mesh if isinstance(mesh, SeedSet) else placed_mesh(o.pixel_size, mesh)
-        self._allow_empty = isinstance(points, SeedSet) or not len(points)
+        mesh = mesh if is_of(mesh, "SeedSet") else placed_mesh(o.pixel_size, mesh)
+        self._points, self._allow_empty = points, is_of(points, "SeedSet") or not len(points)
         how = {"phase": "alpha complex", "rule": o.rule, "allow_empty": self._allow_empty}
         self.family: AlphaComplex = self.call("engines.alpha.alpha_complex:alpha_complex", mesh, **how)
         check_columns(o, self.family.mesh.properties)
-        self.world = world_of_sites(run, o, self.family.mesh, points)
         self.has_shape = bool(set(o.what) & OF_ONE_SHAPE)
         if self.has_shape:
             self.shape = self._shape()
@@ -76,13 +72,22 @@ class ShapeProducts(Results):
                     r = f"{r} ({length:g}{unit_text(o.pixel_size)})"
                 run.note(f"r = {r}, the smallest radius whose shape is {regions} covering every point")
 
-    def _triangulation(self, points: PointSet | SeedSet) -> Any:
-        if isinstance(points, SeedSet) and points.is_empty_image:
+    @cached_property
+    def world(self) -> World:
+        """Where what is drawn lies."""
+        from vorotool.jobs.picture_world import world_of_sites
+
+        return world_of_sites(self.run, self.options, self.family.mesh, self._points)
+
+    def _triangulation(self, points: Any) -> Any:
+        if is_of(points, "SeedSet") and points.is_empty_image:
             return points
         if self.options.method != "exact" and len(points):
+            from vorotool.jobs.triangulation import digital_mesh, seeds_of
+
             seeds = seeds_of(self.run, self.options, points)
             return digital_mesh(self.run, self.options, points, seeds)[0]
-        exact: Any = self.call(TRIANGULATE, points, phase="triangulate")
+        exact: Any = self.call("engines.delaunay.delaunay:delaunay", points, phase="triangulate")
         note_repeated_labels(self.run, points, exact)
         return exact
 
@@ -173,6 +178,7 @@ class ShapeProducts(Results):
 
     def drawing(self, what: str, fmt: str) -> Drawing | Plot:
         """Prepare a picture of the shape, or a plot over the radius."""
+        from vorotool.render.drawing import Plot, drawing_of
         from vorotool.render.pages.plots import write_curves_svg, write_persistence_svg
 
         product, wanted = self.products[what], self.wanted
@@ -200,8 +206,7 @@ class ShapeProducts(Results):
         finite = self.family.spectrum[self.family.spectrum < inf]
         largest = float(finite[-1]) if len(finite) else 1.0
         r = Fraction(self.shape.r) if self.shape.r < inf else Fraction(largest)
-        whole = self.drawing(what, "png")
-        assert isinstance(whole, Drawing)  # there are no plots of what moves
+        whole: Any = self.drawing(what, "png")  # there are no plots of what moves
 
         def draw(part: Fraction) -> NDArray[np.uint8]:
             return whole.of(self._shape_of(r * part)).pixels()

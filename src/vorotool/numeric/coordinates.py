@@ -56,7 +56,6 @@ INEXACT = "a double would round it; subtract an offset from all coordinates, or 
 
 def number_array(values: Any, noun: str, expected: str | None = None, axes: int = 2) -> NDArray[Any]:
     """Give values as an array of integers or floating-point numbers, or of objects that are numbers; not a copy."""
-    said = expected or f"{plural(noun)} must be an (n, {axes}) array of numbers"
     if is_masked_array(values):
         if np.ma.is_masked(values):
             if values.ndim != 2 or values.shape[1] != axes:
@@ -70,12 +69,18 @@ def number_array(values: Any, noun: str, expected: str | None = None, axes: int 
     except (TypeError, ValueError) as error:
         if isinstance(error, InputError):  # of an iterator of ours
             raise
-        raise InputError(said) from None
+        raise InputError(_said(noun, expected, axes)) from None
     if array.dtype.kind == "O" and all(isinstance(value, Real | Decimal | np.number) for value in array.flat):
         return array
     if array.dtype.kind not in "iufb" and array.size:
+        said = _said(noun, expected, axes)
         raise InputError(said if array.ndim == 0 else f"{said}; these have type {array.dtype}")
     return array
+
+
+def _said(noun: str, expected: str | None, axes: int) -> str:
+    """Say what coordinates must be."""
+    return expected or f"{plural(noun)} must be an (n, {axes}) array of numbers"
 
 
 def first_inexact(array: NDArray[Any]) -> int | None:
@@ -148,13 +153,6 @@ def record_deviation(distances: Floats) -> None:
     """Record how far lines that are written are from their curves."""
     written = _WRITTEN.get()
     written.deviation = max(written.deviation, float(distances.max(initial=0)))
-
-
-def record_value(value: Any) -> None:
-    """Record the coordinate reference system of a value that is written, and whether its y goes down."""
-    written = _WRITTEN.get()
-    written.crs = getattr(value, "crs", None)
-    written.has_y_down = written.has_y_down or getattr(value, "y_axis", None) == "down"
 
 
 @contextmanager

@@ -399,7 +399,9 @@ def write_product(
 ) -> None:
     """Write a result in one of its formats; pictures and pages are none of these."""
     chosen = FORMATS[fmt]
-    resolved("numeric.coordinates:record_value")(value)
+    written = resolved("numeric.coordinates:current_written")()
+    written.crs = getattr(value, "crs", None)
+    written.has_y_down = written.has_y_down or getattr(value, "y_axis", None) == "down"
     options: dict[str, Any] = {"flatten": flatten, "precision": precision, "threads": threads}
     writer = chosen.writers.get(product.what, chosen.writer)
     if writer is None and fmt not in product.data:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import STRICT, InputError, VorotoolWarning, option, warn
+from vorotool.products.registry import is_of
 from vorotool.types.alpha.complex import AlphaComplex
-from vorotool.types.points.seed_set import SeedSet
 
 GIVE_R = f": give r itself{option(' (-r)', '')}"
 """Advice where no radius can be chosen."""
@@ -17,7 +17,7 @@ GIVE_R = f": give r itself{option(' (-r)', '')}"
 
 def allows_empty(points: Any, allow_empty: bool | None) -> bool:
     """Tell whether too few points are no error: as the caller says, else those of an image, one of many perhaps."""
-    is_image = isinstance(points, SeedSet) and points.frame is not None
+    is_image = is_of(points, "SeedSet") and points.frame is not None
     return is_image if allow_empty is None else allow_empty
 
 

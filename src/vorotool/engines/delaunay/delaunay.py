@@ -130,7 +130,7 @@ def _point_set(points: Any) -> PointSet:
 
 def is_of_space(points: Any) -> bool:
     """Tell whether points have three coordinates: by their type, or as arrays and lists of triples."""
-    if is_of(points, "PointSet", "SeedSet"):
+    if is_of(points, "PointSet", "SeedSet", "Triangulation", "AlphaComplex"):
         return False
     if is_of(points, "VolumePoints", "VolumeSeeds", "Tetrahedralization", "SpaceAlphaComplex"):
         return True
