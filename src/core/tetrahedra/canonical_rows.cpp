@@ -15,7 +15,7 @@ namespace vorotool::core::tetrahedra {
 
 namespace {
 
-constexpr std::size_t rows_a_block = std::size_t{1} << 9;  // 16 KiB
+constexpr std::size_t rows_a_block = std::size_t{1} << 7;  // a page of 4 KiB
 constexpr std::size_t rows_a_piece = std::size_t{1} << 15;
 constexpr std::size_t vertices_a_piece = rows_a_piece / 8;
 constexpr std::size_t ahead = 16;  // rows that are loaded before their turn

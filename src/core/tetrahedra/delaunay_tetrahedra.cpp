@@ -7,9 +7,11 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/memory_release.hpp"
 #include "core/base/parallel.hpp"
 #include "core/kernel/predicates.hpp"
 #include "core/tetrahedra/canonical_rows.hpp"
@@ -43,6 +45,12 @@ std::vector<Index> spanning_points(std::span<const Point3> points) {
     if (!is_spanned) found.push_back(static_cast<Index>(i));
   }
   return found;
+}
+
+// Gives back the memory too, unlike an assignment of {}.
+template <class T>
+void release(std::vector<T>& items) {
+  std::vector<T>().swap(items);
 }
 
 // A biased randomized insertion order (N. Amenta, S. Choi, G. Rote 2003): the last round has 7/8 of the points, that
@@ -219,13 +227,19 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   order.points.push_back({nan, nan, nan});  // that at infinity
   TetrahedralMesh mesh(std::span(order.points).first(order.index.size()), predicates);
+  if (result.duplicates == 0) release(result.first);  // it is made anew, where all are first
   CanonicalRows rows;
   try {
     Insertion(mesh, start, threads, monitor).run();
-    std::vector<Point3>().swap(order.points);  // and its memory with it, unlike an assignment of {}
+    release(order.points);
+    base::return_freed_memory(points.size_bytes());
     rows = canonical_rows(mesh, order.index, threads, base::part_of(monitor, mesh_share, 1));
   } catch (const std::bad_alloc&) {
     throw TooManyTetrahedra(mesh.slots());
+  }
+  if (result.duplicates == 0) {
+    result.first.resize(points.size());
+    std::iota(result.first.begin(), result.first.end(), 0);
   }
   result.count = rows.count;
   result.vertices = std::move(rows.vertices);
