@@ -55,10 +55,12 @@ class DistanceProducts(Results):
         """Both in one coordinate reference system: one that names none is taken to be in that of the other."""
         (one, a), (other, b) = first, second
         if a.crs is not None and b.crs is not None and not same_crs(a.crs, b.crs):
-            raise InputError(
+            error = InputError(
                 f"{one.name} is in {crs_name(a.crs)}, but {other.name} in {crs_name(b.crs)}: reproject both to one "
                 f"system with --crs {crs_name(a.crs)}"
             )
+            error.source = one.path
+            raise error
         unit = unit_of_vectors(self.options, a)
         b = in_first_unit(self.run, self.options, (other.name, b), (one.name, unit), crs=a.crs)
         self.run.coordinates = unit_of_vectors(self.options, a, with_system=False)

@@ -54,7 +54,8 @@ def test_two_systems(run, folder):
     for name, code in (("a", 2056), ("b", 3857)):
         point = {"type": "Point", "coordinates": [0, 0]}
         (folder / f"{name}.geojson").write_text(collection([point], crs=f"urn:ogc:def:crs:EPSG::{code}"))
-    run("distance a.geojson b.geojson", code=3, says=["a.geojson", "--crs EPSG:2056"])
+    done = run("distance a.geojson b.geojson", code=3, says=["a.geojson", "--crs EPSG:2056"])
+    assert done.err.count("a.geojson") == 1
     (folder / "c.csv").write_text("x,y\n3,4\n")
     run("distance a.geojson c.csv", says="c.csv")
 
