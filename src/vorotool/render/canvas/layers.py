@@ -46,16 +46,14 @@ class Lines:
 
 @frozen(eq=False)
 class Curves:
-    """Straight lines, quadratic Bezier curves and circular arcs."""
+    """Straight lines, quadratic Bezier curves and circular arcs; those that continue each other are drawn as one path."""
 
-    name: str  # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
-    # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
+    name: str  # as of `Lines`, like the points, pairs, color and width
     points: NDArray[np.float64]
-    # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
     pairs: NDArray[np.int32]
     control: NDArray[np.int32]  # (m,) int32 array: the control point of each; -1: it is a straight line
-    color: str = INK  # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
-    width: float = 1.5  # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
+    color: str = INK
+    width: float = 1.5
     is_broken: bool = False  # drawn as a broken line in SVG
     # (m, 2) float64 array: of the circle of each circular arc, which is at most half of one; NaN of others
     center: NDArray[np.float64] | None = None
