@@ -46,7 +46,7 @@ class Lines:
 
 @frozen(eq=False)
 class Curves:
-    """Straight lines, quadratic Bezier curves and circular arcs; those that continue each other are drawn as one path."""
+    """Straight lines, quadratic Bezier curves and circular arcs; those that follow each other are drawn as one path."""
 
     name: str  # as of `Lines`, like the points, pairs, color and width
     points: NDArray[np.float64]
