@@ -43,12 +43,7 @@ def points_of_table(table: Any, name: str) -> PointSet:
     if chosen is None:
         raise _unknown(table, names, columns, name)
     x, y, *_ = chosen
-    is_geographic = is_longitude_latitude(texts[x], texts[y])
-    return PointSet(
-        **_taken(table, texts, columns, chosen),
-        y_axis=UP if is_map(texts[x], texts[y]) else UNSTATED,
-        crs=crs_member(LONGITUDE_LATITUDE) if is_geographic else None,
-    )
+    return PointSet(**_taken(table, texts, columns, chosen), **placed_by(texts[x], texts[y]))
 
 
 def volume_points_of_table(table: Any) -> VolumePoints:
@@ -214,14 +209,14 @@ def plain_name(text: str) -> str:
     return text.strip().lower().replace("\u03bc", "µ")
 
 
-def is_longitude_latitude(x: str, y: str) -> bool:
-    """Tell whether columns are longitude and latitude by their names."""
-    return plain_name(x) in _FIRST and plain_name(y) in _SECOND
-
-
-def is_map(x: str, y: str) -> bool:
-    """Tell whether columns are places on a map by their names, so that pictures have y upwards."""
-    return is_longitude_latitude(x, y) or (plain_name(x), plain_name(y)) in MAP_NAMES
+def placed_by(x: str, y: str, *, has_crs: bool = False) -> dict[str, Any]:
+    """Give the direction of y and the coordinate reference system of points, which the names of the columns tell."""
+    names = plain_name(x), plain_name(y)
+    is_geographic = names[0] in _FIRST and names[1] in _SECOND
+    return {
+        "y_axis": UP if is_geographic or names in MAP_NAMES else UNSTATED,  # on maps y goes up
+        "crs": crs_member(LONGITUDE_LATITUDE) if is_geographic and not has_crs else None,
+    }
 
 
 _FIRST, _SECOND = (tuple(pair[k] for pair in LONGITUDE_LATITUDE_NAMES) for k in (0, 1))

@@ -9,17 +9,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.convert.tables import (
-    is_longitude_latitude,
-    is_map,
-    plain_name,
-)
+from vorotool.convert.tables import placed_by, plain_name
 from vorotool.errors import NO_PROPERTIES, InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import (
@@ -37,9 +33,7 @@ from vorotool.formats.points.columns import (
     parse_columns,
 )
 from vorotool.frozen import frozen
-from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.numbers import typed_texts
-from vorotool.types.fields import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet
 
 GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
@@ -156,16 +150,7 @@ def _read_rows(layout: DelimitedText, options: ReadOptions) -> PointRows:
     rest = [i for i in range(fields) if i not in chosen.used] if options.properties else []
     x, y = (layout.fields[column] if layout.header else "" for column in (chosen.x, chosen.y))
     properties = _properties(layout, rest, options.threads)
-    return PointRows(values[:, :axes], labels, properties, placed_by(x, y, options))
-
-
-def placed_by(x: str, y: str, options: ReadOptions) -> dict[str, Any]:
-    """Give the direction of y and the coordinate reference system of points, which the names of the columns tell."""
-    is_geographic = is_longitude_latitude(x, y) and options.crs is None
-    return {
-        "y_axis": UP if is_map(x, y) else UNSTATED,
-        "crs": crs_member(LONGITUDE_LATITUDE) if is_geographic else None,
-    }
+    return PointRows(values[:, :axes], labels, properties, placed_by(x, y, has_crs=options.crs is not None))
 
 
 def _labels(layout: DelimitedText, values: NDArray[np.float64]) -> NDArray[np.int64]:

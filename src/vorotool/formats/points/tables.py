@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.tables import placed_by
 from vorotool.errors import AS_VOLUME, InputError, option
 from vorotool.formats.io.arrays import npy_header, npy_values, npz_columns, present_values
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, shortened
 from vorotool.formats.points.columns import Chosen, PointRows, chosen_columns, note_no_label
-from vorotool.formats.points.delimited import placed_by
 from vorotool.numeric.coordinates import INEXACT, first_inexact
 from vorotool.numeric.numbers import shown_number
 from vorotool.types.points.point_set import PointSet, labels_of
@@ -68,7 +68,7 @@ def rows_of_columns(name: str, columns: Mapping[str, list[Any]], options: ReadOp
         note_no_label(name, options)
     used = {names[column] for column in (chosen.used if labels is not None else chosen.coordinates)}
     properties = {each: columns[each] for each in names if each not in used} if options.properties else {}
-    return PointRows(found, labels, properties, placed_by(coordinates[0], coordinates[1], options))
+    return PointRows(found, labels, properties, placed_by(*coordinates[:2], has_crs=options.crs is not None))
 
 
 def _numbers(name: str, column: str, values: list[Any]) -> NDArray[np.float64]:

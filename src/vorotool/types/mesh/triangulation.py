@@ -266,24 +266,19 @@ def lengths_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray
     for start in range(0, len(lengths), CHUNK):
         ends = edges[start : start + CHUNK]
         a, b = points.take(ends[:, 0], axis=0), points.take(ends[:, 1], axis=0)
-        lengths[start : start + CHUNK] = _distances(a, b)
-    return lengths
-
-
-def _distances(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distances of pairs of points: square roots of sums of squares, scaled by powers of two out of their range."""
-    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        way = b - a
-        square = way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1]
-        found: NDArray[np.float64] = np.sqrt(square)
-        far = np.flatnonzero(~((square >= 2.0**-900) & (square < np.inf)))
-        if far.size:
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+            way = b - a
+            square = way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1]
+            found = np.sqrt(square, out=lengths[start : start + CHUNK])
+            far = np.flatnonzero(~((square >= 2.0**-900) & (square < np.inf)))
+            if not far.size:  # or else coordinates are scaled by powers of two
+                continue
             shift = np.where(np.isfinite(way[far]).all(axis=1), 0, 2)
             way = np.ldexp(b[far], -shift[:, None]) - np.ldexp(a[far], -shift[:, None])
             exponent = np.frexp(np.abs(way).max(axis=1))[1]
             way = np.ldexp(way, -exponent[:, None])
             found[far] = np.ldexp(np.sqrt((way * way).sum(axis=1)), exponent + shift)
-    return found
+    return lengths
 
 
 def _cross(b: NDArray[np.float64], c: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
