@@ -69,7 +69,8 @@ def open_output(
 ) -> Iterator[BinaryIO]:
     """Open an output that replaces an older file only when all of it has been written."""
     name = os.fspath(path)
-    descriptor = _checked_descriptor(name, binary, option)
+    rules = Rules(no_clobber, tuple(inputs), option)
+    descriptor, target, is_regular = _checked_place(name, rules, binary=binary)
     told = partial(explained, spoken(name), option)
     if descriptor is not None:  # open already: written in order, after what it holds
         with told(), open_output_descriptor(descriptor) as out:
@@ -81,8 +82,6 @@ def open_output(
             yield sys.stdout.buffer
             sys.stdout.buffer.flush()
         return
-    rules = Rules(no_clobber, tuple(inputs), option)
-    target, is_regular = _checked_target(name, rules)
     if not is_regular:  # a pipe or a device
         with told(), open_onward(target) as out:
             if binary and out.isatty():
@@ -112,11 +111,9 @@ def check_output(
 ) -> None:
     """Find out before any work whether `open_output` would refuse an output."""
     name = os.fspath(path)
-    if _checked_descriptor(name, binary, option) is not None or name == STANDARD:
-        return
-    target, is_regular = _checked_target(name, Rules(no_clobber, tuple(inputs), option))
-    if is_regular:
-        check_folder(name, os.path.dirname(target), makes_folder=makes_folder, option=option)
+    place = _checked_place(name, Rules(no_clobber, tuple(inputs), option), binary=binary)
+    if place.is_regular:
+        check_folder(name, os.path.dirname(place.target), makes_folder=makes_folder, option=option)
 
 
 def check_folder(name: str, folder: str, *, makes_folder: bool = False, option: str = OUTPUT) -> None:
@@ -139,21 +136,6 @@ def make_folder(path: str | os.PathLike[str]) -> None:
         raise OutputError(f"the folder {os.fspath(path)!r} cannot be created: {reason}; name another") from error
 
 
-def _checked_descriptor(name: str, binary: bool, option: str) -> int | None:
-    """Give the number of the descriptor that an output is, if it is one that can be written."""
-    if name != STANDARD:
-        number = descriptor_of(name)
-        is_terminal = number is not None and os.isatty(number)
-    else:
-        number, is_terminal = number_of(sys.stdout), sys.stdout.isatty()
-    if binary and is_terminal:
-        raise terminal_error()
-    if number is not None:
-        with explained(spoken(name), option):
-            check_writable(number)
-    return number
-
-
 def terminal_error() -> UsageError:
     """Say that a terminal is no place for what is not text."""
     return UsageError(
@@ -166,8 +148,28 @@ def spoken(name: str) -> str:
     return STANDARD_OUTPUT if name == STANDARD else name
 
 
-def _checked_target(name: str, rules: Rules) -> tuple[str, bool]:
-    """Follow links; tell as well whether there is, or will be, an ordinary file, which may be replaced."""
+class _Place(NamedTuple):
+    """Where an output goes."""
+
+    descriptor: int | None  # that is open already
+    target: str  # of others the file, links followed
+    is_regular: bool  # an ordinary file, which may be replaced, is there or will be
+
+
+def _checked_place(name: str, rules: Rules, *, binary: bool) -> _Place:
+    """Find out where an output goes, and refuse one that cannot be written."""
+    if name == STANDARD:
+        number, is_terminal = number_of(sys.stdout), sys.stdout.isatty()
+    else:
+        number = descriptor_of(name)
+        is_terminal = number is not None and os.isatty(number)
+    if binary and is_terminal:
+        raise terminal_error()
+    if number is not None:
+        with explained(spoken(name), rules.option):
+            check_writable(number)
+    if number is not None or name == STANDARD:
+        return _Place(number, name, False)
     target, mode = followed(name, rules.option), None
     with suppress(OSError):
         mode = os.stat(target).st_mode
@@ -176,11 +178,11 @@ def _checked_target(name: str, rules: Rules) -> tuple[str, bool]:
     if name.endswith(os.sep) or (mode is not None and stat.S_ISDIR(mode)):
         raise OutputError(f"{name!r} is a directory: name a file in it")
     if mode is None or not stat.S_ISREG(mode):
-        return target, mode is None
+        return _Place(None, target, mode is None)
     rules.check(name, target)
     if not os.access(target, os.W_OK):
         raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with {rules.option}")
-    return target, True
+    return _Place(None, target, True)
 
 
 def followed(name: str, option: str = OUTPUT) -> str:
