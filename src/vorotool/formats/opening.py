@@ -82,7 +82,7 @@ class Opened:
         y_up: bool | None = None,
         flatten: Flatten = None,
         join_tolerance: float | None = None,
-        told: Callable[[str], None] = no_note,
+        told: Callable[[str], None] | None = None,
         **options: Any,
     ) -> PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap:
         """Read all, with the options of `vorotool.read` that are not about opening it."""
@@ -101,13 +101,15 @@ class Opened:
             from vorotool.formats.images.band_reader import read_rows
 
             refuse_for_images(given, self.layer)
-            told("zarr")
+            if told is not None:
+                told("zarr")
             value: Any = read_rows(self.array, max_pixels=given.max_pixels, note=given.note)
         else:
             content = read_source(self.name, self.layer) if self.content is None else self.content
             content = replace(content, max_sites=given.max_sites, flatten=given.flatten)
             holds, source = recognized(content, self.geometry, self.said, given.columns)
-            told(source.format)
+            if told is not None:
+                told(source.format)
             value = read_recognized(holds, source, given)
         return value if given.y_axis is None else with_stated_axis(value, self.name, given.y_axis)
 

@@ -84,7 +84,7 @@ class MeshProducts(Results):
         if o.clip is not None:
             points, self.clip = self._clipped(given, points)
         self._points = points
-        self._prepare()
+        self.wants_mesh = o.what != ("compare",)  # a result shows the triangulation itself
         self.backdrop = placed_backdrop(run, o, given.backdrop)
         if self.wants_mesh:
             self.mesh: Any = placed_mesh(o.pixel_size, self._triangulate())
@@ -106,9 +106,6 @@ class MeshProducts(Results):
             points, clip = read_cut(self.run, o, "--clip", o.clip, first)
         return points, list(to_shapely(clip))
 
-    def _prepare(self) -> None:
-        """Prepare what is triangulated."""
-
     def _triangulate(self) -> Any:
         mesh: Any = self.call(TRIANGULATE, in_steps(self.options, self._points), phase="triangulate")
         note_repeated_labels(self.run, self._points, mesh)
@@ -120,11 +117,6 @@ class MeshProducts(Results):
         if graph == "delaunay":
             return self.mesh
         return self.call("engines.delaunay.proximity:proximity_graph", self.mesh, graph, phase="graph")
-
-    @property
-    def wants_mesh(self) -> bool:
-        """Whether a result shows the triangulation itself."""
-        return self.options.what != ("compare",)
 
     def check_page(self) -> None:
         """Refuse a page of too many cells."""
@@ -248,8 +240,10 @@ class DigitalProducts(MeshProducts):
             if self.comparison.suggestion:
                 run.note(self.comparison.suggestion)
 
-    def _prepare(self) -> None:
-        self.seeds = seeds_of(self.run, self.options, self._points)
+    @cached_property
+    def seeds(self) -> SeedSet:
+        """The seeds whose regions touch."""
+        return seeds_of(self.run, self.options, self._points)
 
     def _triangulate(self) -> Any:
         mesh, self.repair = digital_mesh(self.run, self.options, self._points, self.seeds)
