@@ -150,7 +150,7 @@ def _begins_as_tiff(name: str) -> bool:
 
 def open_zarr(name: str, input_format: str | None = None, page: int | None = None) -> ZarrRows | None:
     """Open what is, or should be, a Zarr array: a folder that holds one, or is named or said to; None if it is none."""
-    if not is_store(name) if input_format is None else input_format != "zarr" or not is_folder(name):
+    if not is_folder(name) or (not is_store(name) if input_format is None else input_format != "zarr"):
         return None
     if page not in (None, 0):
         raise InputError(f"{name} has a single page: {option(f'--page {page}')} does not exist")

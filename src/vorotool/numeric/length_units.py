@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -123,7 +122,12 @@ def unit_of(value: Any) -> InputUnit | None:
     shapes = getattr(value, "polygons", value)
     if shapes.crs is not None:
         return unit_of_crs(shapes.crs)
-    unit = getattr(shapes, "unit", None) or unit_of_columns(getattr(value, "properties", {}))
+    unit, columns = getattr(shapes, "unit", None) or None, getattr(value, "properties", {})
+    for name in COLUMNS if unit is None else ():  # one unit for all rows
+        stated = {each if isinstance(each, str) else "" for each in columns.get(name, ())}
+        if len(stated) == 1 and is_known(text := stated.pop()):
+            unit = text
+            break
     return None if unit is None else InputUnit(unit_name(unit))
 
 
@@ -133,15 +137,6 @@ def own_unit(value: Any) -> str | None:
         value = next((getattr(value, name) for name in ("polygons", "skeleton", "path") if hasattr(value, name)), None)
     unit: str | None = getattr(value, "unit", None)
     return unit
-
-
-def unit_of_columns(columns: Mapping[str, Any]) -> str | None:
-    """Return the unit of length that a column of a table states for all rows."""
-    for name in COLUMNS:
-        stated = {each if isinstance(each, str) else "" for each in columns.get(name, ())}
-        if len(stated) == 1 and is_known(unit := stated.pop()):
-            return unit
-    return None
 
 
 def unit_of_crs(crs: Any) -> InputUnit | None:
