@@ -25,16 +25,9 @@ _MOST_LISTED = 12
 class Chosen(NamedTuple):
     """Which columns are what, from 0."""
 
-    x: int
-    y: int
+    coordinates: list[int]  # those of x, y, and z if there is one
     label: int | None = None
-    z: int | None = None
     is_named: bool = False  # by the user: then the label is no other column
-
-    @property
-    def coordinates(self) -> list[int]:
-        """Those of x, y, and z if there is one."""
-        return [self.x, self.y] if self.z is None else [self.x, self.y, self.z]
 
     @property
     def used(self) -> list[int]:
@@ -91,10 +84,10 @@ def _recognize(name: str, fields: list[str], options: ReadOptions) -> tuple[bool
         if [plain_name(each) for each in used] != meanings:  # plain x, y need no word
             options.note(f"{name}: columns {', '.join(used)} are read as {', '.join(meanings)}")
         label = chosen[options.axes] if len(chosen) > options.axes else None
-        return True, Chosen(chosen[0], chosen[1], label, chosen[2] if options.wants_z else None)
+        return True, Chosen(chosen[: options.axes], label)
     header = not any(_looks_numeric(field) for field in fields) and any(fields)
     if not header and len(fields) == options.axes:
-        return False, Chosen(0, 1, None, 2 if options.wants_z else None)
+        return False, Chosen(list(range(options.axes)))
     raise _no_z(name, fields) if options.wants_z else _unknown_columns(name, fields, header)
 
 
@@ -112,7 +105,7 @@ def _look_up(name: str, fields: list[str], wanted: Wanted, options: ReadOptions)
         if wanted.z is None and names.count("z") != 1:
             raise _no_z(name, fields)
         z = names.index("z") if wanted.z is None else _find_column(name, fields, wanted.z)
-    chosen = Chosen(plane[0], plane[1], plane[2] if len(plane) > 2 else None, z, is_named=True)
+    chosen = Chosen([*plane[:2], *([] if z is None else [z])], plane[2] if len(plane) > 2 else None, is_named=True)
     if len(set(chosen.used)) < len(chosen.used):
         shown = _cut(",".join(wanted.all))
         raise InputError(f"{name}: {COLUMNS} {shown} names one column twice; {_listing(fields)}")

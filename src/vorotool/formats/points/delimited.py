@@ -109,7 +109,7 @@ def delimited_text(source: Source) -> DelimitedText:
     if delimiter == " ":  # there is one column, whose geometry has blanks and commas
         delimiter = "\t"
         line, _, fields = _core.text.first_record(data, delimiter) or (0, "", [])
-    return DelimitedText(source.name, data, delimiter, line or 1, fields, True, Chosen(0, 0))
+    return DelimitedText(source.name, data, delimiter, line or 1, fields, True, Chosen([0, 0]))
 
 
 class Begun(NamedTuple):
@@ -148,7 +148,7 @@ def _read_rows(layout: DelimitedText, options: ReadOptions) -> PointRows:
         options.note(f"{layout.name}: the column z is ignored: only x and y are used")
     labels = None if chosen.label is None else _labels(layout, values[:, axes])
     rest = [i for i in range(fields) if i not in chosen.used] if options.properties else []
-    x, y = (layout.fields[column] if layout.header else "" for column in (chosen.x, chosen.y))
+    x, y = (layout.fields[column] if layout.header else "" for column in chosen.coordinates[:2])
     properties = _properties(layout, rest, options.threads)
     return PointRows(values[:, :axes], labels, properties, placed_by(x, y, has_crs=options.crs is not None))
 
