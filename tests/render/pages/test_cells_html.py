@@ -61,8 +61,15 @@ def polygons_of(data):
 def test_cells_of_a_map_are_its_shapes():
     sites = [shapely.box(0, 0, 6, 6), shapely.box(2, 2, 3, 3), shapely.Point(9, 1)]
     cells = vorotool.voronoi([*sites, shapely.LineString([(8, 4), (9, 6)])], frame=(0, 0, 16, 8), max_distance=2)
-    found = polygons_of(data_of(page_of(shapes_of_map(cells), np.ones(4, int), {"area": cells.areas})))
+    data = data_of(page_of(shapes_of_map(cells), np.ones(4, int), {"area": cells.areas}))
+    found = polygons_of(data)
     assert list(found) == ["1", "2", "3", "4"]
+    lines = unpacked(data["lines"], "<i4")
+    drawn = np.split(16 * unpacked(data["sites"], "<f4").reshape(-1, 2), lines[1:-1])
+    expected = [cells.polygons.ring(k) for k in range(4)]
+    expected[:2] = [np.append(ring, ring[:1], axis=0) for ring in expected[:2]]  # polygons are closed
+    for one, other in zip(drawn, expected, strict=True):
+        np.testing.assert_allclose(one, np.column_stack([other[:, 0], 8 - other[:, 1]]))
     np.testing.assert_allclose([16 * 16 * found[name].area for name in found], cells.areas, rtol=2e-3)
 
 
@@ -72,6 +79,11 @@ def test_cells_are_outlined(y_up):
     cells = voronoi_cells(points, frame=(0, 0, 50, 30))
     data = data_of(page_of(shapes_of_cells(with_y_axis(cells, "up" if y_up else "down")), np.ones(30, int), {}))
     found = polygons_of(data)
+    assert unpacked(data["lines"], "<i4").tolist() == list(range(31))
+    places = 50 * unpacked(data["sites"], "<f4").reshape(-1, 2)
+    np.testing.assert_allclose(
+        places, np.column_stack([points[:, 0], (30 - points[:, 1]) if y_up else points[:, 1]]), 1e-5
+    )
     for cell, area in zip(cells.to_shapely(), found.values(), strict=True):
         assert area.area * 2500 == pytest.approx(cell.area, abs=1e-3)
     site = next(k for k, cell in enumerate(cells.to_shapely()) if cell.area > 0)

@@ -23,11 +23,13 @@ from vorotool.types.alpha.complex import AlphaComplex
 from vorotool.types.alpha.radii import Radius
 from vorotool.types.alpha.space import SpaceAlphaComplex
 from vorotool.types.box import bounds
+from vorotool.types.features import Lines
 from vorotool.types.fields import is_up
 from vorotool.types.images import LabelImage
 from vorotool.types.mesh.cells import CellSet
 from vorotool.types.mesh.tetrahedralization import Tetrahedralization, norms
 from vorotool.types.pixels import SQUARE, PixelSides
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 from vorotool.types.skeleton.critical_values import ArcProfiles, CriticalValues
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.table import Table
@@ -252,6 +254,7 @@ class Shapes(NamedTuple):
     ids: Sequence[str]
     bounds: tuple[float, float, float, float]  # what the page shows
     y_up: bool = False  # y goes upwards
+    sites: Lines = Lines(np.zeros((0, 2)), np.zeros(1, dtype=np.int64))  # what the cells are of, drawn over them
 
 
 def shapes_of_cells(cells: CellSet) -> Shapes:
@@ -259,7 +262,9 @@ def shapes_of_cells(cells: CellSet) -> Shapes:
     rings, polygons, of_cells = cells.nesting
     ids = [str(label) for label in cells.label_array.tolist()]
     up = is_up(cells)
-    return Shapes(cells.coordinates, rings, np.asarray(polygons)[np.asarray(of_cells)], ids, cells.frame.sides, up)
+    sites = Lines(cells.sites, np.arange(len(cells.sites) + 1))
+    of_rings = np.asarray(polygons)[np.asarray(of_cells)]
+    return Shapes(cells.coordinates, rings, of_rings, ids, cells.frame.sides, up, sites)
 
 
 def shapes_of_map(cells: VoronoiMap) -> Shapes:
@@ -268,7 +273,16 @@ def shapes_of_map(cells: VoronoiMap) -> Shapes:
     xy, rings = cell_rings(cells, _FINE * max(w, h))
     ids = [str(label) for label in (range(1, len(cells) + 1) if cells.ids is None else cells.ids)]
     up = is_up(cells.polygons)
-    return Shapes(xy, rings, cells.polygon_starts[cells.cell_starts], ids, (x, y, x + w, y + h), up)
+    bounds, sites = (x, y, x + w, y + h), _outlines(cells.polygons)
+    return Shapes(xy, rings, cells.polygon_starts[cells.cell_starts], ids, bounds, up, sites)
+
+
+def _outlines(polygons: PolygonSet) -> Lines:
+    """Give the rings of polygons, each with its first vertex at the end, and lines; a point has one vertex."""
+    first, last = polygons.ring_starts[:-1], polygons.ring_starts[1:]
+    is_closed = polygons.ring_kind != LINE
+    xy = np.insert(polygons.xy, last[is_closed], polygons.xy[first[is_closed]], axis=0)
+    return Lines(xy, starts_of(last - first + is_closed))
 
 
 def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False, sides: PixelSides = SQUARE) -> Shapes:
@@ -286,7 +300,7 @@ def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False, sides: PixelSi
 
 def write_cells_html(out: BinaryIO, shapes: Shapes, classes: ArrayLike, columns: Mapping[str, Sequence[Any]]) -> None:
     """Write a page on which the cell that is pointed at is named, with its values."""
-    check_cells_size(len(shapes.ids), len(shapes.xy))
+    check_cells_size(len(shapes.ids), len(shapes.xy) + len(shapes.sites.xy))
     classes, extent = np.asarray(classes), Extent(shapes.bounds[:2], shapes.bounds[2:], y_up=shapes.y_up)
     data = {
         **extent.sides,
@@ -294,6 +308,8 @@ def write_cells_html(out: BinaryIO, shapes: Shapes, classes: ArrayLike, columns:
         "rings": packed(shapes.rings, "<i4"),
         "shapes": packed(shapes.shapes, "<i4"),
         "classes": packed(classes, "<i4"),
+        "sites": extent.places(shapes.sites.xy),
+        "lines": packed(shapes.sites.starts, "<i4"),
         **named_cells(shapes.ids, classes, columns),
     }
     write_page(out, CELLS_PAGE, data)
