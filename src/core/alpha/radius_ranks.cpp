@@ -123,9 +123,11 @@ class Sorter {
     base::for_pieces(values_.size(), ranks_a_piece, threads_, monitor_,
                      [&](std::size_t piece, std::size_t begin, std::size_t end) {
                        counts_[piece].resize(buckets_.size());
-                       for (std::size_t i = begin; i < end; ++i) {
-                         bucket_[i] = values_[i] < 0 ? left_out : buckets_.of(key(values_[i]));
-                         if (bucket_[i] != left_out) ++counts_[piece][bucket_[i]];
+                       for (std::size_t i = begin; i < end; ++i) {  // without a branch
+                         const bool takes_part = !(values_[i] < 0);
+                         const std::uint16_t bucket = buckets_.of(key(values_[i]));
+                         bucket_[i] = takes_part ? bucket : left_out;
+                         counts_[piece][bucket] += takes_part;
                        }
                      });
     std::size_t sum = 0;
@@ -144,8 +146,18 @@ class Sorter {
   template <class Visit>
   void visit_places(std::size_t begin, std::size_t end, const Visit& visit) const {
     std::vector<std::uint32_t> places = counts_[begin / ranks_a_piece];
-    for (std::size_t i = begin; i < end; ++i) {
-      if (bucket_[i] != left_out) visit(i, places[bucket_[i]]++);
+    std::array<std::uint16_t, 256> taken;  // those of some items, found without a branch
+    for (std::size_t first = begin; first < end; first += taken.size()) {
+      const std::size_t items = std::min(taken.size(), end - first);
+      std::size_t count = 0;
+      for (std::size_t k = 0; k < items; ++k) {
+        taken[count] = static_cast<std::uint16_t>(k);
+        count += static_cast<std::size_t>(bucket_[first + k] != left_out);
+      }
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = first + taken[k];
+        visit(i, places[bucket_[i]]++);
+      }
     }
   }
 

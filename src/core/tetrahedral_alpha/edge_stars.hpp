@@ -27,43 +27,44 @@ using Ends = std::array<std::int32_t, 2>;
 inline constexpr std::array<std::array<std::uint8_t, 4>, 4> side_between{
     {{7, 0, 1, 2}, {0, 7, 3, 4}, {1, 3, 7, 5}, {2, 4, 5, 7}}};
 
-// The edges from one vertex to later ones, of which the cells around it have several sides each.
+// The edges from one vertex to later ones, of which the cells around it have several sides each. Edges and sides are
+// words: twice the later end, and 1 where it is cut.
 class VertexEdges {
  public:
-  struct Edge {
-    std::uint32_t end, place, is_cut;
-  };
-
   // Forgets all; there is room for so many sides.
   void reset(std::size_t most) {
     count_ = 0;
-    if (sides_.size() <= most)
-      sides_.resize(2 * most + 1), edges_.resize(2 * most + 1), sorted_.resize(2 * most + 1),
-          order_.resize(2 * most + 1);
+    if (sides_.size() > most) return;
+    for (std::vector<std::uint32_t>* each : {&sides_, &numbers_, &places_, &edges_, &sorted_, &order_})
+      each->resize(2 * most + 1);
   }
 
-  // Adds a side of a number if is_added, without a branch.
+  // Adds a side with a number if is_added, without a branch.
   void add(std::size_t number, std::int32_t end, unsigned is_cut, bool is_added) {
-    sides_[count_] = {static_cast<std::uint32_t>(end), static_cast<std::uint32_t>(number), is_cut};
+    sides_[count_] = 2 * static_cast<std::uint32_t>(end) | is_cut;
+    numbers_[count_] = static_cast<std::uint32_t>(number);
     count_ += static_cast<std::size_t>(is_added);
   }
 
   // The edges in the order of their ends.
-  std::span<const Edge> find() {
+  std::span<const std::uint32_t> find() {
     const int bits = static_cast<int>(std::bit_width(count_));
     const std::size_t last = (std::size_t{1} << bits) - 1;
-    slots_.assign(last + 1, {none, 0});
+    slots_.assign(last + 1, none);
+    std::uint64_t* const slots = slots_.data();
+    std::uint32_t* const edges = edges_.data();
     std::uint32_t distinct = 0;
     for (std::size_t i = 0; i < count_; ++i) {
-      const Edge side = sides_[i];
-      std::size_t at = side.end * 0x9e3779b1U >> (32 - bits);
-      while ((slots_[at].end != side.end) & (slots_[at].end != none)) at = (at + 1) & last;
-      const bool is_new = slots_[at].end == none;
-      const std::uint32_t place = is_new ? distinct : slots_[at].place;
-      slots_[at] = {side.end, place};
-      edges_[distinct] = {side.end, distinct, 0};  // it is the last one, or none
-      edges_[place].is_cut |= side.is_cut;
-      sides_[i].end = place;
+      const std::uint32_t side = sides_[i], end = side / 2;
+      std::size_t at = end * 0x9e3779b1U >> (32 - bits);
+      while (is_another(slots[at], end)) at = (at + 1) & last;
+      const std::uint64_t slot = slots[at];
+      const bool is_new = slot == none;
+      const std::uint32_t place = is_new ? distinct : static_cast<std::uint32_t>(slot);
+      slots[at] = std::uint64_t{end} << 32 | place;
+      edges[distinct] = side & ~1U;  // it is the last one, or none
+      edges[place] |= side & 1U;
+      places_[i] = place;
       distinct += static_cast<std::uint32_t>(is_new);
     }
     sort(distinct);
@@ -73,39 +74,43 @@ class VertexEdges {
   // Calls visit(number, k) for the sides that were added, where k is the edge.
   template <class Visit>
   void visit_sides(const Visit& visit) const {
-    for (std::size_t i = 0; i < count_; ++i) visit(sides_[i].place, order_[sides_[i].end]);
+    for (std::size_t i = 0; i < count_; ++i) visit(numbers_[i], order_[places_[i]]);
   }
 
  private:
+  static constexpr std::size_t few = 32;
+  static constexpr std::uint64_t none = ~std::uint64_t{0};
+
+  // Whether a slot is taken by another end: one branch, since products of 32 bits are 0 only where a factor is.
+  static bool is_another(std::uint64_t slot, std::uint32_t end) {
+    const auto taken = static_cast<std::uint32_t>(slot >> 32);
+    return std::uint64_t{taken - end} * (taken + 1U) != 0;
+  }
+
   // Each edge goes behind those with lesser ends, which few edges count without a branch.
   void sort(std::size_t count) {
     if (count <= few) {
+      const std::uint32_t* const edges = edges_.data();
       for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t edge = edges[k];
         std::uint32_t less = 0;
-        for (std::size_t i = 0; i < count; ++i)
-          less += static_cast<std::uint32_t>(edges_[i].end < edges_[k].end);
+        for (std::size_t i = 0; i < count; ++i) less += static_cast<std::uint32_t>(edges[i] < edge);
         order_[k] = less;
       }
-      for (std::size_t k = 0; k < count; ++k) sorted_[order_[k]] = edges_[k];
     } else {
-      std::copy_n(edges_.begin(), count, sorted_.begin());
+      std::iota(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(count), 0U);
       std::sort(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(count),
-                [](const Edge& p, const Edge& q) { return p.end < q.end; });
-      for (std::size_t k = 0; k < count; ++k) order_[sorted_[k].place] = static_cast<std::uint32_t>(k);
+                [this](std::uint32_t p, std::uint32_t q) { return edges_[p] < edges_[q]; });
+      for (std::size_t k = 0; k < count; ++k) order_[sorted_[k]] = static_cast<std::uint32_t>(k);
     }
+    for (std::size_t k = 0; k < count; ++k) sorted_[order_[k]] = edges_[k];
   }
 
-  struct Slot {
-    std::uint32_t end, place;
-  };
-  static constexpr std::size_t few = 32;
-  static constexpr std::uint32_t none = 0xffffffffU;
-
-  std::size_t count_ = 0;
-  std::vector<Edge> sides_, edges_,
-      sorted_;                        // of sides, once edges are found, `end` is the place of the edge
-  std::vector<std::uint32_t> order_;  // of edges by their places
-  std::vector<Slot> slots_;
+  std::size_t count_ = 0;  // of sides
+  std::vector<std::uint32_t> sides_, numbers_,
+      places_;  // of sides; their edges in the order in which they come
+  std::vector<std::uint32_t> edges_, sorted_, order_;  // of edges in this order, and where each goes
+  std::vector<std::uint64_t> slots_;                   // ends, and places of edges
 };
 
 // The cells at each vertex but those of which it is the last corner: all that have an edge to a later vertex. Vertices
@@ -143,7 +148,7 @@ class EdgeStars {
       for (std::size_t v = first_of(block); v < first_of(block + 1); ++v) {
         gather_sides(v, cells, cut, edges);
         const auto sorted = edges.find();
-        for (const auto& edge : sorted) found[block].push_back(2 * edge.end | edge.is_cut);
+        found[block].insert(found[block].end(), sorted.begin(), sorted.end());
         edge_start_[v + 1] = static_cast<std::uint32_t>(sorted.size());
         std::uint8_t* const places = places_.data() + sides * begin_of(v);
         std::fill(places, places_.data() + sides * end_[v], static_cast<std::uint8_t>(sorted.size()));
@@ -177,8 +182,11 @@ class EdgeStars {
           const std::size_t t = members_[i] / 4, k = members_[i] % 4;
           body.prefetch(later_member(i) / 4);
           std::array<std::size_t, sides> places;
-          for (std::size_t j = 0; j < sides; ++j)
-            places[j] = last - first < many ? places_[sides * i + j] : search(t, (k + 1 + j) % width);
+          if (last - first < many) {
+            for (std::size_t j = 0; j < sides; ++j) places[j] = places_[sides * i + j];
+          } else {
+            for (std::size_t j = 0; j < sides; ++j) places[j] = search(t, (k + 1 + j) % width);
+          }
           body.visit(t, k, places);
         }
         body.end(first, last);
@@ -190,7 +198,7 @@ class EdgeStars {
   static constexpr std::size_t sides = width - 1;                   // of a member, at its vertex
   static constexpr std::size_t least_piece = std::size_t{1} << 16;  // cells: some milliseconds
   static constexpr std::size_t many = 0xff;  // edges of a vertex that bytes do not number
-  static constexpr std::size_t ahead = 8;    // members whose cells are loaded before their turn
+  static constexpr std::size_t ahead = 32;   // members whose cells are loaded before their turn
 
   std::size_t blocks() const { return block_start_.size() - 1; }
   std::size_t first_of(std::size_t block) const { return std::min(block << shift_, vertices_); }

@@ -108,6 +108,7 @@ struct Estimate {
   double radius, error;
 };
 constexpr Estimate unknown{0, infinity};
+constexpr double worst_refined = 0x1p-8;  // of an estimate, so that its own bound is right within as much
 
 Vector<double> from_to(const Point3& a, const Point3& b) { return {b.x - a.x, b.y - a.y, b.z - a.z}; }
 
@@ -222,6 +223,13 @@ struct FineSquare {
   static FineSquare of(const DoubleDouble& n, const DoubleDouble& d) { return {n, d}; }
 };
 
+// Numbers whose squares are as wide as need be.
+template <class Number>
+const Vector<Number>& wide(const Vector<Number>& p) {
+  return p;
+}
+Vector<int128> wide(const Vector<std::int64_t>& p) { return {p.x, p.y, p.z}; }
+
 // The square of a radius, from the ways from the first corner to the others.
 template <class Result, class Number>
 Result square_of(std::size_t size, const std::array<Vector<Number>, 3>& ways, const Number& one) {
@@ -233,7 +241,8 @@ Result square_of(std::size_t size, const std::array<Vector<Number>, 3>& ways, co
     return Result::of(dot(b, b) * dot(c, c) * dot(third, third), four_times(dot(normal, normal)));
   }
   const Sphere<Number> sphere(b, c, d);
-  return Result::of(dot(sphere.center, sphere.center), four_times(sphere.determinant * sphere.determinant));
+  const auto center = wide(sphere.center);
+  return Result::of(dot(center, center), four_times(sphere.determinant * sphere.determinant));
 }
 
 // The ways from the first corner, each coordinate less that of the first, both as `integer` makes them integers.
@@ -248,15 +257,16 @@ std::array<Vector<Number>, 3> integer_ways(const Simplex& s, const Integer& inte
   return ways;
 }
 
+// Sums of products of three differences and squares of lengths have at most 64 bits, so all but the square of a center.
 std::optional<ShortSquare> short_square(const Simplex& s) {
-  std::array<Vector<int128>, 3> ways{};
+  std::array<Vector<std::int64_t>, 3> ways{};
   for (std::size_t k = 1; k < s.size; ++k) {
     const Vector<double> way = from_to(*s.corner[0], *s.corner[k]);
     if (!(extent(way) < most_short)) return std::nullopt;
-    const auto integer = [](double value) { return int128{static_cast<std::int64_t>(value)}; };
+    const auto integer = [](double value) { return static_cast<std::int64_t>(value); };
     ways[k - 1] = {integer(way.x), integer(way.y), integer(way.z)};
   }
-  return square_of<ShortSquare>(s.size, ways, int128{1});
+  return square_of<ShortSquare>(s.size, ways, std::int64_t{1});
 }
 
 // The grid of all corners of two simplices, which may be one.
@@ -347,10 +357,33 @@ void scale(ScaledPoints& out) {
   out.exponent = exponent;
 }
 
+// The square of a radius in twice as many digits. The formulas are those of its estimate, with exact differences, and
+// operations that err by 15 u^2 where those err by u; and of squares errors are twice as large.
+alpha::FineRadius refine(const Estimate& found, const Simplex& simplex) {
+  std::array<Vector<DoubleDouble>, 3> ways{};
+  const Point3& a = *simplex.corner[0];
+  for (std::size_t k = 1; k < simplex.size; ++k) {
+    const Point3& p = *simplex.corner[k];
+    ways[k - 1] = {numbers::two_difference(p.x, a.x), numbers::two_difference(p.y, a.y),
+                   numbers::two_difference(p.z, a.z)};
+  }
+  const FineSquare square = square_of<FineSquare>(simplex.size, ways, DoubleDouble(1.0));
+  const DoubleDouble quotient = square.numerator / square.denominator;
+  return {quotient, 48 * u * found.error * quotient.head};
+}
+
 double settled_radius(const Estimate& found, const Simplex& s) {
   if (found.error < worst_error) {
     const double low = found.radius * (1 - found.error), high = found.radius * (1 + found.error);
     if (rounded_by(open_bits, low) == rounded_by(open_bits, high)) return found.radius;
+  }
+  if (found.error < worst_refined) {  // the double nearest to the exact radius, where both bounds round to it
+    const alpha::FineRadius fine = refine(found, s);
+    const DoubleDouble root = sqrt(fine.square);
+    const double error =
+        fine.error / root.head + 16 * u * u * root.head;  // twice that of the root by the square
+    const double low = root.head + (root.tail - error), high = root.head + (root.tail + error);
+    if (low == high) return low;
   }
   return alpha::rounded_root(wide_square(s));
 }
@@ -433,21 +466,10 @@ int compare_radii(const Simplex& p, const Simplex& q, bool are_integers) {
   return compare(wide_square(p), wide_square(q));
 }
 
-// The formulas are those of the estimates, with exact differences, and operations that err by 15 u^2 where those err by
-// u; and of squares errors are twice as large.
 alpha::FineRadius refine_radius(const Simplex& simplex) {
   const Estimate found = estimate(simplex, false);
   if (!(found.error < infinity)) return {found.radius, infinity};
-  std::array<Vector<DoubleDouble>, 3> ways{};
-  const Point3& a = *simplex.corner[0];
-  for (std::size_t k = 1; k < simplex.size; ++k) {
-    const Point3& p = *simplex.corner[k];
-    ways[k - 1] = {numbers::two_difference(p.x, a.x), numbers::two_difference(p.y, a.y),
-                   numbers::two_difference(p.z, a.z)};
-  }
-  const FineSquare square = square_of<FineSquare>(simplex.size, ways, DoubleDouble(1.0));
-  const DoubleDouble quotient = square.numerator / square.denominator;
-  return {quotient, 48 * u * found.error * quotient.head};
+  return refine(found, simplex);
 }
 
 bool is_inside_diametral_sphere(const Point3& a, const Point3& b, const Point3& v, bool are_integers) {

@@ -179,13 +179,14 @@ class Builder {
 
   SpaceArrays write(alpha::RadiusRanks&& ranks) {
     SpaceArrays out;
-    LargeArray<std::int32_t> facet_min(4 * count_);  // of each facet
+    LargeArray<std::int32_t> facet_min(4 * count_);  // the complement where nothing is across
     out.triangle_min = LargeArray<std::int32_t>(facet_.size());
     for_items(facet_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t m) {
       const std::int32_t own = ranks.rank[count_ + m], facet = facet_[m], other = facets_->across(facet);
       std::int32_t least = std::min(own, ranks.rank[at(facet) / 4]);
       if (other >= 0) least = std::min(least, ranks.rank[at(other) / 4]);
-      out.triangle_min[m] = facet_min[at(facet)] = least;
+      out.triangle_min[m] = least;
+      facet_min[at(facet)] = other < 0 ? ~least : least;
       if (other >= 0) facet_min[at(other)] = least;
     });
     for (LargeArray<std::int32_t>* each : {&out.edge_min, &out.edge_mid, &out.edge_max})
@@ -225,22 +226,21 @@ class Builder {
     }
 
     void prefetch(std::size_t t) const {
-      if constexpr (width == 4) {
-        __builtin_prefetch(&facet_min_[4 * t]);
-        __builtin_prefetch(&builder_.neighbors_[t]);
-      }
+      if constexpr (width == 4) __builtin_prefetch(&facet_min_[4 * t]);
       if constexpr (width > 2) __builtin_prefetch(&rank_[t]);
     }
 
     void visit(std::size_t t, std::size_t k, const std::array<std::size_t, width - 1>& edges) {
       if constexpr (width == 4) {
+        const std::int32_t own = rank_[t];
+        std::array<std::int32_t, 3> least, most{own, own, own};
+        for (std::size_t j = 0; j < 3; ++j) least[j] = facet_min_[4 * t + (k + 1 + j) % 4];
+        if ((least[0] | least[1] | least[2]) < 0) mark_outside(least, most);
         for (std::size_t j = 0; j < 3; ++j) {  // the facets opposite to the two other corners are at the edge
-          const std::size_t p = (k + 1 + (j + 1) % 3) % 4, q = (k + 1 + (j + 2) % 3) % 4;
-          const bool is_outside = (builder_.neighbors_[t][p] | builder_.neighbors_[t][q]) < 0;
           auto& [min, mid, max] = found_[edges[j]];
-          min = std::min({min, facet_min_[4 * t + p], facet_min_[4 * t + q]});
-          mid = std::min(mid, rank_[t]);
-          max = std::max(max, is_outside ? last_rank_ : rank_[t]);
+          min = std::min({min, least[(j + 1) % 3], least[(j + 2) % 3]});
+          mid = std::min(mid, own);
+          max = std::max(max, most[j]);
         }
       } else if constexpr (width == 3) {
         for (const std::size_t e : edges) {
@@ -263,6 +263,15 @@ class Builder {
     }
 
    private:
+    // Complements belong to facets that nothing is across.
+    void mark_outside(std::array<std::int32_t, 3>& least, std::array<std::int32_t, 3>& most) const {
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (least[j] >= 0) continue;
+        least[j] = ~least[j];
+        most[(j + 1) % 3] = most[(j + 2) % 3] = last_rank_;
+      }
+    }
+
     const Builder& builder_;
     LargeArray<Ends>& edges_;  // which get the old numbers
     SpaceArrays& out_;
