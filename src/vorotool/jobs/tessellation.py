@@ -30,7 +30,6 @@ from vorotool.jobs.inputs import (
     tell_outside,
 )
 from vorotool.jobs.options import OF_FRAMES, Options, changed
-from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.pixel_sizes import lengths_of_image, unit_of_grid, with_pixel_size, written_grid
 from vorotool.jobs.refusals import check_image_size, refuse
 from vorotool.jobs.run_log import Run
@@ -217,6 +216,8 @@ class Products(Tessellated):
     @cached_property
     def world(self) -> World:
         """Where what is drawn lies: lengths are those across the picture."""
+        from vorotool.jobs.picture_world import world_of
+
         o, frame = self.options, self.seeds.frame or self.frame
         made = world_of(self.run, o, frame=frame.box, size=o.pixel_size)
         if made.scale_bar is None or self.sides == SQUARE:

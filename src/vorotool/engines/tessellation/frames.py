@@ -14,15 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.convert.images import as_raster, is_image
-from vorotool.convert.points import as_points
-from vorotool.convert.polygons import as_polygons
-from vorotool.convert.spacings import asked_sides
 from vorotool.engines.common import described
 from vorotool.engines.tessellation.seeding import FrameOf, moved_to, seeds_from_raster, seeds_in_frame
 from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.numeric.checks import MAX_PIXELS
 from vorotool.numeric.numbers import real_number, shown_number
+from vorotool.products.formats import resolved
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import CELL, SQUARE, Frame, PixelSides
 from vorotool.types.points.point_set import PointSet
@@ -69,6 +66,8 @@ def as_seeds(
     sides: PixelSides = SQUARE,
 ) -> SeedSet:
     """Give seeds from whatever `tessellate` accepts, on a lattice for the frame."""
+    from vorotool.convert.images import as_raster, is_image
+
     if isinstance(source, SeedSet):
         seeds = source
     elif is_image(source, name, image):
@@ -83,6 +82,8 @@ def as_seeds(
 
 
 def _points(source: Any, name: str) -> PointSet:
+    from vorotool.convert.points import as_points
+
     try:
         return as_points(source, name)
     except InputError:
@@ -98,7 +99,7 @@ def _holds_polygons(source: Any) -> bool:
     if isinstance(source, np.ndarray) and source.dtype != object:
         return False
     try:
-        return len(as_polygons(source)) > 0
+        return len(resolved("convert.polygons:as_polygons")(source)) > 0
     except InputError:
         return False
 
@@ -228,6 +229,8 @@ def sides_of(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
     """Give the sides of the pixels as they are asked for, else those of labels that have sides."""
     if spacing is None and isinstance(source, LabelImage | LabelVolume):
         return source.sides
+    from vorotool.convert.spacings import asked_sides
+
     return asked_sides(source, spacing, axes)
 
 

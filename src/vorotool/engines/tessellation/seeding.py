@@ -11,8 +11,6 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.convert.images import as_raster
-from vorotool.convert.points import as_points
 from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
@@ -86,6 +84,8 @@ def seeds_from_points(points: PointsLike, *, frame: Frame | None = None, strict:
     """
     if frame is not None:
         check_value(frame, "frame", "Frame")
+    from vorotool.convert.points import as_points
+
     return seeds_in_frame(as_points(points), frame, strict=strict)
 
 
@@ -183,6 +183,8 @@ def seeds_from_raster(
     >>> seeds_from_raster(np.array([[1, 0, 1], [0, 0, 1]])).labels.tolist()
     [1, 2, 2]
     """
+    from vorotool.convert.images import as_raster
+
     check_objects(mode, get_args(SeedMode), connectivity)
     max_sites = whole_number(max_sites, "max_sites")
     raster = as_raster(raster, "raster", is_gray=True)

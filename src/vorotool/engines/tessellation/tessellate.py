@@ -10,8 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.convert.images import check_image_choice
-from vorotool.convert.volumes import is_of_space, refuse_triples
 from vorotool.engines.common import label_array
 from vorotool.engines.tessellation.frames import (
     as_seeds,
@@ -181,6 +179,9 @@ def tessellate(
     >>> tessellate([[0, 0, 0], [2, 0, 1]], shape=(2, 1, 3)).labels.tolist()
     [[[1, 1, 2]], [[1, 2, 2]]]
     """
+    from vorotool.convert.images import check_image_choice
+    from vorotool.convert.volumes import is_of_space, refuse_triples
+
     check_image_choice(image)
     axes = 3 if image is not True and is_of_space(seeds, shape, window) else 2
     if axes == 2:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, BinaryIO, Literal
+from typing import TYPE_CHECKING, Any, BinaryIO, Literal
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -13,7 +13,9 @@ from vorotool.formats.io.arrays import checked
 from vorotool.products.formats import resolved
 from vorotool.types.images import LabelImage, Raster
 from vorotool.types.pixels import PixelGrid
-from vorotool.types.skeleton.arc_measures import ThicknessImage
+
+if TYPE_CHECKING:
+    from vorotool.types.skeleton.arc_measures import ThicknessImage
 
 _ANY_IMAGE = option("-o image.tif or image.npy", "the path image.tif or image.npy")
 
