@@ -108,3 +108,11 @@ def test_messages_say_what_helps(run, folder, line, code, says):
     for name in ("two/a.csv", "two/a.tsv"):
         (folder / name).write_text("x,y\n1,2\n3,4\n")
     run(line, code=code, says=says)
+
+
+def test_a_file_whose_name_begins_like_an_option_is_found(run, folder):
+    (folder / "-x.csv").write_text("x,y\n1,2\n3,4\n")
+    for command in ("info", "delaunay"):
+        run(f"{command} -x.csv", code=2, says="No such option '-x'. For the file of this name write ./-x.csv")
+        run(f"{command} ./-x.csv")
+    assert "file" not in run("delaunay -y.csv", code=2).err

@@ -153,11 +153,14 @@ def _run(arguments: list[str] | None) -> int:
             vorotool.invoke(context)
         return 0
     except (Exception, KeyboardInterrupt) as error:
-        return _told(error)
+        return _told(error, arguments)
 
 
-def _told(error: Exception | KeyboardInterrupt) -> int:
+def _told(error: Exception | KeyboardInterrupt, arguments: list[str]) -> int:
     """Say what is wrong; the exit code."""
+    if isinstance(error, click.NoSuchOption):
+        files = (each for each in arguments if each.startswith("-") and os.path.lexists(each))
+        error.message += "".join(f" For the file of this name write ./{each}" for each in [*files][:1])
     if isinstance(error, click.exceptions.Exit):
         return error.exit_code
     if isinstance(error, KeyboardInterrupt | BrokenPipeError):
