@@ -159,8 +159,11 @@ def _run(arguments: list[str] | None) -> int:
 def _told(error: Exception | KeyboardInterrupt, arguments: list[str]) -> int:
     """Say what is wrong; the exit code."""
     if isinstance(error, click.NoSuchOption):
-        files = (each for each in arguments if each.startswith("-") and os.path.lexists(each))
-        error.message += "".join(f" For the file of this name write ./{each}" for each in [*files][:1])
+        files = [each for each in arguments if each.startswith("-") and os.path.lexists(each)]
+        if files:
+            error = click.UsageError(
+                f"{error.format_message()} For the file of this name write ./{files[0]}", error.ctx
+            )
     if isinstance(error, click.exceptions.Exit):
         return error.exit_code
     if isinstance(error, KeyboardInterrupt | BrokenPipeError):
