@@ -147,6 +147,19 @@ def test_lines_and_arcs_are_joined(drawing):
     assert len(np.unique(shapes.ring(0), axis=0)) == len(shapes.ring(0))
 
 
+def test_outlines_on_several_layers_stay_open_with_a_note(drawing):
+    space, corners = drawing.modelspace(), [(0, 0), (9, 0), (9, 9), (0, 9), (0, 0)]
+    space.add_circle((30, 0), 2, dxfattribs={"layer": "a"})
+    for layer, (a, b) in zip("aabb", itertools.pairwise(corners), strict=True):
+        space.add_line(a, b, dxfattribs={"layer": layer})
+    space.add_line((20, 0), (25, 0), dxfattribs={"layer": "b"})
+    shapes, notes = read(drawing)
+    assert shapes.is_line.sum() == 3
+    assert [each for each in notes if "several layers" in each] == [
+        "a.dxf: 1 outline whose lines are on several layers stays open: only lines of one layer are joined"
+    ]
+
+
 def with_gaps(drawing, units, *gaps, size=100.0):
     """Squares in a row, each with a gap at one corner; the first with a hole."""
     drawing.header["$INSUNITS"] = units

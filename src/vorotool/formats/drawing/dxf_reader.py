@@ -95,14 +95,25 @@ def _polygons(name: str, blocks: _Blocks, options: ReadOptions, unit: str | None
     shapes: list[Shape] = []
     layers: list[str] = []
     gaps: list[tuple[Gap, str]] = []
+    still_open: list[Curve] = []
     for layer, curves in blocks.curves.items():
         chains = joined(curves, near)
         gaps += [(gap, layer) for gap in open_gaps(chains, near)]
         closed = [chain for chain in chains if chain.is_closed]
         parts = [Shape(closed, NESTED, None, name)] if closed else []
         parts += [Shape([chain], None, None, name) for chain in chains if not chain.is_closed]
+        still_open += [chain for chain in chains if not chain.is_closed]
         shapes += parts
         layers += [layer] * len(parts)
+    if len(blocks.curves) > 1:
+        apart = sum(chain.is_closed for chain in joined(still_open, near))
+        if apart:
+            stays = (
+                "1 outline whose lines are on several layers stays"
+                if apart == 1
+                else (f"{apart} outlines whose lines are on several layers stay")
+            )
+            options.note(Message(f"{name}: {stays} open: only lines of one layer are joined"))
     if gaps:
         options.note(Message(f"{name}: {_words_of_gaps(gaps, near, unit)}"))
     return shapes_to_polygons(name, shapes, options, unit=unit, y_axis=UP, properties={"layer": layers})
