@@ -101,8 +101,8 @@ Sphere exact_sphere(const std::array<Point3, 4>& corners) {
     const auto [b, c, d] =
         whole_differences<limbs.value>(grid, corners[0], std::array{corners[1], corners[2], corners[3]});
     const auto [center, six_volumes] = scaled_center(b, c, d);
-    const auto quotient = [&](const auto& value) {
-      return numbers::rounded_quotient(value, six_volumes, grid.exponent - 1).value;
+    const auto quotient = [&grid, &divisor = six_volumes](const auto& value) {
+      return numbers::rounded_quotient(value, divisor, grid.exponent - 1).value;
     };
     const Point3 way{quotient(center.x), quotient(center.y), quotient(center.z)};
     const double volume =
@@ -209,8 +209,8 @@ class WholeCell {
     for (const auto& [b, c, d] : ends_) {
       const auto [center, six_volumes] = scaled_center(way(site_, b), way(site_, c), way(site_, d));
       if (six_volumes.sign() <= 0) return false;
-      const auto rounded = [&](const BigInteger& value) {
-        return quotient(value << (fraction - 1), six_volumes);
+      const auto rounded = [fraction, &divisor = six_volumes](const BigInteger& value) {
+        return quotient(value << (fraction - 1), divisor);
       };
       centers_.push_back({rounded(center.x), rounded(center.y), rounded(center.z)});
     }

@@ -26,7 +26,6 @@ LatticeBox relative_to(const std::array<std::int64_t, 3>& origin, const PlaceBox
 
 BrickSeeds::BrickSeeds(const SeedGrid& grid, const VolumeFrame& frame, const BrickKernels& kernels)
     : grid_(grid),
-      frame_(frame),
       kernels_(kernels),
       size_{frame.plane.width, frame.plane.height, frame.depth},
       step_(frame.sides()) {}

@@ -86,7 +86,6 @@ class BrickSeeds {
   double largest_square(const BoxSeeds& of, const PlaceBox& box);
 
   const SeedGrid& grid_;
-  const VolumeFrame frame_;
   const BrickKernels kernels_;
   const Voxel size_, step_;
   Voxel start_{};

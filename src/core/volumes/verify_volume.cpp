@@ -38,7 +38,7 @@ WrongVoxels verify(std::span<const Label> volume, const VoxelsOnLattice& voxels,
                    const LatticeVolumeSeeds& seeds, std::optional<uint128> limit, unsigned threads,
                    const Monitor& monitor) {
   const spatial::KdTree<std::int64_t, Distance, 3> tree(seeds.places, seeds.labels, monitor);
-  const auto [width, height, depth] = voxels.size;
+  const std::size_t width = voxels.size[0], height = voxels.size[1], depth = voxels.size[2];
   // At a query a voxel, of labels that are noise, 2^15 voxels are some tens of milliseconds.
   const std::size_t rows = std::max<std::size_t>(1, (std::size_t{1} << 15) / width);
   std::vector<WrongVoxels> wrong(base::piece_count(height * depth, rows));
