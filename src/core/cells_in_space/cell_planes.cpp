@@ -115,7 +115,7 @@ class CellPlanes::Integers {
 
   int determinant_sign() const {
     return with_limbs([this]<std::size_t limbs>() {
-      const auto [normal, distance] = rows<limbs>();
+      const auto [normal, distance] = this->template rows<limbs>();
       return dot(normal[0], cross(normal[1], normal[2])).sign();
     });
   }
@@ -123,7 +123,7 @@ class CellPlanes::Integers {
   // Of the fourth plane, where the other three meet; their determinant is positive.
   int side() const {
     return with_limbs([this]<std::size_t limbs>() {
-      const auto [normal, distance] = rows<limbs>();
+      const auto [normal, distance] = this->template rows<limbs>();
       const auto [w, x] = solve<limbs>(normal, distance);
       return (distance[3] * w - dot(normal[3], x)).sign();
     });
@@ -131,11 +131,11 @@ class CellPlanes::Integers {
 
   RoundedPlace place() const {
     return with_limbs([this]<std::size_t limbs>() {
-      const auto [normal, distance] = rows<limbs>();
+      const auto [normal, distance] = this->template rows<limbs>();
       const auto [w, x] = solve<limbs>(normal, distance);
-      const auto coordinate = [&](std::size_t axis, const FixedInteger<4 * limbs>& along) {
-        return numbers::rounded_quotient(grid_.template fixed_integer<limbs>(values_[axis]) * w + along, w,
-                                         grid_.exponent);
+      const auto coordinate = [this, &divisor = w](std::size_t axis, const FixedInteger<4 * limbs>& along) {
+        const auto origin = grid_.template fixed_integer<limbs>(values_[axis]);
+        return numbers::rounded_quotient(origin * divisor + along, divisor, grid_.exponent);
       };
       return RoundedPlace{coordinate(0, x.x), coordinate(1, x.y), coordinate(2, x.z)};
     });
