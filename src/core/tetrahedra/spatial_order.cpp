@@ -24,7 +24,6 @@ struct CurveStep {
   std::uint8_t place, next;
 };
 
-constexpr unsigned turn_right(unsigned bits, unsigned by) { return (bits >> by | bits << (3 - by)) & 7; }
 constexpr unsigned turn_left(unsigned bits, unsigned by) { return (bits << by | bits >> (3 - by)) & 7; }
 constexpr unsigned gray(unsigned i) { return i ^ i >> 1; }
 

@@ -162,7 +162,7 @@ class Builder {
                    value_[count_ + m] = left_out;
                    item[count] = count_ + m;
                    count +=
-                       static_cast<std::size_t>(!is_cut(facet_[m]) & !is_cut(facets_->across(facet_[m])));
+                       std::size_t{!is_cut(facet_[m])} & std::size_t{!is_cut(facets_->across(facet_[m]))};
                  }
                  std::vector<double> radius(count);
                  measure_triangles(scaled_, {gabriel.data(), count}, radius.data());
