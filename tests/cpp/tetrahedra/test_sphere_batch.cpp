@@ -12,6 +12,7 @@ using namespace vorotool::core::tetrahedra;
 using namespace vorotool::tests;
 using vorotool::core::tessellation::Simd;
 using vorotool::core::tessellation::supports;
+namespace spheres = vorotool::core::tetrahedra::kernels;
 
 namespace {
 
@@ -59,9 +60,9 @@ bool is_among(const Point3& p, const std::vector<Point3>& points) {
 }
 
 std::vector<SphereBatch> all_batches() {
-  std::vector<SphereBatch> batches{kernels::spheres_portable()};
+  std::vector<SphereBatch> batches{spheres::spheres_portable()};
 #if defined(__x86_64__)
-  if (supports(Simd::avx2)) batches.push_back(kernels::spheres_avx2());
+  if (supports(Simd::avx2)) batches.push_back(spheres::spheres_avx2());
 #endif
   return batches;
 }

@@ -16,21 +16,22 @@ using namespace vorotool::core::tetrahedral_alpha;
 using namespace vorotool::tests;
 using vorotool::core::tessellation::Simd;
 using vorotool::core::tessellation::supports;
+namespace radii = vorotool::core::tetrahedral_alpha::kernels;
 
 namespace {
 
 constexpr std::size_t group = RadiusBatch::group;
 
 std::vector<RadiusBatch> batches() {
-  std::vector<RadiusBatch> found{kernels::radii_portable()};
+  std::vector<RadiusBatch> found{radii::radii_portable()};
 #if defined(__x86_64__)
-  if (supports(Simd::avx2)) found.push_back(kernels::radii_avx2());
+  if (supports(Simd::avx2)) found.push_back(radii::radii_avx2());
 #endif
   return found;
 }
 
 // Four points for each lane: integers of 0 to most times a power of two, with offsets that are far below where `is_rough`.
-std::vector<Point3> drawn_points(Random& random, std::int64_t most, int exponent, bool is_rough) {
+std::vector<Point3> corners_of_lanes(Random& random, std::int64_t most, int exponent, bool is_rough) {
   const auto next = [&] {
     const double offset = is_rough ? std::ldexp(static_cast<double>(random.whole(0, 3)), -48) : 0;
     return std::ldexp(static_cast<double>(random.whole(0, most)) + offset, exponent);
@@ -90,9 +91,9 @@ TEST(lanes_of_tetrahedra_agree_with_each_other_and_with_exact_radii) {
   for (int i = 0; i < 3000; ++i) {
     const std::int64_t most = std::array{1, 3, 200, 1 << 20}[static_cast<std::size_t>(i % 4)];
     const bool are_integers = i % 3 == 2;
-    const std::vector<Point3> points =
-        drawn_points(random, most, are_integers ? 0 : static_cast<int>(random.whole(-70, 70)), i % 3 == 1);
-    const Lanes first = tetrahedra_of(kernels::radii_portable(), points, are_integers);
+    const std::vector<Point3> points = corners_of_lanes(
+        random, most, are_integers ? 0 : static_cast<int>(random.whole(-70, 70)), i % 3 == 1);
+    const Lanes first = tetrahedra_of(radii::radii_portable(), points, are_integers);
     for (const RadiusBatch& batch : batches()) {
       const Lanes found = tetrahedra_of(batch, points, are_integers);
       for (std::size_t k = 0; k < group; ++k) {
@@ -115,7 +116,7 @@ TEST(lanes_of_triangles_have_the_radii_of_single_ones) {
   for (int i = 0; i < 3000; ++i) {
     const std::int64_t most = std::array{1, 3, 200, 1 << 20}[static_cast<std::size_t>(i % 4)];
     const std::vector<Point3> points =
-        drawn_points(random, most, static_cast<int>(random.whole(-70, 70)), i % 3 == 1);
+        corners_of_lanes(random, most, static_cast<int>(random.whole(-70, 70)), i % 3 == 1);
     for (const RadiusBatch& batch : batches()) {
       std::array<double, group> radius;
       const unsigned known = batch.triangles(points.data(), rows<3>().data(), radius.data());
