@@ -33,7 +33,7 @@ class Foreign:
 
 def in_zarr(values):
     """A Zarr array in memory."""
-    made = zarr.create_array({}, shape=values.shape, dtype=values.dtype, chunks=(2, 2))
+    made = zarr.create_array({}, shape=values.shape, dtype=values.dtype.newbyteorder("="), chunks=(2, 2))
     made[:] = values
     return made
 

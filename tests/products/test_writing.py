@@ -19,6 +19,7 @@ def test_there_is_a_value_of_each_type():
     assert set(VALUES) == set(public_types())
 
 
+@pytest.mark.filterwarnings("ignore:.*a Shapefile has names of 10 bytes")
 @pytest.mark.parametrize("name", VALUES)
 def test_every_part_in_every_format(name, tmp_path):
     value = VALUES[name]
