@@ -99,7 +99,8 @@ def test_zarr(tmp_path, dtype, version, leading):
 
 def pyramid(path, values, version="0.5", *, axes="tczyx", scale=(1, 1, 1.5, 0.25, 0.325), units=("micrometer",) * 3):
     group = zarr.open_group(path, mode="w", zarr_format=2 if version == "0.4" else 3)
-    group.create_array("0", data=values.copy(), chunks=(1,) * (values.ndim - 2) + (16, 16))
+    chunks = (1,) * (values.ndim - 2) + (16, 16)
+    group.create_array("0", shape=values.shape, dtype=values.dtype, chunks=chunks)[:] = values
     told = [{"name": axis} | ({"unit": units["zyx".index(axis)]} if axis in "zyx" else {}) for axis in axes]
     changes = [{"type": "scale", "scale": scale[-len(axes) :]}]
     about = {"multiscales": [{"axes": told, "datasets": [{"path": "0", "coordinateTransformations": changes}]}]}

@@ -24,7 +24,8 @@ def write(path, version, values=LABELS, *, axes=None, scale=(0.5, 0.5), labels=F
     datasets = []
     for level in (0, 1):
         part = values[..., :: 2**level, :: 2**level]
-        group.create_array(str(level), data=part.copy(), chunks=(1,) * (values.ndim - 2) + (16, 16))
+        chunks = (1,) * (values.ndim - 2) + (16, 16)
+        group.create_array(str(level), shape=part.shape, dtype=part.dtype, chunks=chunks)[:] = part
         factors = [1.0] * (values.ndim - 2) + [side * 2**level for side in scale]
         datasets.append({"path": str(level), "coordinateTransformations": [{"type": "scale", "scale": factors}]})
     about = {"multiscales": [{"version": version, "axes": axes, "datasets": datasets}]}
