@@ -78,7 +78,7 @@ class Sorter {
         compare_(compare),
         refine_(refine),
         threads_(threads),
-        monitor_(monitor),
+        passes_(monitor, 5),
         buckets_(sample(), values.size()),
         counts_(base::piece_count(values.size(), ranks_a_piece)),
         start_(buckets_.size() + 1),
@@ -107,7 +107,7 @@ class Sorter {
 
   template <class Body>
   void for_buckets(const Body& body) {
-    parallel_for(buckets_.size(), threads_, body, monitor_);
+    parallel_for(buckets_.size(), threads_, body, passes_.next());
   }
 
   std::vector<std::uint64_t> sample() const {
@@ -120,7 +120,7 @@ class Sorter {
 
   // How many items of each piece go to each bucket, then where they go.
   void count() {
-    base::for_pieces(values_.size(), ranks_a_piece, threads_, monitor_,
+    base::for_pieces(values_.size(), ranks_a_piece, threads_, passes_.next(),
                      [&](std::size_t piece, std::size_t begin, std::size_t end) {
                        counts_[piece].resize(buckets_.size());
                        for (std::size_t i = begin; i < end; ++i) {  // without a branch
@@ -164,7 +164,7 @@ class Sorter {
   void fill() {
     sorted_ = LargeArray<double>(start_.back());
     item_ = LargeArray<std::int32_t>(start_.back());
-    base::for_pieces(values_.size(), ranks_a_piece, threads_, monitor_,
+    base::for_pieces(values_.size(), ranks_a_piece, threads_, passes_.next(),
                      [&](std::size_t, std::size_t begin, std::size_t end) {
                        visit_places(begin, end, [&](std::size_t i, std::uint32_t place) {
                          sorted_[place] = values_[i];
@@ -232,7 +232,8 @@ class Sorter {
 
   // On all threads together, since there may be but one such run; and the monitor is served.
   void settle_long_runs() {
-    for (const Words words : long_runs_) settle_run(words, threads_, monitor_);
+    const Monitor monitor = passes_.same();
+    for (const Words words : long_runs_) settle_run(words, threads_, monitor);
   }
 
   // Sorts a run by the exact values, by fine estimates first if there are some, and marks where values begin.
@@ -356,7 +357,7 @@ class Sorter {
       sorted_ = {}, item_ = {};
     }
     out.rank = LargeArray<std::int32_t>(values_.size());
-    base::for_pieces(values_.size(), ranks_a_piece, threads_, monitor_,
+    base::for_pieces(values_.size(), ranks_a_piece, threads_, passes_.next(),
                      [&](std::size_t, std::size_t begin, std::size_t end) {
                        std::fill(out.rank.data() + begin, out.rank.data() + end,
                                  static_cast<std::int32_t>(sum));
@@ -376,7 +377,7 @@ class Sorter {
   const CompareItems& compare_;
   const RefineItem& refine_;
   unsigned threads_;
-  const Monitor& monitor_;
+  base::Passes passes_;
   Buckets buckets_;
   std::vector<std::vector<std::uint32_t>> counts_;  // [pieces][buckets]
   std::vector<std::size_t> start_;                  // [buckets + 1]

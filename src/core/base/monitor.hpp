@@ -27,6 +27,25 @@ inline Monitor part_of(const Monitor& whole, double from, double to) {
   return [&whole, from, to](double part) { return whole(from + (to - from) * part); };
 }
 
+// The monitors of equal shares of the work, one after the other. It holds no copy.
+class Passes {
+ public:
+  Passes(const Monitor& whole, int count) : whole_(whole), share_(1.0 / count) {}
+
+  Monitor next() {
+    const double from = share_ * done_++;
+    return part_of(whole_, from, share_ * done_);
+  }
+
+  // Tells of no progress: of what belongs to the share before, and is long at times.
+  Monitor same() const { return part_of(whole_, share_ * done_, share_ * done_); }
+
+ private:
+  const Monitor& whole_;
+  double share_;
+  int done_ = 0;
+};
+
 // Lets the monitor know at every 2^16th item, which should take some tens of nanoseconds each; of how many
 // items, where that is known.
 inline void report_item(const Monitor& monitor, std::size_t item, std::size_t items = SIZE_MAX) {

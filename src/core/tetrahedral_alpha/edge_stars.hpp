@@ -121,10 +121,10 @@ class EdgeStars {
  public:
   using Cell = std::array<std::int32_t, width>;
 
-  EdgeStars(std::span<const Cell> cells, std::size_t vertices, unsigned threads, const base::Monitor& monitor)
+  EdgeStars(std::span<const Cell> cells, std::size_t vertices, unsigned threads, base::Passes& passes)
       : vertices_(vertices),
         threads_(threads),
-        monitor_(monitor),
+        passes_(passes),
         shift_(std::max(12, static_cast<int>(std::bit_width(vertices)) - 11)),
         block_start_((vertices >> shift_) + 2),
         end_(vertices),
@@ -211,7 +211,7 @@ class EdgeStars {
 
   template <class Body>
   void for_blocks(const Body& body) const {
-    base::parallel_for(blocks(), threads_, body, monitor_);
+    base::parallel_for(blocks(), threads_, body, passes_.next());
   }
 
   // Calls visit(k, block of the vertex) for the corners of a cell but the last one.
@@ -229,12 +229,13 @@ class EdgeStars {
   void gather(std::span<const Cell> cells) {
     const std::size_t grain = std::max(least_piece, cells.size() >> 11);
     std::vector<std::vector<std::uint32_t>> counts(base::piece_count(cells.size(), grain));
-    base::for_pieces(
-        cells.size(), grain, threads_, monitor_, [&](std::size_t piece, std::size_t begin, std::size_t end) {
-          counts[piece].resize(blocks());
-          for (std::size_t t = begin; t < end; ++t)
-            visit_corners(cells[t], [&](std::size_t, std::size_t block) { ++counts[piece][block]; });
-        });
+    base::for_pieces(cells.size(), grain, threads_, passes_.next(),
+                     [&](std::size_t piece, std::size_t begin, std::size_t end) {
+                       counts[piece].resize(blocks());
+                       for (std::size_t t = begin; t < end; ++t)
+                         visit_corners(cells[t],
+                                       [&](std::size_t, std::size_t block) { ++counts[piece][block]; });
+                     });
     std::size_t sum = 0;
     for (std::size_t block = 0; block < blocks(); ++block) {
       block_start_[block] = sum;
@@ -242,7 +243,7 @@ class EdgeStars {
     }
     block_start_.back() = sum;
     members_ = LargeArray<std::uint32_t>(sum);
-    base::for_pieces(cells.size(), grain, threads_, monitor_,
+    base::for_pieces(cells.size(), grain, threads_, passes_.next(),
                      [&](std::size_t piece, std::size_t begin, std::size_t end) {
                        for (std::size_t t = begin; t < end; ++t) {
                          visit_corners(cells[t], [&](std::size_t k, std::size_t block) {
@@ -299,8 +300,8 @@ class EdgeStars {
 
   std::size_t vertices_;
   unsigned threads_;
-  const base::Monitor& monitor_;
-  int shift_;  // a block has so many bits of vertices
+  base::Passes& passes_;  // of which gathering takes two, finding two, and a visit one
+  int shift_;             // a block has so many bits of vertices
   std::vector<std::size_t> block_start_;
   LargeArray<std::uint32_t> members_;      // 4 t + k by blocks, then by vertices
   LargeArray<std::uint8_t> places_;        // of the sides of members among the edges of the vertex

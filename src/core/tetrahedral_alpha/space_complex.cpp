@@ -26,6 +26,7 @@ namespace {
 
 constexpr std::size_t simplices_a_piece = std::size_t{1} << 12;  // about a millisecond of work
 constexpr double left_out = -1;
+constexpr int passes = 12;  // over all simplices of a kind; over all of them, for the ranks
 
 // The corners of the facet opposite to each corner of a tetrahedron.
 constexpr std::array<std::array<std::size_t, 3>, 4> facets{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
@@ -42,19 +43,19 @@ class Builder {
       : count_(width == 2 ? 0 : cells.size()),
         neighbors_(neighbors),
         threads_(threads),
-        monitor_(monitor),
+        passes_(monitor, passes),
         cells_(cells.size()),
         order_(number_vertices(cells, points.size())),
-        stars_(std::span<const Cell>(cells_.data(), cells_.size()), order_.size(), threads, monitor),
+        stars_(std::span<const Cell>(cells_.data(), cells_.size()), order_.size(), threads, passes_),
         scaled_(points, order_),
         given_(cells) {
-    if constexpr (width == 4) facets_.emplace(cells, neighbors, threads, monitor);
+    if constexpr (width == 4) facets_.emplace(cells, neighbors, threads, passes_.next());
   }
 
   SpaceArrays run() {
     LargeArray<std::uint8_t> cut(cells_.size()), cut_sides(cells_.size());
     LargeArray<double> radius = measure_cells(cut, cut_sides);
-    if constexpr (width == 4) facet_ = facets_->find(threads_, monitor_);
+    if constexpr (width == 4) facet_ = facets_->find(threads_, passes_.next());
     auto [ends, is_cut] =
         stars_.find({cells_.data(), cells_.size()}, [&](std::size_t t) -> unsigned { return cut_sides[t]; });
     cut_sides = {};
@@ -71,8 +72,9 @@ class Builder {
     };
     alpha::RefineItem refine;  // integers, where ties are many, are compared as quickly
     if (!scaled_.are_integers) refine = [&](std::uint32_t item) { return refine_radius(simplex_of(item)); };
+    const Monitor monitor = passes_.next();
     alpha::RadiusRanks ranks =
-        alpha::rank_radii(std::move(value_), compare, threads_, monitor_, bounds::open_bits, refine);
+        alpha::rank_radii(std::move(value_), compare, threads_, monitor, bounds::open_bits, refine);
     scaled_.points = {};
     return write(std::move(ranks));
   }
@@ -118,9 +120,9 @@ class Builder {
     return s;
   }
 
-  LargeArray<double> measure_cells(LargeArray<std::uint8_t>& cut, LargeArray<std::uint8_t>& cut_sides) const {
+  LargeArray<double> measure_cells(LargeArray<std::uint8_t>& cut, LargeArray<std::uint8_t>& cut_sides) {
     LargeArray<double> radius(count_);
-    for_pieces(cells_.size(), simplices_a_piece, threads_, monitor_,
+    for_pieces(cells_.size(), simplices_a_piece, threads_, passes_.next(),
                [&](std::size_t, std::size_t begin, std::size_t end) {
                  if constexpr (width == 4) {
                    measure_tetrahedra(scaled_, {cells_.data() + begin, end - begin},
@@ -150,7 +152,7 @@ class Builder {
     const auto is_cut = [&](std::int32_t facet) {
       return facet >= 0 && (cut[at(facet) / 4] >> (facet % 4) & 1) != 0;
     };
-    for_pieces(facet_.size(), simplices_a_piece, threads_, monitor_,
+    for_pieces(facet_.size(), simplices_a_piece, threads_, passes_.next(),
                [&](std::size_t, std::size_t begin, std::size_t end) {
                  std::vector<Corners> gabriel(end - begin + 1);
                  std::vector<std::size_t> item(gabriel.size());
@@ -171,7 +173,7 @@ class Builder {
   }
 
   void measure_edges(const LargeArray<std::uint8_t>& is_cut) {
-    for_items(edges_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
+    for_items(edges_.size(), simplices_a_piece, threads_, passes_.next(), [&](std::size_t e) {
       const std::size_t item = count_ + facet_.size() + e;
       value_[item] = is_cut[e] != 0 ? left_out : ranked_radius(simplex_of(item), scaled_.are_integers);
     });
@@ -181,7 +183,7 @@ class Builder {
     SpaceArrays out;
     LargeArray<std::int32_t> facet_min(4 * count_);  // the complement where nothing is across
     out.triangle_min = LargeArray<std::int32_t>(facet_.size());
-    for_items(facet_.size(), simplices_a_piece, threads_, monitor_, [&](std::size_t m) {
+    for_items(facet_.size(), simplices_a_piece, threads_, passes_.next(), [&](std::size_t m) {
       const std::int32_t own = ranks.rank[count_ + m], facet = facet_[m], other = facets_->across(facet);
       std::int32_t least = std::min(own, ranks.rank[at(facet) / 4]);
       if (other >= 0) least = std::min(least, ranks.rank[at(other) / 4]);
@@ -283,7 +285,7 @@ class Builder {
   std::size_t count_;  // of cells that are ranked
   std::span<const Row> neighbors_;
   unsigned threads_;
-  const Monitor& monitor_;
+  base::Passes passes_;
   LargeArray<Cell> cells_;           // by the new numbers
   std::vector<std::int32_t> place_;  // the new numbers
   std::vector<std::int32_t> order_;  // the old numbers

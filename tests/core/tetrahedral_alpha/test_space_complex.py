@@ -152,3 +152,13 @@ def test_threads_and_order_of_points_change_nothing(kind):
         assert np.array_equal(one[name], permuted[name]), name
     assert isfinite(one["spectrum"][-1])
     assert np.array_equal(np.sort(one["edges"]), np.sort(order[permuted["edges"]]))
+
+
+@pytest.mark.parametrize("decimals", [16, 1])
+def test_progress_never_goes_back(decimals):
+    points = np.unique(np.round(3 * np.random.default_rng(8).random((30_000, 3)), decimals), axis=0)
+    mesh, fractions = delaunay(points), []
+    cells = mesh.points, mesh.tetrahedra, mesh.neighbors, mesh.planar, np.empty((0, 2), np.int32)
+    _core.tetrahedral_alpha.space_complex(*cells, 1, fractions.append)
+    assert fractions == sorted(fractions)
+    assert all(0 <= fraction <= 1 for fraction in fractions)
