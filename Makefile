@@ -185,7 +185,7 @@ warnings: $(BUILD)/.venv ## compile all C++ with each compiler here, COMPILERS="
 	COMPILERS="$(COMPILERS)" tools/warnings.sh $(RUN)
 
 .PHONY: sanitize
-sanitize: build $(BUILD)/.tests ## the suite on a build with address and undefined-behaviour sanitizers; then damaged files for MINUTES=...
+sanitize: build $(BUILD)/.tests ## the suite on builds with sanitizers of threads, addresses and undefined behavior; then damaged files for MINUTES=...
 	MINUTES=$(MINUTES) SEED=$(SEED) tools/sanitize.sh $(RUN)
 
 .PHONY: clean

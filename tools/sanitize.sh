@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Build the core, its tests in C++ and its bindings with address and undefined-behaviour sanitizers, and run the suite
-# on them; then, for MINUTES of the environment, damaged files (tests/fuzz/bytes.py).
+# on them; before that, the tests in C++ with the sanitizer of threads; then, for MINUTES of the environment, damaged
+# files (tests/fuzz/bytes.py).
 # Usage: [MINUTES=5] tools/sanitize.sh PYTHON [pytest arguments]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -30,9 +31,15 @@ if [ ! -x "$work/venv/bin/python" ]; then
     "$python" -c 'import sys; print(*(path for path in sys.path if path.endswith("site-packages")), sep="\n")' \
         > "$("$work/venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/libraries.pth"
 fi
-"$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps \
-    --force-reinstall -C install.strip=false -C cmake.define.VOROTOOL_SANITIZE=ON -C cmake.define.VOROTOOL_TESTING=ON \
-    -C build-dir="$work/build" . 2> "$work/install.log" || { cat "$work/install.log"; exit 1; }
+install() {
+    "$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps \
+        --force-reinstall -C install.strip=false -C cmake.define.VOROTOOL_SANITIZE="$1" \
+        -C cmake.define.VOROTOOL_TESTING=ON -C build-dir="$work/build-${1%,*}" . 2> "$work/install.log" \
+        || { cat "$work/install.log"; exit 1; }
+}
+install thread
+TSAN_OPTIONS=halt_on_error=1 "$("$work/venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')"/vorotool/core_tests
+install address,undefined
 
 # Python itself is not instrumented: its leaks are not ours, and the runtime has to be loaded first, in the processes
 # that tests start as well. A report ends a process: a test whose process ended so fails. More memory than there is, is
