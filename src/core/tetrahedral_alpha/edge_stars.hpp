@@ -180,7 +180,7 @@ class EdgeStars {
         };
         for (std::size_t i = begin_of(v); i < end_[v]; ++i) {
           const std::size_t t = members_[i] / 4, k = members_[i] % 4;
-          body.prefetch(later_member(i) / 4);
+          body.prefetch(later_member(i, v) / 4);
           std::array<std::size_t, sides> places;
           if (last - first < many) {
             for (std::size_t j = 0; j < sides; ++j) places[j] = places_[sides * i + j];
@@ -205,8 +205,9 @@ class EdgeStars {
   std::size_t begin_of(std::size_t v) const {
     return v % (std::size_t{1} << shift_) == 0 ? block_start_[v >> shift_] : end_[v - 1];
   }
-  std::uint32_t later_member(std::size_t i) const {
-    return members_[std::min(i + ahead, members_.size() - 1)];
+  // In the block of a vertex: the next one may be another thread's.
+  std::uint32_t later_member(std::size_t i, std::size_t v) const {
+    return members_[std::min(i + ahead, block_start_[(v >> shift_) + 1] - 1)];
   }
 
   template <class Body>
@@ -273,7 +274,7 @@ class EdgeStars {
     edges.reset(sides * (end - begin));
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t t = members_[i] / 4, k = members_[i] % 4;
-      __builtin_prefetch(&cells[later_member(i) / 4]);
+      __builtin_prefetch(&cells[later_member(i, v) / 4]);
       const unsigned cut_sides = cut(t);
       for (std::size_t j = 0; j < sides; ++j) {
         const std::size_t l = (k + 1 + j) % width;
@@ -293,7 +294,7 @@ class EdgeStars {
           edges.is_cut[e] = *word & 1U;
         }
       }
-      found[block] = {};
+      std::vector<std::uint32_t>().swap(found[block]);
     });
     return edges;
   }
