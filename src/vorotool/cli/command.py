@@ -78,7 +78,7 @@ class _InRange(ParameterType):
             number = super().convert(value, param, ctx)
         except click.BadParameter:
             number = nan
-        if isnan(number):
+        if isinstance(number, float) and isnan(number):
             limits = f"of at least {self.min:n}" if self.max is None else f"from {self.min:n} to {self.max:n}"
             self.fail(f"{value!r}: expected {self.noun} {limits}", param, ctx)
         return number
