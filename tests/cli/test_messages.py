@@ -94,6 +94,8 @@ def test_any_encoding_of_the_terminal_will_do(tmp_path, encoding):
     ("line", "code", "says"),
     [
         ("tessellate none.csv", 3, "none.csv: there is no such file"),  # that the output is binary does not matter
+        ("tessellate two/a.csv", 2, "redirect with -f png, or print text with -f text"),
+        ("tessellate two/a.csv --volume", 2, "name a file with -o, or redirect with -f tiff\n"),
         ("voronoi dots.csv --input-crs EPSG:99999 -o a.gpkg", 2, "EPSG:99999"),
         ("voronoi dots.csv --input-crs EPSG:99999 -o a.geojson", 2, "EPSG:99999"),
         ("delaunay dots.csv --crs 25833", 2, "EPSG:25833"),

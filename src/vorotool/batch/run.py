@@ -241,5 +241,8 @@ class _Report:
 
 
 def _named(source: str, message: Message) -> Message:
-    """Return a line that names its input."""
-    return message if message.source == source else Message(f"{source}: {message}", message.kind, source=source)
+    """Return a line that names its input, once: that of a page begins with the name of the file."""
+    if message.source == source:
+        return message
+    line = message.removeprefix(f"{message.source}: ") if source.startswith(f"{message.source}, page ") else message
+    return Message(f"{source}: {line}", message.kind, source=source)

@@ -74,9 +74,9 @@ def plan_targets(o: Options, source: str) -> list[Target]:
 
         check_input(source)
         possible = products[name].formats
-        text = _text(possible)
-        instead = f"print text with -f {text}" if FORMATS[text].is_text else "redirect standard output"
-        raise UsageError(f"{name} output is binary: name a file with -o, redirect with -f {possible[0]}, or {instead}")
+        text = next((fmt for fmt in possible if FORMATS[fmt].is_text and fmt != "html"), None)
+        ways = f"redirect with -f {possible[0]}" + (f", or print text with -f {text}" if text else "")
+        raise UsageError(f"{name} output is binary: name a file with -o, {'' if text else 'or '}{ways}")
     return [target]
 
 
@@ -208,7 +208,3 @@ def _several_format(products: Mapping[str, Product], what: str, fmt: str | None,
 def _named(stem: Path, what: str | None, fmt: str) -> str:
     middle = f".{what}" if what else ""
     return f"{stem}{middle}{FORMATS[fmt].endings[0]}"
-
-
-def _text(possible: Sequence[str]) -> str:
-    return next((fmt for fmt in possible if FORMATS[fmt].is_text), possible[0])

@@ -242,3 +242,10 @@ def test_a_bar_shows_the_fraction_that_is_done(capfd):
         show(0.25)
         show(1)
     assert "sweep" in capfd.readouterr().err
+
+
+def test_a_page_that_fails_is_named_once(run, folder):
+    noise = np.random.default_rng(1).integers(0, 99, (2, 60, 100), dtype=np.uint8)
+    tifffile.imwrite(folder / "pages.tif", noise, photometric="minisblack")
+    made = run("tessellate pages.tif --page all --out-dir out -f npy", code=6)
+    assert "error: pages.tif, page 0: the image holds" in made.err

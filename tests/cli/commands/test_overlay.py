@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+import tifffile
 from PIL import Image
 from scipy import ndimage
 
@@ -94,3 +95,33 @@ def test_an_image_of_another_size_is_noted(run, folder, photo, name):
     words = f"note: small.png has 50 x 40 pixels, the input {size}: "
     assert words in done.err or "-q" in COMMANDS[name]
     assert ("the input" in said) == (size != "300 x 200")
+
+
+# ---- colors of the image, and of what is drawn
+
+
+@pytest.mark.parametrize("kind", ["palette", "miniswhite"])
+def test_an_overlaid_tiff_is_drawn_as_it_is_seen(run, folder, kind):
+    values = np.arange(60_000, dtype=np.uint32).reshape(200, 300) % 256
+    ramp = np.arange(256, dtype=np.uint16) * 257
+    colors = np.stack([ramp, ramp[::-1], ramp // 2]) if kind == "palette" else np.stack([ramp[::-1]] * 3)
+    more = {"colormap": colors} if kind == "palette" else {}
+    tifffile.imwrite(folder / "seen.tif", values.astype(np.uint8), photometric=kind, **more)
+    (folder / "dots.csv").write_text("x,y\n0,0\n")
+    run("delaunay dots.csv --layers points --overlay seen.tif -o a.png")
+    made = np.asarray(Image.open(folder / "a.png"))
+    assert (made[10:] == (colors >> 8).astype(np.uint8).T[values[10:]]).all()
+
+
+def test_areas_over_each_other_mix_with_the_image_as_in_svg(run, folder, photo):
+    (folder / "two.wkt").write_text(
+        "POLYGON ((50 50,90 50,90 90,50 90,50 50))\nPOLYGON ((200 50,240 50,240 90,200 90,200 50))\n"
+    )
+    cell, inside = (100, 70), (70, 70)  # x and y beside and in the first one
+    run("voronoi two.wkt --frame 0,0,300,200 --overlay photo.png -o a.svg")
+    fills = re.findall(r'id="cell-1"[^>]* fill="#(\w{6})"', (folder / "a.svg").read_text())
+    color = np.array(list(bytes.fromhex(fills[0])))
+    run("voronoi two.wkt --frame 0,0,300,200 --overlay photo.png -o a.png")
+    made, image = (np.asarray(Image.open(folder / path)).astype(float) for path in ("a.png", "photo.png"))
+    assert np.abs(made[cell[::-1]] - (image[cell[::-1]] + color) / 2).max() <= 1
+    assert np.abs(made[inside[::-1]] - ((image[inside[::-1]] + color) / 2 + 255) / 2).max() <= 1

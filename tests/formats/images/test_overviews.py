@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import tifffile
+from PIL import Image
 
 import vorotool
 from support.refusals import refused
@@ -28,3 +29,48 @@ def test_pages_beside_an_overview_are_pages(tmp_path):
         for kind in (0, 1, 0):
             file.write(np.eye(9, dtype=np.uint8), photometric="minisblack", subfiletype=kind)
     refused(vorotool.InputError, "3 pages", vorotool.read, path)
+
+
+@pytest.mark.parametrize(
+    ("options", "is_volume"),
+    [
+        ({"imagej": True, "metadata": {"axes": "ZYX"}}, True),
+        ({"metadata": None}, True),
+        ({"imagej": True, "metadata": {"axes": "CYX"}}, False),
+        ({"imagej": True, "metadata": {"axes": "TYX"}}, False),
+        ({"ome": True, "metadata": {"axes": "TYX"}}, False),
+        ({"ome": True, "metadata": {"axes": "ZYX"}}, True),
+    ],
+)
+def test_pages_are_only_called_a_volume_where_they_are_read_as_one(tmp_path, options, is_volume):
+    path = tmp_path / "pages.tif"
+    tifffile.imwrite(path, np.zeros((3, 8, 9), np.uint8), photometric="minisblack", **options)
+    message = str(refused(vorotool.InputError, "3 pages", vorotool.read, path))
+    assert ("volume" in message) == is_volume
+    if is_volume:
+        assert vorotool.read(path, geometry="volume").shape == (3, 8, 9)
+    else:
+        refused(vorotool.InputError, "", vorotool.read, path, geometry="volume")
+
+
+def test_an_image_that_follows_another_is_no_slice(tmp_path):
+    path = tmp_path / "two.tif"
+    for side in (8, 5):
+        tifffile.imwrite(path, np.zeros((side, 9), np.uint8), append=side == 5)
+    assert "volume" not in str(refused(vorotool.InputError, "2 pages", vorotool.read, path))
+    message = refused(vorotool.InputError, "states 1 slice", vorotool.read, path, geometry="volume")
+    assert "page=N" in str(message)
+
+
+# ---- 0 is shown as white
+
+
+@pytest.mark.parametrize("compression", ["raw", "group4", "packbits"])
+def test_stored_values_are_read_where_0_is_shown_as_white(tmp_path, compression):
+    values = np.eye(9, dtype=bool)
+    path = tmp_path / "mask.tif"
+    Image.fromarray(~values).save(path, compression=compression, tiffinfo={262: 0})  # Pillow is given what is seen
+    notes = []
+    assert np.array_equal(vorotool.read(path, note=notes.append).values, values)
+    assert "WhiteIsZero" in notes[0]
+    assert "invert=True" in notes[0]

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import AS_VOLUME, InputError
-from vorotool.formats.images.image_grids import PageGrid, grid_of, missing_values, placed_grid
+from vorotool.formats.images.image_grids import PageGrid, missing_values, placed_grid
 from vorotool.formats.images.tiff_layout import TiffLayout, decode_rows, is_decoded_here
-from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_of
+from vorotool.formats.images.tiff_reader import opened_tiff, page_grid, page_layout, page_of
 from vorotool.formats.io.arrays import plain_values
 from vorotool.formats.io.sources import StoredParts, check_pixels, decoding
 from vorotool.formats.zarr.reader import StoredArray, ZarrImage
@@ -90,7 +90,7 @@ class TiffRows(StoredParts):
             page = page_of(file, self.name, self.page)
             layout = page_layout(self.name, file.filehandle.size, page)
             with decoding(self.name, "TIFF"):
-                return layout, grid_of(self.name, file, page)
+                return layout, page_grid(self.name, file, page)
 
     @property
     def _layout(self) -> TiffLayout:

@@ -93,12 +93,15 @@ def picture_and_grid(source: Source, options: ReadOptions) -> tuple[NDArray[np.u
     if source.format != "tiff" or tiff_reader.tiff_pages(source) == 1:
         options = replace(options, page=None)
     image = read_image(source, options)
-    return _as_seen(source, image.values), image.grid
+    palette, is_inverted = png_palette(source) if source.format == "png" else None, False
+    if source.format == "tiff":
+        palette, is_inverted = tiff_reader.shown_colors(source, options.page)
+    pixels = _as_seen(image.values, palette)
+    return ~pixels if is_inverted else pixels, image.grid
 
 
-def _as_seen(source: Source, values: NDArray[Any]) -> NDArray[np.uint8]:
-    palette = png_palette(source) if source.format == "png" else None
-    if palette is not None and values.ndim == 2:
+def _as_seen(values: NDArray[Any], palette: NDArray[np.uint8] | None) -> NDArray[np.uint8]:
+    if palette is not None and values.ndim == 2 and values.max() < len(palette):
         colors: NDArray[np.uint8] = palette[values]
         return colors
     channels = _spread(values[:, :, None] if values.ndim == 2 else values)

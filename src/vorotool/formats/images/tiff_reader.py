@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import struct
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -17,6 +18,9 @@ from vorotool.formats.images.tiff_layout import JPEGS, TiffLayout, decode_image,
 from vorotool.formats.io.sources import Source, check_pixels, decoding, interruptible
 
 _MOST_CHANNELS = 4
+_WHITE_IS_ZERO, _PALETTE = 0, 3
+"""Values of PhotometricInterpretation."""
+
 _PILLOW_MODES = {"1", "L", "P", "LA", "RGB", "RGBA", "I;16", "I;16B"}
 
 
@@ -48,7 +52,7 @@ def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDA
                 f"these are more than {_MOST_CHANNELS} x {option(f'--max-pixels {max_pixels}')}"
             )
         with decoding(source.name, "TIFF"):
-            about = grid_of(source.name, file, chosen)
+            about = page_grid(source.name, file, chosen)
             if is_decoded_here(layout):
                 values = decode_image(layout, source.data)
             else:
@@ -56,6 +60,28 @@ def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDA
     if values.dtype.kind not in "buif" or not 2 <= values.ndim <= 3:
         raise InputError(f"{source.name} holds {values.dtype} of shape {values.shape}: an image of numbers is expected")
     return values, about
+
+
+def page_grid(name: str, file: Any, page: Any) -> PageGrid:
+    """Read what a page says of its pixels, and note that values are those stored where a screen inverts them."""
+    about = grid_of(name, file, page)
+    if page.photometric != _WHITE_IS_ZERO or about.note:
+        return about
+    note = (
+        f"{name} states that 0 is shown as white (WhiteIsZero): the stored values are used, so dark places are the "
+        f"foreground of a mask; {option('--invert', 'invert=True')} swaps foreground and background"
+    )
+    return replace(about, note=note)
+
+
+def shown_colors(source: Source, page: int | None) -> tuple[NDArray[np.uint8] | None, bool]:
+    """Give the (n, 3) colors of the indices of a page with a palette, and whether a screen inverts its values."""
+    with opened_tiff(source.name, io.BytesIO(source.data)) as file:
+        chosen = page_of(file, source.name, page)
+        with decoding(source.name, "TIFF"):
+            colors = chosen.colormap if chosen.photometric == _PALETTE else None
+    palette = None if colors is None else np.ascontiguousarray((colors.T >> 8).astype(np.uint8))
+    return palette, chosen.photometric == _WHITE_IS_ZERO
 
 
 def page_layout(name: str, size: int, page: Any) -> TiffLayout:
@@ -92,12 +118,24 @@ def page_of(file: Any, name: str, page: int | None) -> Any:
             return file.pages[page or 0]
     if page is None and count > 1:
         one = option(f"--page 0 to --page {count - 1}, or --page all", f"page=0 to page={count - 1}")
-        raise InputError(f"{name} has {count} pages: choose one with {one}, or read them as a volume with {AS_VOLUME}")
+        more = f", or read them as a volume with {AS_VOLUME}" if _may_be_a_volume(name, file, count) else ""
+        raise InputError(f"{name} has {count} pages: choose one with {one}{more}")
     if count == 0:
         raise InputError(f"{name} is damaged: it begins as a TIFF, but holds no image")
     raise InputError(
         f"{name} has {count} page{'s' * (count != 1)}, counted from 0: {option(f'--page {page}')} does not exist"
     )
+
+
+def _may_be_a_volume(name: str, file: Any, count: int) -> bool:
+    """Whether the file states no channels, time steps or other axes, which a volume does not have."""
+    from vorotool.formats.volumes.tiff_stack import stack_axes
+
+    try:
+        axes = stack_axes(name, file, count)
+    except InputError:
+        return False
+    return axes.pages is not None or axes.slices in (None, count)
 
 
 def _by_library(source: Source, page: Any, layout: TiffLayout) -> NDArray[Any]:
@@ -132,7 +170,10 @@ def _by_pillow(source: Source, page: Any) -> NDArray[Any]:
                 f"{source.name} has {compression} compression of {page.dtype} pixels: "
                 "install imagecodecs, or save it with deflate or no compression"
             )
-        return np.asarray(image)
+        values = np.asarray(image)
+        if page.photometric == _WHITE_IS_ZERO and image.mode in ("1", "L"):  # which Pillow gives as they are seen
+            return ~values
+        return values
 
 
 # ---- tags, before tifffile reads them ------------------------------------------------------------

@@ -25,6 +25,7 @@ from vorotool.formats.volumes.source import VolumeSource, mapped, refuse_axes
 from vorotool.frozen import frozen
 from vorotool.numeric.length_units import ratio
 from vorotool.numeric.parallel import in_order
+from vorotool.types.values import counted
 from vorotool.types.volumes.volume import VoxelGrid
 
 _WORTH_THREADS = 2**20
@@ -130,7 +131,12 @@ class TiffStack(VolumeSource):
 
 def _count_of(name: str, axes: StackAxes, pages: int) -> int:
     if axes.slices not in (None, pages):
-        raise InputError(f"{name} has {pages} pages, but its description states {axes.slices} slices: is it cut off?")
+        advice = (
+            "is it cut off?" if pages < (axes.slices or 0) else f"choose a page with {option('--page N', 'page=N')}"
+        )
+        raise InputError(
+            f"{name} has {pages} pages, but its description states {counted(axes.slices or 0, 'slice')}: {advice}"
+        )
     return pages
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -29,6 +29,15 @@ MOST_COLORS = 255
 NOTHING = "#000000"
 """A color that adds nothing to the image beneath."""
 BAND_ROWS = 64
+_HALVES: tuple[Callable[[NDArray[np.int64], NDArray[np.int64]], NDArray[np.int64]], ...] = (
+    lambda row, x: row + x,
+    lambda row, _: row,
+    lambda row, _: row // 2,
+    lambda _, x: x // 2,
+)
+"""Where these are even lie halves of the pixels; each layer that is seen through sets another one, which has half of
+what any other has set: so colors mix as in SVG."""
+
 _PIXELS = 1 << 22  # of the drawing, that are set at a time
 _TEXTS = 1 << 14  # that are written at a time
 _ITEMS = 1 << 18  # lines or corners that are taken at a time
@@ -61,13 +70,17 @@ class _Canvas:
         self.page = page
         self.indices = np.zeros((page.height * FINE, page.width * FINE), np.uint8)  # 0: nothing
         self.colors: dict[str, int] = {}
+        self.sheer = 0  # which half of the pixels the next layer that is seen through sets
 
     def draw(self, layer: Layer, page: Page) -> None:
         if isinstance(layer, Arcs | CurvedPolygons) or (isinstance(layer, Curves) and layer.center is not None):
             layer = layer.chords(page.distance(FLATNESS / FINE))
         places = page.place(layer.points) * FINE
         if isinstance(layer, Polygons):
-            self._fill(layer, places, is_sheer=layer.is_sheer or page.backdrop is not None)
+            half = None
+            if layer.is_sheer or page.backdrop is not None:
+                half, self.sheer = self.sheer, (self.sheer + 1) % len(_HALVES)
+            self._fill(layer, places, half)
             if layer.edge is not None:
                 self._stroke(places, layer.sides(), layer.width, self._color(layer.edge))
         elif isinstance(layer, Lines):
@@ -107,7 +120,7 @@ class _Canvas:
             raise LimitError(f"a PNG picture has at most {MOST_COLORS} colors: use {AS_SVG}")
         return number
 
-    def _fill(self, layer: Polygons, places: NDArray[np.float64], *, is_sheer: bool) -> None:
+    def _fill(self, layer: Polygons, places: NDArray[np.float64], half: int | None) -> None:
         """Fill each polygon by the even-odd rule: rows of pixels between crossings of its sides, in pairs."""
         classes = np.array([self._color(name) for name in layer.colors], dtype=np.uint8)
         polygon = layer.polygon_of_ring
@@ -120,7 +133,7 @@ class _Canvas:
         while start < len(corner_limits) - 1:  # some whole polygons at a time
             stop = max(start + 1, int(np.searchsorted(corner_limits, corner_limits[start] + _ITEMS, "right")) - 1)
             part = slice(corner_limits[start], corner_limits[stop])
-            self._fill_part(places, sides[part], owner[part], fills, is_sheer=is_sheer)
+            self._fill_part(places, sides[part], owner[part], fills, half)
             start = stop
 
     def _fill_part(
@@ -129,8 +142,7 @@ class _Canvas:
         sides: NDArray[np.int32],
         owner: NDArray[np.int64],
         fills: NDArray[np.uint8],
-        *,
-        is_sheer: bool,
+        half: int | None,
     ) -> None:
         a, b = places[sides[:, 0]], places[sides[:, 1]]
         height = self.indices.shape[0]
@@ -141,7 +153,7 @@ class _Canvas:
         x = a[side, 0] + (row + 0.5 - a[side, 1]) * slope
         order = np.lexsort((x, row, owner[side]))
         row, x, of = row[order], np.ceil(x[order] - 0.5), owner[side][order]
-        self._set_rows(row[::2], x[::2], x[1::2], fills[of[::2]], every_other=is_sheer)
+        self._set_rows(row[::2], x[::2], x[1::2], fills[of[::2]], half=half)
 
     def _stroke(self, places: NDArray[np.float64], pairs: NDArray[np.int32], width: float, value: int) -> None:
         """Draw lines as runs of pixels across them: a column of pixels where they are flat, else a row."""
@@ -215,9 +227,9 @@ class _Canvas:
         values: NDArray[np.uint8] | int,
         target: NDArray[np.uint8] | None = None,
         *,
-        every_other: bool = False,
+        half: int | None = None,
     ) -> None:
-        """Set pixels from ``left`` to before ``right`` of rows, each with its value; what is outside is left out."""
+        """Set pixels from ``left`` to before ``right`` of rows, or a half of them; what is outside is left out."""
         drawing = self.indices if target is None else target
         height, width = drawing.shape
         start = np.clip(left, 0, width).astype(np.int64)
@@ -229,8 +241,8 @@ class _Canvas:
             before = int(done[begin - 1]) if begin else 0
             end = max(begin + 1, int(np.searchsorted(done, before + _PIXELS, "right")))
             run, x = _expanded(start[begin:end], counts[begin:end])
-            if every_other:
-                chosen = (row[begin:end][run] + x) % 2 == 0
+            if half is not None:
+                chosen = _HALVES[half](row[begin:end][run], x) % 2 == 0
                 run, x = run[chosen], x[chosen]
             drawing[row[begin:end][run], x] = values if isinstance(values, int) else values[begin:end][run]
             begin = end
