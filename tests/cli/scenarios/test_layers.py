@@ -66,6 +66,24 @@ def test_a_colon_that_names_no_layer(run, towns):
     assert json.loads(run("info m.gpkg:lakes --json").out)["format"] == "wkt"
 
 
+def test_a_layer_whose_name_has_a_colon(run, towns):
+    frame(LAYERS["lakes"]).to_file(towns / "m.gpkg", layer="roads:main:old", driver="GPKG")
+    assert json.loads(run("info m.gpkg:roads:main:old --json").out)["features"] == 2
+    run("info m.gpkg:roads:main", code=3, says="the layer 'roads:main' of m.gpkg does not exist")
+
+
+@pytest.mark.parametrize("name", ["m.gpkg:none", "none.shp"])
+@pytest.mark.parametrize(("kind", "found"), [("Point", "points"), ("Polygon", "polygons"), ("LineString", "polygons")])
+def test_an_empty_layer_has_its_kind_and_its_columns(run, towns, name, kind, found):
+    empty = geopandas.GeoDataFrame({"height": [1.5], "name": ["a"]}, geometry=[shapely.Point(0, 0)], crs=2056)[:0]
+    file, _, layer = name.partition(":")
+    empty.to_file(towns / file, geometry_type=kind, **({"layer": layer} if layer else {}))
+    told = json.loads(run(f"info {name} --json").out)
+    assert (told["kind"], list(told["columns"])) == (found, ["height", "name"])
+    header = run(f"{'delaunay' if found == 'points' else 'skeleton-exact'} {name} --what table -f csv").out
+    assert header.endswith(",height,name\n")
+
+
 def test_layers_of_files_that_have_none_and_of_two_options_are_refused(run, towns):
     run("skeleton-exact lakes.geojson -o s.json")
     run("sample cells.png -o c.png")

@@ -45,6 +45,7 @@ class Features:
     has_none: str = ""  # of a table, whose coordinates are among the columns, if anywhere: that there is no geometry
     curves: int = 0  # how many curves were flattened
     texts: Sequence[str] | None = None  # well-known text of each
+    kind: str = ""  # of geometry, as the layer declares it, such as MULTIPOLYGON
 
     @property
     def is_table(self) -> bool:
@@ -53,12 +54,17 @@ class Features:
 
     @property
     def holds_shapes(self) -> bool:
-        """Whether the first geometry that is not empty is a polygon or a line, or a collection that begins with one."""
+        """Whether the first geometry that is not empty is a polygon or a line, or a collection that begins with one.
+
+        Where there is no such geometry, what the layer declares decides.
+        """
         parts = self.geometry[~shapely.is_missing(self.geometry) & ~shapely.is_empty(self.geometry)][:1]
         while len(parts) and shapely.get_type_id(parts[0]) == _COLLECTION:
             parts = shapely.get_parts(parts)
             parts = parts[~shapely.is_empty(parts)]
-        return len(parts) > 0 and int(shapely.get_type_id(parts[0])) in _SHAPES
+        if not len(parts):
+            return _SHAPE.search(self.kind.encode()) is not None
+        return int(shapely.get_type_id(parts[0])) in _SHAPES
 
     def where(self, index: int) -> str:
         """Give the words for a feature (0-based)."""
@@ -131,10 +137,10 @@ def _points(features: Features, options: ReadOptions) -> PointRows:
     points, items = single_points(geometry)
     owners = kept[items]
     options.check_sites(features.name, len(points))
-    if not len(points):
-        return PointRows(no_points(options.axes), None, {}, {"y_axis": UP, "crs": features.crs})
-    _check_finite(features, geometry, kept)
     columns = _point_columns(features, owners) if options.properties else {}
+    if not len(points):
+        return PointRows(no_points(options.axes), None, columns, {"y_axis": UP, "crs": features.crs})
+    _check_finite(features, geometry, kept)
     found = shapely.get_coordinates(points, include_z=options.wants_z)
     if options.wants_z and not np.isfinite(found[:, 2]).all():
         owner = int(owners[int(np.argmin(np.isfinite(found[:, 2])))])

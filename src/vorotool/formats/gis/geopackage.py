@@ -58,6 +58,7 @@ class _Layer(NamedTuple):
     table: str
     column: str
     system: int
+    kind: str
 
 
 class _Column(NamedTuple):
@@ -189,7 +190,7 @@ def _layers(source: Source, database: sqlite3.Connection) -> list[_Layer]:
             f"{source.name} is a SQLite database, but not a GeoPackage (it has no gpkg_contents): {advice}"
         )
     query = (
-        "SELECT c.table_name, g.column_name, g.srs_id FROM gpkg_contents c JOIN gpkg_geometry_columns g "
+        "SELECT c.table_name, g.column_name, g.srs_id, g.geometry_type_name FROM gpkg_contents c JOIN gpkg_geometry_columns g "
         "ON lower(c.table_name) = lower(g.table_name) WHERE c.data_type = 'features' ORDER BY c.rowid"
     )
     return [_Layer(*row) for row in database.execute(query)]
@@ -213,7 +214,8 @@ def _features(source: Source, database: sqlite3.Connection, layer: _Layer) -> Fe
     ids, attributes, (blobs,) = _attributes(source, database, layer.table, columns, [geometry])
     binary = [None if blob is None else _well_known(source, blob, row) for row, blob in enumerate(blobs, 1)]
     shapes, curves = checked_geometry(source, binary)
-    return Features(source.name, shapes, attributes, ids, _system(database, layer.system), curves=curves)
+    system = _system(database, layer.system)
+    return Features(source.name, shapes, attributes, ids, system, curves=curves, kind=str(layer.kind))
 
 
 def _table(source: Source, database: sqlite3.Connection, table: str, fault: str) -> Features:

@@ -100,7 +100,8 @@ def _read(pyogrio: Any, data: bytes, source: Source) -> Features:
         exact = pyogrio.read_arrow(data, columns=lossy, read_geometry=False, **options)[1].to_pydict()
         columns |= {name: exact[name] for name in lossy}
     geometry, curves = checked_geometry(source, wkb.tolist())
-    return Features(source.name, geometry, columns, None, member_of_text(meta["crs"]), curves=curves)
+    crs, kind = member_of_text(meta["crs"]), str(meta["geometry_type"])
+    return Features(source.name, geometry, columns, None, crs, curves=curves, kind=kind)
 
 
 def _columns(meta: dict[str, Any], values: Sequence[NDArray[Any]]) -> dict[str, list[Any]]:

@@ -214,11 +214,15 @@ _NOT_IN_NAMES = r'[<>:"/\\|?*\x00-\x1f]'
 
 
 def split_layer(name: str) -> tuple[str, str | None]:
-    """Split FILE:LAYER at its last colon; the layer is None where the name is that of a file, or of nothing."""
-    file, _, layer = name.rpartition(":")
-    if not layer or len(file) < _SHORTEST or os.path.lexists(name) or not os.path.exists(file) or os.path.isdir(file):
+    """Split FILE:LAYER at the last colon behind a file; the layer is None where the name is a file's, or nothing's."""
+    if os.path.lexists(name):
         return name, None
-    return file, layer
+    end = name.rfind(":", 0, -1)
+    while end >= _SHORTEST:
+        if os.path.exists(name[:end]) and not os.path.isdir(name[:end]):
+            return name[:end], name[end + 1 :]
+        end = name.rfind(":", 0, end)
+    return name, None
 
 
 def file_of(name: str) -> str:
