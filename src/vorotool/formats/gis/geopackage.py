@@ -190,7 +190,8 @@ def _layers(source: Source, database: sqlite3.Connection) -> list[_Layer]:
             f"{source.name} is a SQLite database, but not a GeoPackage (it has no gpkg_contents): {advice}"
         )
     query = (
-        "SELECT c.table_name, g.column_name, g.srs_id, g.geometry_type_name FROM gpkg_contents c JOIN gpkg_geometry_columns g "
+        "SELECT c.table_name, g.column_name, g.srs_id, g.geometry_type_name "
+        "FROM gpkg_contents c JOIN gpkg_geometry_columns g "
         "ON lower(c.table_name) = lower(g.table_name) WHERE c.data_type = 'features' ORDER BY c.rowid"
     )
     return [_Layer(*row) for row in database.execute(query)]
