@@ -282,7 +282,7 @@ def read_only(place):
     """Nothing can be made in the folder."""
     kind = place.chance.choice([errno.EROFS, errno.EACCES])
 
-    def refuse(path):
+    def refuse(path, like=""):
         raise OSError(kind, os.strerror(kind))
 
     def prepare():

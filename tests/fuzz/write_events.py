@@ -74,9 +74,9 @@ def install(steps):
     SIGNALLED[:] = os.pipe()
     os.set_blocking(SIGNALLED[1], False)
     signal.set_wakeup_fd(SIGNALLED[1])
-    wrap(temporaries, "_lock", "made", "locked", steps)
+    wrap(temporaries.fcntl, "flock", "made", "locked", steps)
     wrap(temporaries, "_discard", "discarding", "discarded", steps)
-    wrap(temporaries.Temporary, "move_to", "moving", "moved", steps)
+    wrap(os, "replace", "moving", "moved", steps)
     wrap(temporaries, "_exchange", "exchanging", "exchanged", steps)
     temporaries.Temporary.opened = lambda self: io.BufferedRandom(Raw(os.dup(self.descriptor), steps))
 

@@ -22,7 +22,7 @@ from vorotool.batch.tasks import Outcome, Results, Task, digest_of, is_done
 from vorotool.errors import BatchError, Message
 from vorotool.formats.io import atomic_output
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.io.temporaries import committed_together, new_folder, remove_dead, remove_tagged, temporary_beside
+from vorotool.formats.io.temporaries import committed_together, new_folder, remove_left, temporary_beside
 from vorotool.jobs.job import process_input
 from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.run_log import MakeBar, Run
@@ -176,10 +176,9 @@ def run_tasks(
         if manifest is not None:
             stack.enter_context(manifest)
             folders = {Path(path).parent for task in tasks for path in task.outputs}
-            for folder in folders:
-                remove_dead(folder)
+            remove_left(folders)
             manifest.begin(name, len(tasks))
-            stack.callback(remove_tagged, folders, f"{name}-")
+            stack.callback(remove_left, folders, f"{name}-")
         for number, outcome in stack.enter_context(closing(results(feed()))):
             outcomes[number] = outcome
             has_failed = has_failed or outcome.code != 0

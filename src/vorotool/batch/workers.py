@@ -20,7 +20,7 @@ from threading import Thread
 from typing import Any, NoReturn
 
 from vorotool.batch.tasks import Outcome, Process, Task, carry_out, keep_busy
-from vorotool.formats.io.temporaries import remove_tagged
+from vorotool.formats.io.temporaries import remove_left
 from vorotool.signals import insist_on_the_end
 
 START = "import sys; sys.path[:] = sys.argv[1:]; from vorotool.batch.workers import main; main()"
@@ -86,7 +86,7 @@ class Worker:
         with suppress(OSError), self.process:  # closes the pipes
             pass
         if self._task is not None:
-            remove_tagged({Path(path).parent for path in self._task.outputs}, self._task.tag)
+            remove_left({Path(path).parent for path in self._task.outputs}, self._task.tag)
         how = f"with exit code {code}" if code >= 0 else f"by {signal.Signals(-code).name}"
         return f"the process that worked on it ended {how}"
 

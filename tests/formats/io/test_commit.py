@@ -15,7 +15,7 @@ from support.refusals import refused
 from vorotool.errors import OutputError
 from vorotool.formats.io import temporaries
 from vorotool.formats.io.atomic_output import explained, open_output
-from vorotool.formats.io.temporaries import Placement, Temporary, committed_together
+from vorotool.formats.io.temporaries import Placement, committed_together
 from vorotool.formats.zarr.store import open_store
 
 OUTPUTS = ("a.shp", "b.zarr", "sub/c.dbf", "new.csv")
@@ -45,8 +45,8 @@ def write_file(path, text):
 def write_all(folder, *, last=lambda: None):
     """Replace all, write a new one, and remove one."""
     with committed_together() as commit:
-        gone = folder / "sub/gone.qix"
-        commit.add(Placement(str(gone), None, partial(explained, str(gone))))
+        gone = str(folder / "sub/gone.qix")
+        commit.placements[gone] = Placement(None, partial(explained, gone))
         for name in OUTPUTS:
             if name.endswith(".zarr"):
                 write_store(folder / name, "new")
@@ -69,10 +69,10 @@ class Failing:
 
     def __init__(self, monkeypatch, at, error, *, after, links=True, exchanges=True):
         self.count, self.at, self.error, self.after = 0, at, error, after
-        for owner, name in ((Path, "rename"), (Path, "replace"), (Path, "hardlink_to")):
-            self.wrap(monkeypatch, owner, name)
+        for name in ("rename", "replace", "link"):
+            self.wrap(monkeypatch, os, name)
         if not links:
-            monkeypatch.setattr(Path, "hardlink_to", refuse)
+            monkeypatch.setattr(os, "link", refuse)
         if not exchanges:
             monkeypatch.setattr(temporaries, "_exchange", lambda one, other: False)
 
@@ -161,14 +161,14 @@ def test_a_folder_in_the_place_of_a_file_stays(folder):
 def test_permissions_are_those_of_the_older_files_after_a_failure_too(folder, monkeypatch):
     (folder / "a.shp").chmod(0o604)
     number = (folder / "a.shp").stat().st_ino
-    move_to = Temporary.move_to
+    replace = os.replace
 
-    def fail(self, target):
+    def fail(path, target):
         if Path(target).name == "new.csv":
             raise OSError(errno.EIO, "broken")
-        move_to(self, target)
+        replace(path, target)
 
-    monkeypatch.setattr(Temporary, "move_to", fail)
+    monkeypatch.setattr(os, "replace", fail)
     refused(OutputError, "", write_all, folder)
     assert ((folder / "a.shp").stat().st_ino, (folder / "a.shp").stat().st_mode & 0o777) == (number, 0o604)
 
@@ -179,16 +179,15 @@ def test_after_a_kill_between_two_renames_each_is_old_or_new(folder, at):
     script = (
         "import os, signal, sys\n"
         "from pathlib import Path\n"
-        "from vorotool.formats.io.temporaries import Temporary\n"
         "sys.path.insert(0, sys.argv[1])\n"
         "from formats.io.test_commit import write_all\n"
-        "count, move_to = [], Temporary.move_to\n"
-        "def move(self, target):\n"
+        "count, replace = [], os.replace\n"
+        "def move(path, target):\n"
         "    if len(count) == int(sys.argv[2]):\n"
         "        os.kill(os.getpid(), signal.SIGKILL)\n"
         "    count.append(target)\n"
-        "    move_to(self, target)\n"
-        "Temporary.move_to = move\n"
+        "    replace(path, target)\n"
+        "os.replace = move\n"
         "write_all(Path())\n"
     )
     tests = str(Path(__file__).parents[2])

@@ -11,7 +11,6 @@ from support.refusals import refused
 from vorotool.formats.io.descriptors import (
     descriptor_of,
     input_identity,
-    is_of_another_process,
     is_same_output,
     open_input,
     open_output_descriptor,
@@ -40,7 +39,7 @@ from vorotool.formats.io.descriptors import (
 )
 def test_descriptors(name, number):
     assert descriptor_of(name) == number
-    assert not is_of_another_process(name)
+    assert descriptor_of(name, of_others=True) is None
 
 
 def test_links_to_descriptors(tmp_path, monkeypatch):
@@ -51,7 +50,7 @@ def test_links_to_descriptors(tmp_path, monkeypatch):
     assert [descriptor_of(name) for name in ("one", "two", f"{tmp_path}/two", "loop")] == [1, 1, 1, None]
     assert descriptor_of(f"/proc/{os.getpid()}/fd/1") == 1
     assert descriptor_of(f"/proc/{os.getppid()}/fd/1") is None
-    assert is_of_another_process(f"/proc/{os.getppid()}/fd/1")
+    assert descriptor_of(f"/proc/{os.getppid()}/fd/1", of_others=True) == 1
 
 
 def test_two_names_of_one_stream(tmp_path):

@@ -11,13 +11,13 @@ from pathlib import Path
 import pytest
 
 from support.refusals import refused
+from vorotool.errors import OutputError
 from vorotool.formats.io import temporaries
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.io.temporaries import (
     new_file,
     new_folder,
-    remove_dead,
-    remove_tagged,
+    remove_left,
     tagged_temporaries,
     temporary_beside,
 )
@@ -94,9 +94,9 @@ def test_other_things_stay(tmp_path):
 def test_those_of_the_living_stay(tmp_path, make):
     with temporary_beside(tmp_path / "a", make) as temporary:
         for _ in range(3):
-            remove_dead(tmp_path)
+            remove_left([tmp_path])
         assert Path(temporary.path).exists()
-        temporary.check()
+        assert temporary.is_at(temporary.path)
     assert names(tmp_path) == []
 
 
@@ -126,22 +126,22 @@ def test_a_killed_process(tmp_path, store):
 @pytest.mark.parametrize("steps", [1, 2])
 def test_one_that_is_taken_for_a_dead_ones_before_it_is_locked(tmp_path, monkeypatch, make, steps):
     """Another process that looks just then removes it, or is about to: the next name is tried."""
-    lock, seen = temporaries._lock, []
+    lock, seen = fcntl.flock, []
 
-    def meanwhile(descriptor):
+    def meanwhile(descriptor, operation):
         seen.append(descriptor)
         if len(seen) == 1:
             (path,) = tmp_path.iterdir()
             other = os.open(path, os.O_RDONLY)
-            fcntl.flock(other, fcntl.LOCK_EX)
+            lock(other, fcntl.LOCK_EX)
             if steps == 2:
                 temporaries._discard(str(path))
                 os.close(other)
-        return lock(descriptor)
+        return lock(descriptor, operation)
 
-    monkeypatch.setattr(temporaries, "_lock", meanwhile)
+    monkeypatch.setattr(fcntl, "flock", meanwhile)
     with temporary_beside(tmp_path / "a", make) as temporary:
-        temporary.check()
+        assert temporary.is_at(temporary.path)
         assert len(seen) == 2
     assert names(tmp_path) == []
 
@@ -156,7 +156,7 @@ def test_a_folder_that_is_removed_before_it_is_opened(tmp_path, monkeypatch):
 
     monkeypatch.setattr(os, "open", vanish)
     with temporary_beside(tmp_path / "a", new_folder) as temporary:
-        temporary.check()
+        assert temporary.is_at(temporary.path)
     assert names(tmp_path) == []
 
 
@@ -170,11 +170,11 @@ def test_a_file_system_without_locks(tmp_path, monkeypatch):
     with tagged_temporaries("0a1b2c3d-1-"), temporary_beside(tmp_path / "a", new_file) as temporary:
         assert Path(temporary.path).name.startswith(".vorotool-0a1b2c3d-1-")
         assert Path(temporary.path).exists()
-        remove_dead(tmp_path)
+        remove_left([tmp_path])
         assert Path(temporary.path).exists()
     assert names(tmp_path) == []
     path = left(tmp_path)
-    remove_dead(tmp_path)
+    remove_left([tmp_path])
     assert names(tmp_path) == [path.name]
 
 
@@ -183,28 +183,32 @@ def test_those_of_one_batch_are_removed_wherever_they_were_written(tmp_path):
         left(tmp_path, host, "0a1b2c3d-1-", number=number)
         left(tmp_path, host, "0a1b2c3d-12-", number=number)
         left(tmp_path, host, "1a1b2c3d-1-", number=number)
-    remove_tagged([tmp_path, tmp_path / "missing"], "0a1b2c3d-1-")
+    remove_left([tmp_path, tmp_path / "missing"], "0a1b2c3d-1-")
     assert sum("0a1b2c3d-12-" in name for name in names(tmp_path)) == 3
-    remove_tagged([tmp_path], "0a1b2c3d-")
+    remove_left([tmp_path], "0a1b2c3d-")
     assert len(names(tmp_path)) == 3
     assert all("-1a1b2c3d-" in name for name in names(tmp_path))
 
 
 def test_a_file_that_was_removed_meanwhile_is_an_error(tmp_path):
-    with temporary_beside(tmp_path / "a", new_file) as temporary:
-        Path(temporary.path).unlink()
-        refused(FileNotFoundError, "", temporary.move_to, tmp_path / "a")
+    def lose():
+        with open_output(tmp_path / "a") as out:
+            out.write(b"new")
+            next(tmp_path.iterdir()).unlink()
+
+    refused(OutputError, "cannot be written", lose)
+    assert names(tmp_path) == []
 
 
 def test_the_lock_is_held_until_the_file_has_its_name(tmp_path, monkeypatch):
     """Between the last byte and the renaming another process may look."""
-    move = temporaries.Temporary.move_to
+    replace = os.replace
 
-    def look(self, target):
-        remove_dead(tmp_path)
-        move(self, target)
+    def look(path, target):
+        remove_left([tmp_path])
+        replace(path, target)
 
-    monkeypatch.setattr(temporaries.Temporary, "move_to", look)
+    monkeypatch.setattr(os, "replace", look)
     write(tmp_path / "a.csv")
     assert names(tmp_path) == ["a.csv"]
 

@@ -361,10 +361,10 @@ class GeoPackage(GdalFeatures):
         }
         whole = Path(os.path.realpath(self.path))
         with committed_together() as commit:
-            earlier = commit.pending(str(whole))
-            if earlier is not None:
+            earlier = commit.placements.get(str(whole))
+            if earlier is not None and earlier.temporary is not None:
                 place = Path(commit.make(whole, new_folder).path) / "layers.gpkg"
-                shutil.copyfile(earlier, place)
+                shutil.copyfile(earlier.temporary.path, place)
                 self.gdal_write(place, columns, driver="GPKG", layer_options=options)
                 if self.is_of_features and not has_index(place, self.what):  # GDAL says nothing of a full disk
                     raise failure(self.path, OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), current_rules().option)

@@ -278,12 +278,6 @@ def is_whole(path: Path, count: int) -> bool:
     )
 
 
-def removal(part: Path, rules: Rules) -> Placement:
-    """Make the removal of a file of an older Shapefile part of what is written."""
-    place = os.path.join(os.path.realpath(part.parent), part.name)  # noqa: PTH118, as targets of commits are
-    return Placement(place, None, partial(explained, str(part), rules.option), partial(rules.check, str(part)))
-
-
 class Shapefile(GdalFeatures):
     """A Shapefile: what is written is its ``.shp``, and its other files are made beside that."""
 
@@ -309,7 +303,9 @@ class Shapefile(GdalFeatures):
             self._warn_of_losses(place, columns)
             written = [extension for extension in PARTS if place.with_suffix(extension).exists()]
             for older in older_parts(whole, written):
-                commit.add(removal(older, rules))
+                target = os.path.join(os.path.realpath(older.parent), older.name)  # noqa: PTH118, as commits have it
+                explain, check = partial(explained, str(older), rules.option), partial(rules.check, str(older))
+                commit.placements[target] = Placement(None, explain, check)
             for extension in written[1:]:
                 with open_output(whole.with_suffix(extension), binary=True, **rules._asdict()) as out:
                     move_into(place.with_suffix(extension), out)

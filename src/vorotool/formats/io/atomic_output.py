@@ -17,7 +17,6 @@ from vorotool.formats.io.descriptors import (
     STANDARD,
     check_writable,
     descriptor_of,
-    is_of_another_process,
     number_of,
     open_onward,
     open_output_descriptor,
@@ -71,7 +70,7 @@ def open_output(
     name = os.fspath(path)
     rules = Rules(no_clobber, tuple(inputs), option)
     descriptor, target, is_regular = _checked_place(name, rules, binary=binary)
-    told = partial(explained, spoken(name), option)
+    told = partial(explained, name, option)
     if descriptor is not None:  # open already: written in order, after what it holds
         with told(), open_output_descriptor(descriptor) as out:
             yield out
@@ -97,7 +96,7 @@ def open_output(
             if os.path.exists(target):
                 raise clobber_error(name, option)
 
-        commit.add(Placement(target, temporary, told, check if no_clobber else None))
+        commit.placements[target] = Placement(temporary, told, check if no_clobber else None)
 
 
 def check_output(
@@ -166,7 +165,7 @@ def _checked_place(name: str, rules: Rules, *, binary: bool) -> _Place:
     if binary and is_terminal:
         raise terminal_error()
     if number is not None:
-        with explained(spoken(name), rules.option):
+        with explained(name, rules.option):
             check_writable(number)
     if number is not None or name == STANDARD:
         return _Place(number, name, False)
@@ -188,7 +187,7 @@ def _checked_place(name: str, rules: Rules, *, binary: bool) -> _Place:
 def followed(name: str, option: str = OUTPUT) -> str:
     """Follow links, so that a file is replaced and not the link to it."""
     try:
-        if is_of_another_process(name):
+        if descriptor_of(name, of_others=True) is not None:
             raise OutputError(
                 f"{name} is open in another process and cannot be opened again: name a file with {option}"
             )
@@ -251,4 +250,4 @@ def failure(name: str, error: OSError, option: str = OUTPUT) -> OutputError:
         folder = os.path.dirname(name) or "."
         if os.path.isdir(folder):  # as in /proc and /dev/fd, which are made by the system
             code, reason = "", f"no file can be created in {folder}"
-    return OutputError(f"{name} cannot be written: {reason}; {advice.get(code, elsewhere)}")
+    return OutputError(f"{spoken(name)} cannot be written: {reason}; {advice.get(code, elsewhere)}")

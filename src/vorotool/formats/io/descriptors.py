@@ -44,28 +44,17 @@ _KINDS = (
 )
 
 
-def descriptor_of(name: str) -> int | None:
-    """Number of the open descriptor that a path stands for, links followed; None where it stands for none."""
-    found = _place(name)
-    return None if found is None or found[0] not in (None, os.getpid()) else found[1]
-
-
-def is_of_another_process(name: str) -> bool:
-    """Whether a path stands for a descriptor of another process, which can be opened only by its name."""
-    found = _place(name)
-    return found is not None and found[0] not in (None, os.getpid())
-
-
-def _place(name: str) -> tuple[int | None, int] | None:
-    """The process, where the path names it, and the number of a descriptor; its own link is never followed."""
+def descriptor_of(name: str, *, of_others: bool = False) -> int | None:
+    """Return the number of the open descriptor of this process, or of another one, that a path stands for, if any."""
     path = name
     try:
         for _ in range(MOST_LINKS):
             folder, last = os.path.split(path)
             folder = os.path.realpath(folder or ".")
             match = re.fullmatch(_OF_A_PROCESS, folder) if folder.startswith("/proc/") else None
-            if match or folder == "/dev/fd":
-                return (int(match[1]) if match else None, int(last)) if re.fullmatch("[0-9]{1,9}", last) else None
+            if match or folder == "/dev/fd":  # its own link is never followed
+                is_other = match is not None and int(match[1]) != os.getpid()
+                return int(last) if is_other == of_others and re.fullmatch("[0-9]{1,9}", last) else None
             path = str(os.path.join(folder, os.readlink(os.path.join(folder, last))))
     except (OSError, ValueError):  # no link any more, or no path
         pass

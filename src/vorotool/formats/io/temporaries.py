@@ -20,7 +20,6 @@ are tagged with removes them; so it is with names of version 0.1.0.
 
 from __future__ import annotations
 
-import errno
 import os
 import re
 import stat
@@ -51,33 +50,24 @@ ASIDE = ".aside"
 _UNKNOWN = "0" * 12
 
 
-class Temporary:
+class Temporary(NamedTuple):
     """A file or folder that is being written, and is ours."""
 
-    def __init__(self, path: str, descriptor: int) -> None:
-        self.path = path  # its name for now
-        self.descriptor = descriptor  # holds the lock; -1 where there are no locks
+    path: str  # its name for now
+    descriptor: int  # holds the lock; -1 of what is not held open
 
     def opened(self) -> BinaryIO:
         """Open a file for writing; closing this does not give the lock back."""
-        if sys.platform != "win32":
-            return os.fdopen(os.dup(self.descriptor), "w+b")
-        descriptor, self.descriptor = self.descriptor, -1  # there a file that is open cannot be renamed
-        return os.fdopen(descriptor, "w+b")
-
-    def check(self) -> None:
-        """Raise an `OSError` if it is not there any more: somebody has removed it, or the folder."""
-        if self.descriptor >= 0 and not _is_at(self.path, self.descriptor):
-            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), self.path)
+        return open(self.path, "r+b") if self.descriptor < 0 else os.fdopen(os.dup(self.descriptor), "w+b")
 
     def is_at(self, path: str) -> bool:
         """Return whether it has a name by now."""
-        return _is_at(path, self.descriptor) if self.descriptor >= 0 else not os.path.lexists(self.path)
-
-    def move_to(self, target: str) -> None:
-        """Give it its final name, in the place of an older file."""
-        self.check()
-        os.replace(self.path, target)
+        if self.descriptor < 0:
+            return not os.path.lexists(self.path)
+        try:
+            return os.path.samestat(os.lstat(path), os.fstat(self.descriptor))
+        except FileNotFoundError:
+            return False
 
 
 @contextmanager
@@ -89,15 +79,18 @@ def temporary_beside(
     try:
         yield commit.make(target, make, ending=ending)
     finally:
-        commit.close()
+        _insist(commit.close)
 
 
 def new_file(path: str, like: str = "") -> int:
-    """Make an empty file with the permissions of another one, else those of the umask; its descriptor."""
+    """Make an empty file with the permissions of another one, else those of the umask; its descriptor, or -1."""
     descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
     if like:
         with suppress(OSError):  # no older file, or a file system without permissions
             os.chmod(path, stat.S_IMODE(os.stat(like).st_mode))
+    if sys.platform == "win32":  # there a file that is open cannot be renamed
+        os.close(descriptor)
+        return -1
     return descriptor
 
 
@@ -116,20 +109,22 @@ def tagged_temporaries(tag: str) -> AbstractContextManager[None]:
     return scoped(_TAG, tag)
 
 
-def remove_tagged(folders: Iterable[str | os.PathLike[str]], tag: str) -> None:
-    """Remove temporaries with a tag that nobody needs any more, of dead and living processes of all machines."""
-    for folder in folders:
-        for path, found in _temporaries(folder):
-            if found[3].startswith(tag):
-                _discard(path)
-
-
-def remove_dead(folder: str | os.PathLike[str]) -> None:
-    """Remove temporaries whose owners are proved dead; the folder is listed once."""
+def remove_left(folders: Iterable[str | os.PathLike[str]], tag: str = "") -> None:
+    """Remove temporaries whose owners are proved dead; with a tag all that have it, whoever made them, anywhere."""
     boot, machine = _host()
-    for path, found in _temporaries(folder):
-        if (found[1] == boot != _UNKNOWN) or (found[2] == machine != _UNKNOWN):
-            _remove_unless_held(path)
+    for folder in folders:
+        names: list[str] = []
+        with suppress(OSError), os.scandir(folder) as entries:  # a folder that cannot be listed has none
+            names = [entry.name for entry in entries if entry.name.startswith(".vorotool-")]
+        for name in names:
+            path, found = os.path.join(folder, name), re.fullmatch(_NAME, name)
+            if found is None:
+                continue
+            if tag:
+                if found[3].startswith(tag):
+                    _discard(path)
+            elif (found[1] == boot != _UNKNOWN) or (found[2] == machine != _UNKNOWN):
+                _remove_unless_held(path)
 
 
 def remove(path: str) -> None:
@@ -147,42 +142,19 @@ _SEEN: set[tuple[str, str]] = set()
 """Folders, with tags of batches, from which this process has removed what the dead have left."""
 
 
-def _lock(descriptor: int) -> bool:
-    """Take the lock, or say that somebody else has it."""
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True
-
-
-def _is_at(path: str, descriptor: int) -> bool:
-    try:
-        return os.path.samestat(os.lstat(path), os.fstat(descriptor))
-    except FileNotFoundError:
-        return False
-
-
-def _temporaries(folder: str | os.PathLike[str]) -> list[tuple[str, re.Match[str]]]:
-    """Temporaries in a folder and the parts of their names; none if it cannot be listed."""
-    with suppress(OSError), os.scandir(folder) as entries:
-        names = [entry.name for entry in entries if entry.name.startswith(".vorotool-")]
-        return [(os.path.join(folder, name), found) for name in names if (found := re.fullmatch(_NAME, name))]
-    return []
-
-
 def _remove_unless_held(path: str) -> None:
     """Remove a temporary of this machine if its lock can be taken, which is held meanwhile."""
     if fcntl is None:
         return
-    with suppress(OSError):
+    with suppress(OSError):  # such as that somebody holds the lock
         kind = os.lstat(path).st_mode
         if not (stat.S_ISREG(kind) or stat.S_ISDIR(kind)):
             return
         access = os.O_RDONLY | os.O_DIRECTORY if stat.S_ISDIR(kind) else os.O_RDWR  # which network locks ask for
         descriptor = os.open(path, access | os.O_NOFOLLOW | os.O_NONBLOCK)
         try:
-            if _lock(descriptor) and _is_at(path, descriptor):
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if Temporary(path, descriptor).is_at(path):
                 _discard(path)
         finally:
             os.close(descriptor)
@@ -224,10 +196,9 @@ def _host() -> tuple[str, str]:
 
 
 class Placement(NamedTuple):
-    """An output that is complete, and the place where it goes."""
+    """An output that is complete, and goes to a place."""
 
-    target: str  # the place, links followed
-    temporary: Temporary | None  # the output; without one the file at the place is removed
+    temporary: Temporary | None  # without one the file at the place is removed
     # makes a context that turns an `OSError` into an error that names the output
     explained: Callable[[], AbstractContextManager[None]]
     check: Callable[[], None] | None = None  # raises if what is there must stay
@@ -237,9 +208,10 @@ class Commit:
     """Outputs that are being written and will take their places together."""
 
     def __init__(self) -> None:
+        self.placements: dict[str, Placement] = {}
+        """What is complete, by its place, links followed."""
         self._names: list[str] = []  # of temporaries
-        self._made: list[Temporary] = []
-        self._placements: list[Placement] = []
+        self._descriptors: list[int] = []
         self._asides: dict[str, str] = {}
 
     def make(self, target: str | os.PathLike[str], make: Callable[[str], int], *, ending: str = ".tmp") -> Temporary:
@@ -247,84 +219,71 @@ class Commit:
         folder, tag = os.path.dirname(target) or ".", _TAG.get()
         if (folder, tag.partition("-")[0]) not in _SEEN:
             _SEEN.add((folder, tag.partition("-")[0]))
-            remove_dead(folder)
+            remove_left([folder])
         host = "".join(_host()) + "-"
         if fcntl is None or host == f"{_UNKNOWN}{_UNKNOWN}-":
             host = ""
         while True:
-            self._names.append(os.path.join(folder, f".vorotool-{host}{tag}{os.urandom(8).hex()}{ending}"))
-            made = Temporary(self._names[-1], make(self._names[-1]))
+            path = os.path.join(folder, f".vorotool-{host}{tag}{os.urandom(8).hex()}{ending}")
+            self._names.append(path)
+            made = Temporary(path, make(path))
+            if made.descriptor >= 0:
+                self._descriptors.append(made.descriptor)
+            if not host:
+                return made
             try:
-                if not host or (made.descriptor >= 0 and _lock(made.descriptor) and _is_at(made.path, made.descriptor)):
-                    self._made.append(made)
-                    return made
+                if made.descriptor >= 0:
+                    fcntl.flock(made.descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    if made.is_at(path):
+                        return made
+            except BlockingIOError:  # whoever takes it for that of a dead process removes it
+                continue
             except OSError:  # no such locks here
                 host = ""
-            if made.descriptor >= 0:
-                os.close(made.descriptor)
 
     def close(self) -> None:
-        """Remove what is left of temporaries, whatever happens, and give the locks back."""
-        try:
-            _insist(self._discard_left)
-        finally:
-            for each in self._made:
-                if each.descriptor >= 0:
-                    os.close(each.descriptor)
-
-    def _discard_left(self) -> None:
-        """Remove what has such a name: 64 random bits are nobody else's, so that whatever has it is ours."""
-        for path in self._names:
+        """Remove what is left of temporaries, and give the locks back."""
+        for path in self._names:  # 64 random bits are nobody else's, so that whatever has such a name is ours
             if os.path.lexists(path):
                 _discard(path)
-
-    def add(self, placement: Placement) -> None:
-        """Put an output in its place when all others are complete, too; a later one goes there instead."""
-        self._placements = [each for each in self._placements if each.target != placement.target]
-        self._placements.append(placement)
-
-    def pending(self, target: str) -> str | None:
-        """Return the file that will take a place, if one is complete."""
-        found = (each.temporary for each in self._placements if each.target == target)
-        return next((each.path for each in found if each is not None), None)
+        while self._descriptors:
+            os.close(self._descriptors.pop())
 
     def run(self) -> None:
         """Put all outputs in their places; on any exception put back what was there."""
-        for each in self._placements:
-            with each.explained():
-                if each.check is not None:
+        for each in self.placements.values():
+            if each.check is not None:
+                with each.explained():
                     each.check()
-                if each.temporary is not None:
-                    each.temporary.check()
-        if len(self._placements) == 1:  # in one step, where the system has one
-            target, temporary, explained, _ = self._placements[0]
-            if temporary is not None and not (os.path.isdir(target) and _is_folder(temporary)):
+        if len(self.placements) == 1:  # in one step, where the system has one
+            ((target, (temporary, explained, _)),) = self.placements.items()
+            if temporary is not None and not (os.path.isdir(target) and os.path.isdir(temporary.path)):
                 with explained():
-                    temporary.move_to(target)
+                    os.replace(temporary.path, target)
                 return
             if temporary is not None and _exchange(temporary.path, target):
                 return
-        begun: list[Placement] = []
+        begun: list[str] = []
         try:
-            for each in self._placements:
-                begun.append(each)
+            for target, each in self.placements.items():
+                begun.append(target)
                 with each.explained():
-                    self._put(each)
+                    self._put(target, each.temporary)
         except BaseException:
             _insist(lambda: self._undo(begun))
             raise
         _insist(self._forget)
 
-    def _put(self, placement: Placement) -> None:
+    def _put(self, target: str, temporary: Temporary | None) -> None:
         """Set aside what is at a place, and put an output there."""
-        target, temporary = placement.target, placement.temporary
+        is_folder = temporary is not None and os.path.isdir(temporary.path)
         # a folder goes for a folder only
-        if os.path.lexists(target) and (_is_folder(temporary) or not os.path.isdir(target)):
+        if os.path.lexists(target) and (is_folder or not os.path.isdir(target)):
             kept = os.path.join(self._aside(os.path.dirname(target)), os.path.basename(target))
             if not os.path.lexists(kept):
                 _set_aside(target, kept, by_link=temporary is not None and not os.path.isdir(target))
         if temporary is not None:
-            temporary.move_to(target)
+            os.replace(temporary.path, target)
 
     def _aside(self, folder: str) -> str:
         """Return a folder for what is set aside of another; a killed process's is emptied by the next one there."""
@@ -332,17 +291,18 @@ class Commit:
             self._asides[folder] = self.make(os.path.join(folder, "aside"), new_folder, ending=ASIDE).path
         return self._asides[folder]
 
-    def _undo(self, begun: Sequence[Placement]) -> None:
+    def _undo(self, begun: Sequence[str]) -> None:
         """Put back what was there, the last first; what fails does not keep others from it."""
-        for each in reversed(begun):
+        for target in reversed(begun):
             with suppress(OSError):
-                folder, name = os.path.split(each.target)
+                folder, name = os.path.split(target)
                 kept = os.path.join(self._asides.get(folder, os.devnull), name)
-                is_ours = each.temporary is not None and each.temporary.is_at(each.target)
-                if is_ours and (os.path.isdir(each.target) or not os.path.lexists(kept)):
-                    remove(each.target)
+                temporary = self.placements[target].temporary
+                is_ours = temporary is not None and temporary.is_at(target)
+                if is_ours and (os.path.isdir(target) or not os.path.lexists(kept)):
+                    remove(target)
                 if os.path.lexists(kept):
-                    os.replace(kept, each.target)
+                    os.replace(kept, target)
 
     def _forget(self) -> None:
         """Remove what was set aside, so that none of it is put back."""
@@ -370,11 +330,7 @@ def committed_together() -> Iterator[Commit]:
             _CURRENT.set(None)
         commit.run()
     finally:
-        commit.close()
-
-
-def _is_folder(temporary: Temporary | None) -> bool:
-    return temporary is not None and os.path.isdir(temporary.path)
+        _insist(commit.close)
 
 
 def _set_aside(target: str, kept: str, *, by_link: bool) -> None:

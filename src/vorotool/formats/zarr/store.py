@@ -109,4 +109,4 @@ def open_store(
     with explained(name), committed_together() as commit:
         temporary = commit.make(target, new_folder)
         yield Path(temporary.path)
-        commit.add(Placement(target, temporary, partial(explained, name), check))
+        commit.placements[target] = Placement(temporary, partial(explained, name), check)
