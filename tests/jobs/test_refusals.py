@@ -42,7 +42,7 @@ def check(command, *conditions, **values):
         elif "=" in part:
             values |= dict([part.split("=")])
         else:
-            values.setdefault(part, (0.5, 0.5))
+            values.setdefault(part, SimpleNamespace(is_ratio=True) if part == "scale" else (0.5, 0.5))
     what = what or [next(iter(PRODUCTS[command]))]
     targets = [Target(name, "a", FORMATS.get(fmt, fmt) or PRODUCTS[command][name].formats[0]) for name in what]
     check_options(Options(command, what=tuple(what), **values), targets)

@@ -92,7 +92,7 @@ def _check_options(o: Options, several: str) -> None:
         raise UsageError(f"{several}, but -o names one output: name a folder for all with --out-dir")
     if o.out_dir is None and o.table is None and o.table_inputs is None:
         raise UsageError(f"{several}: name a folder for their outputs with --out-dir")
-    for name, path in o.files_of_inputs().items():
+    for name, path in o.files_of_inputs.items():
         if (kind := stream_kind(path)) is not None:
             what = "standard input" if path == STANDARD else kind
             raise UsageError(f"--{name} {path} is {what}, which not every input can read: name a file")
@@ -113,7 +113,7 @@ def _tasks(o: Options, targets: list[Target], notes: list[str], *, is_alone: boo
         tasks = [Task(each.source, output_paths(each.name, endings, folder), each.path, each.page) for each in inputs]
     options = {"--table": o.table, "--table-inputs": o.table_inputs, "--stats": o.stats}
     written = {option: path for option, path in options.items() if path is not None}
-    check_outputs(tasks, None if is_alone else o.out_dir, written, o.files_read())
+    check_outputs(tasks, None if is_alone else o.out_dir, written, o.files_read)
     if o.shard is None:
         return tasks
     chosen = {each.source for each in share(inputs, *o.shard)}
@@ -209,7 +209,7 @@ def _manifest(o: Options, targets: list[Target]) -> Manifest:
         {
             "version": __version__,
             "options": {name: value for name, value in vars(o).items() if name not in WITHOUT_EFFECT},
-            "files": {name: _digest(name, path) for name, path in o.files_of_inputs().items()},
+            "files": {name: _digest(name, path) for name, path in o.files_of_inputs.items()},
             "outputs": [(target.what, target.fmt) for target in targets],
         }
     )

@@ -137,7 +137,7 @@ def _results(plan: Plan) -> Results:
     """Return what does the work: processes of this machine, or a cluster."""
     o = plan.options
     jobs = (os.cpu_count() or 1) if o.jobs == 0 else o.jobs
-    files: dict[str, Any] = {name: str(Path(path).absolute()) for name, path in o.files_of_inputs().items()}
+    files: dict[str, Any] = {name: str(Path(path).absolute()) for name, path in o.files_of_inputs.items()}
     options = changed(
         o,
         threads=o.threads or int(o.cluster is not None or (jobs or 1) > 1),

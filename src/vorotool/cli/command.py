@@ -119,8 +119,8 @@ def _function(kind: str) -> Convert:
     return found
 
 
-def _type_of(command: str, row: Option) -> ParameterType | None:
-    """Return the type of the values of an option; None for text."""
+def _type_of(command: str, row: Option) -> ParameterType:
+    """Return the type of the values of an option that are no text."""
     kind, _, rest = row.type.partition(":")
     if kind == "choice":
         return Choice(rest.split(), case_sensitive=False)
@@ -134,7 +134,7 @@ def _type_of(command: str, row: Option) -> ParameterType | None:
         return Names(row.metavar, tuple(PRODUCTS[command]))
     if kind == "layers":
         return Names(row.metavar, all_layers(command))
-    return Value(kind, row.metavar) if kind else None
+    return Value(kind, row.metavar)
 
 
 def _joined(_ctx: click.Context, _param: click.Parameter, value: tuple[tuple[Any, ...], ...]) -> Any:
@@ -158,7 +158,7 @@ def _help_of(command: str, row: Option) -> str:
 
 def option(command: str, row: Option, *, is_shown: bool = True) -> click.Option:
     """Make an option of a command: with help, and what shells offer, if these are asked for."""
-    kind = _type_of(command, row)
+    kind = _type_of(command, row) if row.type else None
     more: dict[str, Any] = {}
     if row.is_flag:
         more = {"is_flag": True}

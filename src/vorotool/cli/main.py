@@ -98,7 +98,8 @@ click.version_option(__version__, prog_name="vorotool")(vorotool)
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line and leave with its exit code."""
-    _replace_closed_streams()
+    if None in (sys.stdout, sys.stderr):
+        _replace_closed_streams()
     handle_termination()
     insist_on_the_end()
     try:

@@ -28,7 +28,7 @@ STEPS = 1000
 def run_command(command: str, values: Mapping[str, Any], sources: Mapping[str, str]) -> None:
     """Do what a command line asks for: the values of options, and whether each is typed or of the environment."""
     o = options_of_line(command, values, sources)
-    read = [*(("the input", name) for name in o.inputs), *o.files_read().items()]
+    read = [*(("the input", name) for name in o.inputs), *o.files_read.items()]
     if len(read) > 1:
         check_streams(read)
     from_environment = [name for name in ("jobs", "cluster") if o.sources.get(name) == "environment"]
@@ -50,8 +50,9 @@ def run_command(command: str, values: Mapping[str, Any], sources: Mapping[str, s
         check_stats(o, targets, path)
     if o.cluster is not None:
         check_cluster(targets)
-    check_units(o, targets)
-    o = lengths_in_pixels(o, o.unit)
+    if o.unit is not None:
+        check_units(o, targets)
+        o = lengths_in_pixels(o, o.unit)
     check_options(o, targets)
     with (
         committed_together(),  # the statistics, too

@@ -17,10 +17,10 @@ from vorotool.errors import warn
 from vorotool.jobs.inputs import JobInput, check_columns, note_repeated_labels, read_sites
 from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
-from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
+from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import Amount, length_in_units, measured, unit_text
+from vorotool.jobs.units import Amount, length_in_units, unit_text
 from vorotool.numeric.numbers import nearest_double
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
@@ -45,12 +45,11 @@ class ShapeProducts(Results):
     """Results of the alpha shapes of one list of points."""
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
-        if not measured(options):  # what is wrong with it is said before a long file is read
+        if not options.measured:  # what is wrong with it is said before a long file is read
             chosen_radius(options.r, options.alpha, options.auto)
         with run.phase("read"):
             properties, is_digital = "points" in options.what or options.names_columns, options.method != "exact"
             o, points = read_sites(run, options, given, properties=properties, is_digital=is_digital)
-            o, points = placed_sites(run, o, given, points)
         super().__init__(run, o)
         self.radius = chosen_radius(o.r, o.alpha, o.auto)
         self._has_told_regions = False

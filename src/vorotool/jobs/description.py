@@ -166,7 +166,7 @@ def _of_content(source: Opened, options: Options, note: Callable[[str], None]) -
             raise
     told = {"format": formats[0], **_told_of(value, note)}
     if not isinstance(value, Raster):
-        refuse({"page": options.page}, f"applies to images, but the input holds {told['kind']}")
+        refuse(options, ["page"], f"applies to images, but the input holds {told['kind']}")
     if _may_be_a_ring(value, formats[0]):
         note("a plain list of pairs may also be a polygon: skeleton-approx, skeleton-exact and draw read it as one")
     return told

@@ -101,10 +101,10 @@ class DrawnInput(Results):
         from vorotool.render.label_images.svg import check_size
 
         run, o = self.run, self.options
-        of_lines = {"frame": o.frame, "scale": o.scale, "unit": o.drawing_unit, "aspect": o.aspect, "extent": o.extent}
-        refuse(of_lines, "applies to shapes, but the input is a label image")
+        of_lines = ("frame", "scale", "drawing_unit", "aspect", "extent")
+        refuse(o, of_lines, "applies to shapes, but the input is a label image")
         if fmt == "png":
-            refuse({"width": o.width}, "applies to SVG: the PNG of a label image has the size of the image")
+            refuse(o, ["width"], "applies to SVG: the PNG of a label image has the size of the image")
         check_drawn_layers(o, fmt, "a label image", LABEL_LAYERS.get(fmt, ()))
         check_column(o.label_by, {})
         note_other_size(run, o, self._given, image.shape)
@@ -123,14 +123,14 @@ class DrawnInput(Results):
         if fmt == "html":
             raise UsageError(f"a page shows cells or labels, but the input is {kind}: use -f svg or -f png")
         check_drawn_layers(o, fmt, kind, product.layers[fmt])
-        refuse({"page": o.page}, f"applies to images, but the input is {kind}")
+        refuse(o, ["page"], f"applies to images, but the input is {kind}")
         if not len(value):
             run.warn(f"the picture is empty: the input ({kind}) has nothing to draw")
         polygons = value if isinstance(value, PolygonSet) else value.polygons
         run.crs = polygons.crs
         check_column(o.label_by, (value if isinstance(value, VoronoiMap) else polygons).properties)
         if o.overlay is not None:
-            refuse({"frame": o.frame}, "sets what a picture shows, but a picture over an image shows the image")
+            refuse(o, ["frame"], "sets what a picture shows, but a picture over an image shows the image")
         size = _size(o)
         if size is not None and size.is_auto:
             if unit_of(value) is None:

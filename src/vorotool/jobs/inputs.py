@@ -12,10 +12,18 @@ from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import STANDARD, input_identity
 from vorotool.formats.io.sources import file_of
 from vorotool.formats.zarr.store import is_folder, is_store
-from vorotool.jobs.options import OF_FRAMES, OF_IMAGES, OF_SHAPES, OF_SITES, Options, changed
-from vorotool.jobs.refusals import refuse
+from vorotool.jobs.options import OF_FRAMES, OF_IMAGES, OF_SHAPES, OF_SITES, Measured, Options, changed
+from vorotool.jobs.pixel_sizes import (
+    lengths_of_image,
+    lengths_of_vectors,
+    side_of_pixel,
+    unit_of_vectors,
+    with_pixel_size,
+)
+from vorotool.jobs.refusals import check_image_size, check_unit, refuse
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.units import Measured, known_length, measured, unit_stats
+from vorotool.jobs.units import known_length, lengths_in_steps, unit_stats
+from vorotool.numeric.length_units import unit_of
 from vorotool.products.registry import is_of
 from vorotool.types.identity import check_plain, chosen_column
 
@@ -25,6 +33,7 @@ if TYPE_CHECKING:
 
     from vorotool.engines.tessellation.seeding import SeedMode
     from vorotool.formats.opening import Opened
+    from vorotool.jobs.targets import Target
     from vorotool.render.canvas.layers import Backdrop
     from vorotool.types.images import Raster
     from vorotool.types.mesh.tetrahedralization import Tetrahedralization
@@ -40,13 +49,17 @@ class JobInput(NamedTuple):
 
     path: str  # the input; `-` is standard input
     backdrop: Backdrop | None = None  # the image that pictures of it are drawn over
-    has_units: bool = False  # an output has lengths
-    has_page: bool = False  # an output is a page of HTML, which shows columns of the input
+    targets: Sequence[Target] = ()  # what is made of it
 
     @property
     def name(self) -> str:
         """What messages call it."""
         return "standard input" if self.path == "-" else self.path
+
+    @property
+    def has_page(self) -> bool:
+        """Whether an output is a page of HTML, which shows columns of the input."""
+        return any(each.fmt == "html" for each in self.targets)
 
 
 def opened_input(o: Options, given: JobInput, geometry: str | None) -> AbstractContextManager[Opened]:
@@ -71,12 +84,8 @@ def read_opened(
 
     The options that come back have lengths in its coordinates.
     """
-    from vorotool.jobs.pixel_sizes import lengths_of_image, lengths_of_vectors, side_of_pixel, unit_of_vectors
-    from vorotool.jobs.refusals import check_image_size, check_unit
-    from vorotool.numeric.length_units import unit_of
-
     wants_unit = (
-        wants_unit or bool(measured(o)) or (o.pixel_size is not None and o.pixel_size.is_auto)
+        wants_unit or bool(o.measured) or (o.pixel_size is not None and o.pixel_size.is_auto)
     )  # a column may state it
     wants_properties = properties and not o.no_properties
 
@@ -102,16 +111,18 @@ def read_opened(
         run.pixel, run.grid = side_of_pixel(value.grid), value.grid
         check_image_size(run, o, given.name, value.grid)
         return lengths_of_image(o, value.grid), value
-    if o.command in OF_SITES:
-        refuse(o.among(*OF_IMAGES), "applies to images, but the input is a list of points")
-    o = lengths_of_vectors(o, value)
-    if o.pixel_size is not None and o.pixel_size.unit is not None:
-        check_unit(run, o, given.name, unit_of(value))
-    run.coordinates = unit_of_vectors(o, value, with_system=False)
-    if run.coordinates is not None and o.pixel_size is None:
-        run.stats["unit"] = run.coordinates.unit
-    run.crs = (value.polygons if is_of(value, "Sites") else value).crs
-    if o.pixel_size is not None:
+    if o.command in OF_SITES and not o.sources.keys().isdisjoint(OF_IMAGES):
+        refuse(o, OF_IMAGES, "applies to images, but the input is a list of points")
+    if o.measured or o.pixel_size is not None:
+        o = lengths_of_vectors(o, value)
+    shapes = value.polygons if is_of(value, "Sites") else value
+    run.crs = shapes.crs
+    if o.pixel_size is None:
+        run.coordinates = unit_of(value) if shapes.crs is None else None
+        run.stats |= {} if run.coordinates is None else {"unit": run.coordinates.unit}
+    else:
+        check_unit(run, o, given.name, value)
+        run.coordinates = unit_of_vectors(o, value, with_system=False)
         run.stats |= unit_stats(o.pixel_size)
     return o, value if wants_properties or not wants_unit else replace(value, properties={})
 
@@ -120,13 +131,12 @@ def _tolerances(o: Options, source: Opened, how: Mapping[str, Any]) -> tuple[Ope
     """Give the tolerances of reading as numbers; where these have a unit, a first reading tells that of the input."""
     names = ("flatten", "join_tolerance")
     if any(isinstance(getattr(o, name), Measured) for name in names):
-        from vorotool.jobs.pixel_sizes import lengths_of_vectors
         from vorotool.types.images import Raster
 
         source = source.fetched()
         first: Any = source.read(**how)
         if not isinstance(first, Raster):
-            others: dict[str, Any] = {name: None for name in measured(o) if name not in names}
+            others: dict[str, Any] = {name: None for name in o.measured if name not in names}
             o = lengths_of_vectors(changed(o, **others), first)
     return source, {name: known_length(getattr(o, name)) for name in names}
 
@@ -156,7 +166,8 @@ def check_streams(named: Iterable[tuple[str, str]]) -> None:
 
 def is_several(name: str) -> bool:
     """Return whether a name stands for several inputs: a folder, or a pattern that no file has for a name."""
-    return name not in ("", STANDARD) and (is_pattern(name) or is_searched(name))
+    is_file = os.path.isfile(name)  # noqa: PTH113 - a small job does without pathlib
+    return not is_file and name not in ("", STANDARD) and (is_pattern(name) or is_searched(name))
 
 
 def is_pattern(name: str) -> bool:
@@ -181,17 +192,23 @@ def refuse_several(named: Mapping[str, str]) -> None:
 def read_sites(
     run: Run, o: Options, given: JobInput, *, properties: bool, is_digital: bool
 ) -> tuple[Options, PointSet | SeedSet]:
-    """Read points to triangulate, or find those of an image, as the options say."""
+    """Read points to triangulate, or find those of an image as they lie on its map, as the options say."""
     with opened_input(o, given, "points") as source:
         o, value = read_opened(run, o, given, source, columns=o.columns, properties=properties)
     if is_of(value, "PointSet"):
         if not len(value):
             report_no_geometry(run, o)
-        return o, value
-    refuse({"columns": o.columns}, "applies to lists of points, but the input is an image")
-    refuse(o.among(*OF_FRAMES), "applies to lists of points, but the input is an image, which brings its own frame")
+        return o if o.pixel_size is None else lengths_in_steps(o), value
+    refuse(o, ["columns"], "applies to lists of points, but the input is an image")
+    refuse(o, OF_FRAMES, "applies to lists of points, but the input is an image, which brings its own frame")
     # The sites of objects are their centroids, but their regions are not those of the centroids.
-    return o, seeds_of_image(run, o, value, None if o.seeds == "centroids" and not is_digital else o.seeds)
+    seeds = seeds_of_image(run, o, value, None if o.seeds == "centroids" and not is_digital else o.seeds)
+    o = with_pixel_size(run, o, given, seeds.grid)
+    if o.pixel_size is None:
+        return o, seeds
+    from vorotool.types.scaling import stretched
+
+    return lengths_in_steps(o), stretched(seeds, 1, -1) if o.pixel_size.y_up else seeds
 
 
 def read_voxel_points(run: Run, o: Options, given: JobInput, *, properties: bool) -> VolumePoints:

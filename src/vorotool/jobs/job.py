@@ -14,10 +14,10 @@ from vorotool.jobs.inputs import JobInput, naming, read_backdrop, refuse_several
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets
-from vorotool.jobs.units import in_stated_unit, in_units, length_in_units, shows_units, table_in_units, unit_stats
+from vorotool.jobs.units import in_stated_unit, in_units, length_in_units, table_in_units, unit_stats
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, format_named, picture_format, resolved
-from vorotool.products.registry import Product, is_of, write_product
+from vorotool.products.registry import is_of, write_product
 from vorotool.signals import end_by_exceptions
 
 if TYPE_CHECKING:
@@ -60,12 +60,11 @@ def process_input(run: Run, options: Options, path: str, targets: Sequence[Targe
 
     check_targets(options, targets, path)
     with run.phase("read"):
-        has_units, has_page = shows_units(targets) or options.scale_bar, any(each.fmt == "html" for each in targets)
-        backdrop = None if options.overlay is None else read_backdrop(options)
-        given = JobInput(path, backdrop, has_units, has_page)
+        given = JobInput(path, None if options.overlay is None else read_backdrop(options), targets)
     with naming(given):
         products: Results = resolved(options.job)(run, options, given)
-    check_system(run, products.options, targets)
+    if run.crs is not None:
+        check_system(run, products.options, targets)
     for target in targets:
         products.check(target)
     if options.verify:
@@ -160,11 +159,7 @@ class Results:
     def __init__(self, run: Run, options: Options) -> None:
         self.run, self.options = run, options
         self.call: Callable[..., Any] = partial(run.call, options)  # a function of the library, with the options
-
-    @cached_property
-    def products(self) -> Mapping[str, Product]:
-        """All results of the command."""
-        return self.options.products
+        self.products = options.products
 
     # ---- what commands give
     def value(self, what: str) -> Any:
@@ -174,6 +169,8 @@ class Results:
     def written(self, what: str, fmt: str) -> Any:
         """Give a result in the units of files."""
         size, value = self.options.pixel_size, self.value(what)
+        if size is None:
+            return value
         return table_in_units(size, value) if is_of(value, "Table") else in_units(size, value)
 
     @cached_property
@@ -259,7 +256,7 @@ class Results:
         if target.fmt == "zarr":
             self.write_store(target, rules)
             return
-        with open_output(target.path, binary=target.is_binary, **rules) as out:
+        with open_output(target.path, binary=not FORMATS[target.fmt].is_text, **rules) as out:
             if target.fmt in PICTURES and self.is_picture(target):
                 drawing = self.drawing(target.what, target.fmt)
                 drawing.write(out, target.fmt)
@@ -306,7 +303,7 @@ class Results:
             self.written(target.what, target.fmt),
             self.products[target.what],
             target.fmt,
-            flatten=length_in_units(o.pixel_size, o.flatten),
+            flatten=o.flatten and length_in_units(o.pixel_size, o.flatten),
             precision=o.precision,
             threads=o.threads,
             path=target.path,

@@ -6,10 +6,13 @@ each option means.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from vorotool.formats.io.sources import suffix_of
+from vorotool.frozen import frozen
 from vorotool.products.commands import COMMANDS
 from vorotool.products.inputs import DRAWINGS
 from vorotool.products.options import DEFAULTS, options_of
@@ -29,14 +32,29 @@ OF_SITES = ("tessellate", "delaunay", "alphashape")
 """Commands whose sites are points, or the seeds of an image."""
 OF_SHAPES = ("voronoi", "skeleton-approx", "skeleton-exact")
 """Commands that take shapes, or the outlines of an image."""
-OF_IMAGES = ("page", "seeds", "connectivity", "threshold", "invert", "min-area", "fill-holes", "outline", "border")
+OF_IMAGES = ("page", "seeds", "connectivity", "threshold", "invert", "min_area", "fill_holes", "outline", "border")
 """Options that mean nothing for points, or for polygons and lines, for which ``--spacing`` means nothing either."""
-OF_FRAMES = ("cell-size", "like", "size", "window")
+OF_FRAMES = ("cell_size", "like", "size", "window")
 """Options of the frame that lists of points are tessellated in."""
 
 
+@frozen
+class Measured:
+    """A length, an area or a volume with a unit, as an option has it until the size of a pixel is known."""
+
+    text: str  # as it was written
+    number: Fraction
+    unit: str
+    is_exact: bool  # the option keeps numbers exactly: in pixels it is a fraction, and no float
+    power: int = 1  # of the unit: 2 for squares, 3 for cubes
+
+    def __bool__(self) -> bool:
+        """Tell whether it is other than 0, as of a number: in every unit the answer is the same."""
+        return self.number != 0
+
+
 class Options:
-    """Options of one command, which nobody changes."""
+    """Options of one command, which nobody changes; what follows from several of them is no option itself."""
 
     command: str
     inputs: tuple[str, ...]
@@ -48,10 +66,41 @@ class Options:
     json: bool = False
     sources: Mapping[str, str] = {}  # `typed` or `environment`, by the names of options that are given
 
+    __slots__ = (
+        *("__dict__", "files_of_inputs", "files_read", "has_bands_on_cluster", "has_pixel_size", "has_several_results"),
+        *("is_automatic", "is_digital", "is_laid_out", "is_of_space", "is_shared", "job", "measured", "names_columns"),
+        *("products", "scale_in_millimeters", "triangulated_by", "unit"),
+    )
+    # ---- the input
+    is_of_space: bool  # it has three axes: it says so itself, or its frame or its columns do
+    files_of_inputs: dict[str, str]  # what is read beside each input, by the names of the options
+    files_read: dict[str, str]  # what is read beside the inputs, and so is never replaced, as the user names it
+    is_laid_out: bool  # pixels are laid over points, lines and polygons: cells, or the pixels of a raster
+    names_columns: bool  # options name columns of the input
+    unit: PixelSize | None  # the side of a pixel of what has lengths; pictures that are drawn again have none
+    measured: tuple[str, ...]  # options that have a unit, some of those that are given
+    has_pixel_size: bool  # ``--pixel-size`` is given, not ``--spacing``
+    is_shared: bool  # there are options of many inputs that mean something for one, too
+    has_bands_on_cluster: bool  # a cluster computes the bands of one image
+    # ---- the method
+    job: str  # `module:function` that reads an input, and gives its results
+    triangulated_by: str  # the method; it is the digital rule that is compared with the exact triangulation
+    is_digital: bool  # it is the digital rule of the paper
+    is_automatic: bool  # the radius of one shape is to be found
+    # ---- the results
+    products: Mapping[str, Product]  # all of the command, by name
+    has_several_results: bool  # more than one is asked for
+    scale_in_millimeters: bool  # pictures have a scale that is no ratio
+
     def __init__(self, command: str, **given: Any) -> None:
         own = {name: row.unset for name, row in options_of(command).items()}
         self.__dict__.update(DEFAULTS, **own, command=command, inputs=())
         self.__dict__.update(given)
+        for name, value in _following(self).items():
+            object.__setattr__(self, name, value)
+
+    def __reduce__(self) -> Any:
+        return partial(Options, **vars(self)), ()
 
     def __getattr__(self, name: str) -> Any:  # what is there is found without this
         raise AttributeError(f"there is no option {name}")
@@ -62,94 +111,9 @@ class Options:
     __delattr__ = __setattr__  # type: ignore[assignment]
 
     @property
-    def products(self) -> Mapping[str, Product]:
-        """All results of the command, by name."""
-        return OF_SPACE[self.command] if self.command in OF_SPACE and self.is_of_space else PRODUCTS[self.command]
-
-    @property
-    def job(self) -> str:
-        """``module:function`` that reads an input, and gives its results."""
-        command = COMMANDS[self.command]
-        return command.job_in_space if command.job_in_space and self.is_of_space else command.job
-
-    # ---- the input
-    @property
-    def is_of_space(self) -> bool:
-        """Whether the input has three axes: it says so itself, or its frame or its columns do."""
-        has_z = self.columns is not None and any(part.strip()[:2].lower() == "z=" for part in self.columns.split(","))
-        return (
-            self.volume
-            or self.space
-            or has_z
-            or len(self.size or ()) == 3
-            or 6 in map(len, (self.window or (), self.frame or ()))
-        )
-
-    @property
-    def is_laid_out(self) -> bool:
-        """Whether pixels are laid over points, lines and polygons: cells, or the pixels of a raster."""
-        return self.cell_size is not None or self.like is not None
-
-    @property
-    def names_columns(self) -> bool:
-        """Whether options name columns of the input."""
-        return self.label_by is not None or self.with_columns is not None
-
-    @property
     def cleans_masks(self) -> str:
         """The option that changes a mask; empty where there is none."""
         return "--fill-holes" if self.fill_holes else "--min-area" if self.min_area is not None else ""
-
-    @property
-    def has_open_border(self) -> bool:
-        """Whether objects go on beyond the image that cuts them."""
-        return bool(self.border == "open")
-
-    def among(self, *names: str) -> dict[str, Any]:
-        """Give some options by their names, as users type them."""
-        return {name: getattr(self, name.replace("-", "_")) for name in names}
-
-    def files_of_inputs(self) -> dict[str, str]:
-        """Give the files that are read beside each input, by the names of the options."""
-        return {name: path for name in ("like", "clip", "enclosures", "overlay") if (path := getattr(self, name))}
-
-    def files_read(self) -> dict[str, str]:
-        """Give the files that are read beside the inputs, and so are never replaced, as the user names them."""
-        if self.other:
-            return {"B": self.other}
-        files = {f"--{name}": path for name, path in self.files_of_inputs().items()}
-        return {"--files-from": self.files_from, **files} if self.files_from else files
-
-    # ---- the method
-    @property
-    def triangulated_by(self) -> str:
-        """What the method comes to: it is the digital rule that is compared with the exact triangulation."""
-        return "digital" if "compare" in self.what else str(self.method)
-
-    @property
-    def is_digital(self) -> bool:
-        """Whether points are triangulated by the paper's digital rule."""
-        return self.triangulated_by == "digital"
-
-    @property
-    def is_automatic(self) -> bool:
-        """Whether the radius of one shape is to be found."""
-        return self.r is None and self.alpha is None and bool(OF_ONE_SHAPE & set(self.what))
-
-    @property
-    def has_several_results(self) -> bool:
-        """Whether more than one result is asked for."""
-        return len(self.what) > 1
-
-    @property
-    def has_bands_on_cluster(self) -> bool:
-        """Whether a cluster computes the bands of one image."""
-        return self.cluster is not None and self.out_dir is None
-
-    @property
-    def has_pixel_size(self) -> bool:
-        """Whether ``--pixel-size`` is given."""
-        return self.pixel_size is not None and not self.pixel_size.is_spacing
 
     @property
     def takes_spacing(self) -> bool:
@@ -162,22 +126,6 @@ class Options:
         said = self.input_format and self.input_format.lower()
         endings = {suffix_of(path).removeprefix(".") for path in self.inputs}
         return said in DRAWINGS if said else self.files_from is not None or bool(endings & {*DRAWINGS, ""})
-
-    @property
-    def wants_skeleton(self) -> bool:
-        """Whether a result shows anything of the skeleton: offset curves are of the whole diagram."""
-        return set(self.what) != {"offset"}
-
-    @property
-    def unit(self) -> PixelSize | None:
-        """The side of a pixel, or its sides, of what has lengths; pictures that are drawn again have none."""
-        return None if self.command == "draw" else self.pixel_size
-
-    # ---- pictures
-    @property
-    def scale_in_millimeters(self) -> bool:
-        """Whether a scale is given that is no ratio."""
-        return self.scale is not None and not self.scale.is_ratio
 
     @property
     def looks(self) -> Looks:
@@ -197,21 +145,47 @@ class Options:
             self.extent,
         )
 
-    def drawn(self, usual: Sequence[str]) -> tuple[str, ...]:
-        """Give the layers of a picture that has usual ones: a column of names is shown in any case."""
-        chosen = tuple(self.layers or usual)
-        return chosen if self.label_by is None or "labels" in chosen else (*chosen, "labels")
-
     @property
     def draws_diagram(self) -> bool:
         """Whether the diagram as PNG is a picture, not a mask."""
         return bool(self.layers or self.overlay or self.looks.given())
 
-    # ---- many inputs
-    @property
-    def is_shared(self) -> bool:
-        """Whether there are options of many inputs that mean something for one, too."""
-        return any((self.null, self.dry_run, self.resume, self.shard, self.table, self.table_inputs, self.fields))
+
+def _following(o: Any) -> dict[str, Any]:
+    """Give what follows from several options."""
+    what, command = o.what or (), COMMANDS.get(o.command)
+    has_z = o.columns is not None and any(part.strip()[:2].lower() == "z=" for part in o.columns.split(","))
+    frames = len(o.size or ()), len(o.window or ()), len(o.frame or ())
+    is_of_space = bool(o.volume or o.space or has_z or frames[0] == 3 or 6 in frames[1:])
+    in_space = OF_SPACE.get(o.command) if is_of_space else None
+    beside = {name: path for name in ("like", "clip", "enclosures", "overlay") if (path := getattr(o, name))}
+    read = {"--files-from": o.files_from} if o.files_from else {}
+    read |= {f"--{name}": path for name, path in beside.items()}
+    values = ((name, getattr(o, name)) for name in o.sources)
+    method = "digital" if "compare" in what else o.method
+    return {
+        "is_of_space": is_of_space,
+        "files_of_inputs": beside,
+        "files_read": {"B": o.other} if o.other else read,
+        "is_laid_out": o.cell_size is not None or o.like is not None,
+        "names_columns": o.label_by is not None or o.with_columns is not None,
+        "unit": None if o.command == "draw" else o.pixel_size,
+        "measured": tuple(
+            name
+            for name, value in values
+            if isinstance(value, Measured) or (isinstance(value, tuple) and any(isinstance(x, Measured) for x in value))
+        ),
+        "has_pixel_size": o.pixel_size is not None and not o.pixel_size.is_spacing,
+        "is_shared": any((o.null, o.dry_run, o.resume, o.shard, o.table, o.table_inputs, o.fields)),
+        "has_bands_on_cluster": o.cluster is not None and o.out_dir is None,
+        "job": command and dict(command.jobs).get("space" if is_of_space else method, command.job),
+        "triangulated_by": method,
+        "is_digital": method == "digital",
+        "is_automatic": o.r is None and o.alpha is None and not OF_ONE_SHAPE.isdisjoint(what),
+        "products": in_space or PRODUCTS.get(o.command, {}),
+        "has_several_results": len(what) > 1,
+        "scale_in_millimeters": o.scale is not None and not o.scale.is_ratio,
+    }
 
 
 def changed(o: Options, **values: Any) -> Options:

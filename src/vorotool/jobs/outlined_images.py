@@ -45,7 +45,7 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons:
         o, value = read_opened(run, o, given, source, curves_advice=advice)
     if is_of(value, "Raster"):
         return outlined(run, o, given, value)
-    refuse(o.among("spacing", *OF_IMAGES), "applies to images, but the input is polygons or lines")
+    refuse(o, ("spacing", *OF_IMAGES), "applies to images, but the input is polygons or lines")
     if not len(value):
         report_no_geometry(run, o)
     return ReadPolygons(
@@ -74,7 +74,7 @@ def _outlines(run: Run, o: Options, image: Raster) -> PolygonSet:
     image, threshold, invert, cleaning = settled_foreground(run, o, image)
     how = {
         "outline": o.outline or "crack",
-        "border": "open" if o.has_open_border else "closed",
+        "border": "open" if o.border == "open" else "closed",
         **{"mode": o.seeds, "connectivity": int(o.connectivity or 8), "threshold": threshold, "invert": invert},
         "min_area": None if cleaning is None else cleaning.min_area or None,
         "fill_holes": cleaning is not None and cleaning.fill_holes,

@@ -13,9 +13,8 @@ from vorotool.jobs.units import (
     PixelSize,
     Sides,
     in_coordinates,
-    lengths_in_steps,
-    measured,
     refuse_lengths,
+    shows_units,
     sides_of,
     unit_stats,
 )
@@ -30,7 +29,6 @@ if TYPE_CHECKING:
     from vorotool.render.canvas.layers import Backdrop
     from vorotool.types.pixels import PixelGrid
     from vorotool.types.points.point_set import PointSet
-    from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.volumes.volume import VoxelGrid
 
@@ -44,7 +42,7 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
         run.stats |= unit_stats(asked)
         return o
     is_spacing = asked is not None and asked.is_spacing
-    if not given.has_units and not is_spacing:
+    if not is_spacing and not o.scale_bar and not shows_units(given.targets):
         if grid is not None and grid.is_size and not grid.is_square and o.takes_spacing:
             run.note(_note_of_size(given, grid, o, "distances"))
         return o
@@ -152,18 +150,6 @@ def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
     return replace(stretched(polygons, 1, -1) if size.y_up else polygons, y_axis=UP, crs=size.crs)
 
 
-def placed_sites(run: Run, o: Options, given: JobInput, points: Any) -> tuple[Options, PointSet | SeedSet]:
-    """Give options with the size of pixels, see `with_pixel_size`, and seeds of an image as they lie on its map."""
-    if not is_of(points, "SeedSet"):
-        return lengths_in_steps(o), points
-    o = lengths_in_steps(with_pixel_size(run, o, given, points.grid))
-    if o.pixel_size is None or not o.pixel_size.y_up:
-        return o, points
-    from vorotool.types.scaling import stretched
-
-    return o, stretched(points, 1, -1)
-
-
 def in_steps(o: Options, points: Any) -> PointSet:
     """Give points in pixels, or the sites of an image, in steps of ``--spacing``."""
     sides = None if o.pixel_size is None or o.pixel_size.sides is None else sides_of(o)
@@ -214,7 +200,7 @@ def lengths_of_vectors(o: Options, value: PointSet | PolygonSet | Sites) -> Opti
     """Give options in the coordinates of points, lines and polygons; ``--pixel-size auto`` is their unit."""
     from vorotool.numeric.length_units import unit_of
 
-    if not measured(o) and (o.pixel_size is None or not o.pixel_size.is_auto):
+    if not o.measured and (o.pixel_size is None or not o.pixel_size.is_auto):
         return o
     unit = unit_of(value)
     if o.pixel_size is not None and o.pixel_size.is_auto:
@@ -240,7 +226,7 @@ def _shapes(value: PointSet | PolygonSet | Sites) -> PointSet | PolygonSet:
 
 def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
     """Give options in pixels of an image, or in the unit of ``--spacing auto``."""
-    if not measured(o):
+    if not o.measured:
         return o
     unit = None if grid is None else unit_of_grid(grid)
     if grid is None or unit is None:
@@ -259,7 +245,7 @@ def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
 
 def _refuse_places(o: Options) -> None:
     """Refuse places with a unit in an image on a map, whose own begin in the corner of the image."""
-    for name in (name for name in ("frame", "start", "end") if name in measured(o)):
+    for name in (name for name in ("frame", "start", "end") if name in o.measured):
         raise UsageError(f"{flag(o.command, name)} of an image on a map is in its pixels: give numbers without a unit")
 
 
@@ -279,7 +265,7 @@ def sized(grid: PixelGrid | None, o: Options) -> PixelGrid:
 
 def lengths_of_voxels(o: Options, grid: VoxelGrid | None) -> Options:
     """Give options in voxels of a volume, or in the unit of ``--spacing auto``."""
-    if not measured(o):
+    if not o.measured:
         return o
     if grid is None or grid.unit is None:
         return _refused(o, "give --spacing, such as 0.325,0.325,1.5um")
@@ -323,7 +309,7 @@ def _size_of(asked: PixelSize, unit: InputUnit | None) -> PixelSize:
 
 
 def _converted(o: Options, unit: InputUnit | None, shapes: PointSet | PolygonSet) -> Options:
-    if not measured(o):
+    if not o.measured:
         return o
     if unit is None:
         system = (

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, UsageError, meant
-from vorotool.jobs.options import OF_SHAPES, Options
+from vorotool.jobs.options import OF_SHAPES, Measured, Options
 from vorotool.jobs.pixel_sizes import unit_of_grid
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import Measured, check_frame
+from vorotool.jobs.units import check_frame
+from vorotool.numeric.length_units import unit_of
 from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, picture_format, resolved
 from vorotool.products.options import flag, options_of
 from vorotool.products.options.row import Option
-from vorotool.products.options.rules import EXCLUDING, NEEDING
+from vorotool.products.options.rules import EXCLUDING, NEEDING, ONLY
 from vorotool.products.registry import NAMING_FEATURES, PRODUCTS
 
 if TYPE_CHECKING:
@@ -22,10 +23,10 @@ if TYPE_CHECKING:
 
     from vorotool.jobs.run_log import Run
     from vorotool.jobs.units import PixelSize
-    from vorotool.numeric.length_units import InputUnit
     from vorotool.types.pixels import PixelGrid
     from vorotool.types.volumes.volume import VoxelGrid
 
+_DRAWN = "?may_be_drawn"
 _KINDS = {
     ".picture": "pictures (-f {})",
     ".page": "pictures (-f {})",
@@ -36,7 +37,7 @@ _KINDS = {
     ".digits": "formats of text, such as csv",
     ".parts": "tables and GeoJSON whose rows are parts of features or pairs (--what branches, points, edges, ...)",
     ".curves": "formats that have no curves, such as GeoJSON and WKT",
-    "?may_be_drawn": "inputs that are drawings",
+    _DRAWN: "inputs that are drawings",
     ".ome-zarr": "OME-Zarr (-o NAME.ome.zarr)",
 }
 """Words for kinds of outputs, with a place for the formats of pictures."""
@@ -46,35 +47,33 @@ def check_options(o: Options, targets: Sequence[Target]) -> None:
     """Refuse what the table of options and its rules exclude, and what no output shows."""
     rows = options_of(o.command)
     given = {name: row for name, row in rows.items() if getattr(o, name) is not None and getattr(o, name) != row.unset}
+    # conditions that hold: see `vorotool.products.options.rules`
     held = {"inputs", *given, *(f"what:{what}" for what in o.what), *(f"layer:{layer}" for layer in o.layers or ())}
     held |= {f"{name}={value}" for name, value in vars(o).items() if isinstance(value, str)}
+    held |= {each for each in _PROPERTIES if getattr(o, each[1:])}
+    held |= {each for each, names in ONLY.items() if names.issuperset(o.what)}
     for target in targets:
-        held |= {form for kind in _kinds_of(o, target) for form in (f".{kind}", f"{target.what}.{kind}")}
-
-    def holds(condition: str) -> bool:  # see `vorotool.products.options.rules`
-        return all(
-            part in held
-            or (part.startswith("?") and getattr(o, part[1:]))
-            or (part.startswith("only:") and set(o.what) <= set(part[5:].split(",")))
-            for part in condition.split("+")
-        )
-
-    for rule in (each for each in EXCLUDING if o.command in each.commands.split()):
-        for other in filter(holds, rule.others.split()):
-            for one in filter(holds, rule.these.split()):
-                first, second = _words(o, one), _words(o, other)
+        held |= _kinds_of(o, target)
+    for rules in (EXCLUDING, NEEDING):
+        for rule in (each for each in rules if o.command in each.commands.split()):
+            these, others = (
+                [each for each in conditions.split() if held.issuperset(each.split("+"))]
+                for conditions in (rule.these, rule.others)
+            )
+            if these and others and rules is EXCLUDING:
+                first, second = _words(o, these[0]), _words(o, others[0])
                 raise UsageError(f"{second} cannot be combined with {first}: {rule.why}; {rule.instead}")
-    for rule in (each for each in NEEDING if o.command in each.commands.split()):
-        for one in filter(holds, rule.these.split()):
-            if not any(map(holds, rule.others.split())):
+            if these and not others and rules is NEEDING:
                 needed = " or ".join(_needed(o, each) for each in rule.others.split() if not each.startswith("?"))
-                what = o.command if one == "inputs" else _words(o, one)
+                what = o.command if these[0] == "inputs" else _words(o, these[0])
                 raise UsageError(f"{what} needs {needed}" + (f": {rule.why}" if rule.why else ""))
     for name, row in given.items():
-        shown_by = (word if any(sign in word for sign in "=:.?") else f"what:{word}" for word in row.acts_on.split())
-        if row.acts_on and not any(map(holds, shown_by)):
+        shown_by = [word if any(sign in word for sign in "=:.?") else f"what:{word}" for word in row.acts_on.split()]
+        is_shown = not shown_by or not held.isdisjoint(shown_by) or (_DRAWN in shown_by and o.may_be_drawn)
+        if not is_shown:
             raise UsageError(f"{flag(o.command, name, getattr(o, name))} applies only to {_where(o, row)}")
-    _check_values(o)
+    if o.window is not None or o.frame is not None:
+        _check_frames(o)
     if o.layers or o.colors or o.line_widths:
         _check_layers(o, targets)
     if COMMANDS[o.command].check:
@@ -88,7 +87,7 @@ def _needed(o: Options, condition: str) -> str:
 
 
 def _kinds_of(o: Options, target: Target) -> set[str]:
-    """Give what an output is, as conditions name it."""
+    """Give what an output is, as conditions name it: with its result, and without."""
     product = o.products[target.what]
     fmt, shown = FORMATS[target.fmt], picture_format(target.fmt)
     layers = product.layers.get(shown) if shown in PICTURES else None
@@ -110,7 +109,7 @@ def _kinds_of(o: Options, target: Target) -> set[str]:
         and (target.fmt in (*TABLES, "geojson", "graphml") or bool(fmt.made_from)),
         "ome-zarr": target.fmt == "zarr" and target.path.lower().endswith(".ome.zarr"),
     }
-    return {name for name, holds in facts.items() if holds}
+    return {f"{what}.{name}" for name, holds in facts.items() if holds for what in ("", target.what)}
 
 
 # ---- words ---------------------------------------------------------------------------------------
@@ -123,6 +122,7 @@ _PROPERTIES = {
     "?has_several_results": "other results",
     "?scale_in_millimeters": "--scale S",
 }
+"""Words for what follows from several options."""
 
 
 def _words(o: Options, condition: str) -> str:
@@ -173,7 +173,7 @@ def _picture_formats(o: Options) -> Sequence[str]:
 
 
 # ---- values --------------------------------------------------------------------------------------
-def _check_values(o: Options) -> None:
+def _check_frames(o: Options) -> None:
     """Refuse a window in pixels that is no integers, and a frame too far away to compute with."""
     if o.window is not None and o.cell_size is None and not all(isinstance(number, int) for number in o.window):
         shown = ",".join(f"{float(number):g}" for number in o.window)
@@ -218,11 +218,12 @@ def _check_styles(o: Options, layers: Sequence[str]) -> None:
             )
 
 
-def refuse(options: Mapping[str, Any], reason: str) -> None:
+def refuse(o: Options, names: Iterable[str], reason: str) -> None:
     """Refuse options that are given although they mean nothing here."""
-    for name, value in options.items():
+    for name in names:
+        value = getattr(o, name)
         if value is not None and value is not False:  # 0 is given, too
-            raise UsageError(f"--{name} {reason}")
+            raise UsageError(f"{flag(o.command, name)} {reason}")
 
 
 _WITH_SYSTEM = frozenset({"geojson", "jsonl", "json", "npz", "gpkg", "fgb", "shp", "parquet"})
@@ -243,9 +244,9 @@ def check_image_size(run: Run, o: Options, name: str, grid: PixelGrid | None) ->
 def check_system(run: Run, o: Options, targets: Sequence[Target]) -> None:
     """Warn of a size that scales coordinates, which are no longer in their reference system then."""
     size = o.unit
-    if size is None or size.is_auto or size.is_spacing or size.factor == 1 or run.crs is None:
+    if size is None or size.is_auto or size.is_spacing or size.factor == 1:
         return
-    if any(target.fmt in _WITH_SYSTEM and "geojson" in PRODUCTS[o.command][target.what].written for target in targets):
+    if any(target.fmt in _WITH_SYSTEM and "geojson" in o.products[target.what].written for target in targets):
         text = f"--pixel-size {_text(size)} scales the coordinates: results state no coordinate reference system"
         instead = "leave out --pixel-size for a map"
         if o.strict:
@@ -259,8 +260,9 @@ def check_voxel_size(run: Run, o: Options, name: str, grid: VoxelGrid | None) ->
         _check(run, o, name, f"voxels of {grid.size_text()}", (grid.unit, grid.sides))
 
 
-def check_unit(run: Run, o: Options, name: str, unit: InputUnit | None) -> None:
+def check_unit(run: Run, o: Options, name: str, value: Any) -> None:
     """Warn of a size that contradicts the unit of the coordinates of points, lines or polygons."""
+    unit = None if o.pixel_size is None or o.pixel_size.unit is None else unit_of(value)
     if unit is not None:
         _check(run, o, name, f"coordinates in {unit.text}", (unit.unit, (unit.side,) * 2))
 

@@ -20,7 +20,7 @@ from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.triangulation import TRIANGULATE
-from vorotool.jobs.units import Amount, measured
+from vorotool.jobs.units import Amount
 from vorotool.numeric.parallel import Progress
 from vorotool.products.registry import OF_ONE_SHAPE
 from vorotool.types.table import Table
@@ -34,7 +34,7 @@ class SpaceShapeProducts(Results):
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         super().__init__(run, options)
-        if not measured(options):  # what is wrong with it is said before a long file is read
+        if not options.measured:  # what is wrong with it is said before a long file is read
             chosen_radius(options.r, options.alpha, options.auto)
         with run.phase("read"):
             points = read_voxel_points(run, options, given, properties=options.names_columns)

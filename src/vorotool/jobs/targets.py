@@ -29,11 +29,6 @@ class Target:
     path: str
     fmt: str
 
-    @property
-    def is_binary(self) -> bool:
-        """Whether it must not go to a terminal."""
-        return not FORMATS[self.fmt].is_text
-
 
 def plan_targets(o: Options, source: str) -> list[Target]:
     """Lay out the outputs of one input."""
@@ -69,7 +64,7 @@ def plan_targets(o: Options, source: str) -> list[Target]:
     path = "-" if output is None else output
     chosen_format = _chosen(products, name, wanted[name], None if path == "-" else suffix_of(path))
     target = Target(name, path, chosen_format)
-    if output is None and fmt is None and target.is_binary:
+    if output is None and fmt is None and not FORMATS[target.fmt].is_text:
         from vorotool.formats.io.sources import check_input
 
         check_input(source)
@@ -84,7 +79,7 @@ def check_stats(options: Options, targets: Sequence[Target], source: str) -> Non
     """Refuse statistics that would go where the input, another file that is read, or a result is."""
     stats = options.stats
     is_open = stats == STANDARD or descriptor_of(stats) is not None
-    for role, path in () if is_open else (("the input", source), *options.files_read().items()):
+    for role, path in () if is_open else (("the input", source), *options.files_read.items()):
         if is_same_file(stats, path):
             raise UsageError(f"--stats {stats} is also {role}, which is never replaced: choose another name")
     for target in targets:
@@ -108,7 +103,7 @@ def check_targets(options: Options, targets: Sequence[Target], source: str) -> N
 
     rules: dict[str, Any] = {
         "no_clobber": options.no_clobber,
-        "inputs": (source, *options.files_read().values()),
+        "inputs": (source, *options.files_read.values()),
         "makes_folder": options.out_dir is not None,
     }
     named_by = OUTPUT if options.out_dir is None else "--out-dir"
@@ -123,7 +118,7 @@ def check_targets(options: Options, targets: Sequence[Target], source: str) -> N
         if target.fmt == "zarr":
             check_store(target.path, **rules)
         else:
-            check_output(target.path, binary=target.is_binary, option=named_by, **rules)
+            check_output(target.path, binary=not FORMATS[target.fmt].is_text, option=named_by, **rules)
             if target.fmt == "gpkg" and stream_kind(target.path) is None:
                 from vorotool.formats.gis.geopackage import check_layers
 

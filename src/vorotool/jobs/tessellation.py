@@ -118,7 +118,7 @@ def _seeds_of(run: Run, o: Options, value: PointSet | PolygonSet | Raster) -> Se
     if isinstance(value, PointSet):
         return seeds_in_frame(value, asked_frame(o) or partial(frame_of, o), sides=sides_of(o), strict=o.strict)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
-    refuse(o.among("columns", *OF_FRAMES), _OF_POINTS)
+    refuse(o, ("columns", *OF_FRAMES), _OF_POINTS)
     return seeds_of_image(run, o, value, o.seeds)
 
 
@@ -259,7 +259,7 @@ def _streamed(run: Run, o: Options, image: ZarrRows | TiffRows) -> StreamedImage
     """Read an image that is not held."""
     from vorotool.formats.zarr.writer import CHUNK
 
-    refuse(o.among(*OF_FRAMES), _OF_POINTS)
+    refuse(o, OF_FRAMES, _OF_POINTS)
     if image.note:
         run.note(image.note)
     assert o.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held

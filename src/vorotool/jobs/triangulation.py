@@ -21,7 +21,7 @@ from vorotool.jobs.inputs import (
 )
 from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
-from vorotool.jobs.pixel_sizes import in_steps, placed_backdrop, placed_mesh, placed_sites, unit_of_vectors
+from vorotool.jobs.pixel_sizes import in_steps, placed_backdrop, placed_mesh, unit_of_vectors
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import Amount, box_amounts, in_units, refuse_lengths, sides_of, table_in_units, unit_columns
 from vorotool.numeric.parallel import Progress
@@ -38,12 +38,6 @@ if TYPE_CHECKING:
     from vorotool.types.points.seed_set import SeedSet
 
 TRIANGULATE, VERIFY = "engines.delaunay.delaunay:delaunay", "engines.delaunay.delaunay:verify_triangulation"
-
-
-def products(run: Run, o: Options, given: JobInput) -> MeshProducts:
-    """Read points, or find those of an image, and triangulate them."""
-    kinds = {"exact": MeshProducts, "digital": DigitalProducts, "digital-valid": RepairedProducts}
-    return kinds[o.triangulated_by](run, o, given)
 
 
 def seeds_of(run: Run, o: Options, points: Any) -> SeedSet:
@@ -73,23 +67,32 @@ def digital_mesh(run: Run, o: Options, points: Any, seeds: SeedSet) -> tuple[Any
 class MeshProducts(Results):
     """Results of one triangulation."""
 
+    mesh: Any = None
+    edged: Any = None
+
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         with run.phase("read"):
             properties = bool({"table", "cells", "measures"} & set(options.what)) or options.names_columns
             is_digital = options.triangulated_by != "exact"
             o, points = read_sites(run, options, given, properties=properties, is_digital=is_digital)
-            o, points = placed_sites(run, o, given, points)
         super().__init__(run, o)
         self.clip: Sequence[Any] | None = None
         if o.clip is not None:
             points, self.clip = self._clipped(given, points)
         self._points = points
         self.wants_mesh = o.what != ("compare",)  # a result shows the triangulation itself
-        self.backdrop = placed_backdrop(run, o, given.backdrop)
-        if self.wants_mesh:
-            self.mesh: Any = placed_mesh(o.pixel_size, self._triangulate())
+        if given.backdrop is not None:
+            self.backdrop = placed_backdrop(run, o, given.backdrop)
+        if not self.wants_mesh:
+            return
+        self.mesh = self._triangulate()
+        if o.pixel_size is not None:
+            self.mesh = placed_mesh(o.pixel_size, self.mesh)
+        if o.names_columns:
             check_columns(o, self.mesh.properties)
-        self.edged: Any = self._with_graph() if self.wants_mesh else None
+        self.edged = self.mesh  # or a graph that is a part of it: what has the edges that are written and drawn
+        if o.graph != "delaunay":
+            self.edged = self.call("engines.delaunay.proximity:proximity_graph", self.mesh, o.graph, phase="graph")
 
     def _clipped(self, given: JobInput, points: Any) -> tuple[Any, Sequence[Any]]:
         """Read the polygons of ``--clip``."""
@@ -110,13 +113,6 @@ class MeshProducts(Results):
         mesh: Any = self.call(TRIANGULATE, in_steps(self.options, self._points), phase="triangulate")
         note_repeated_labels(self.run, self._points, mesh)
         return mesh
-
-    def _with_graph(self) -> Any:
-        """What has the edges that are written and drawn: the triangulation, or a graph that is a part of it."""
-        graph = self.options.graph
-        if graph == "delaunay":
-            return self.mesh
-        return self.call("engines.delaunay.proximity:proximity_graph", self.mesh, graph, phase="graph")
 
     def check_page(self) -> None:
         """Refuse a page of too many cells."""

@@ -11,8 +11,7 @@ from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeVar
 
 from vorotool.errors import UsageError, VorotoolError
-from vorotool.frozen import frozen
-from vorotool.jobs.options import changed
+from vorotool.jobs.options import Measured, Options, changed
 from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
 from vorotool.products.formats import FORMATS
@@ -20,7 +19,6 @@ from vorotool.products.options import flag, options_of
 from vorotool.products.registry import PLOTS
 
 if TYPE_CHECKING:
-    from vorotool.jobs.options import Options
     from vorotool.jobs.targets import Target
     from vorotool.types.pixels import PixelSides
     from vorotool.types.table import Table
@@ -120,21 +118,6 @@ def shows_units(targets: Sequence[Target]) -> bool:
     )
 
 
-@frozen
-class Measured:
-    """A length, an area or a volume with a unit, as an option has it until the size of a pixel is known."""
-
-    text: str  # as it was written
-    number: Fraction
-    unit: str
-    is_exact: bool  # the option keeps numbers exactly: in pixels it is a fraction, and no float
-    power: int = 1  # of the unit: 2 for squares, 3 for cubes
-
-    def __bool__(self) -> bool:
-        """Tell whether it is other than 0, as of a number: in every unit the answer is the same."""
-        return self.number != 0
-
-
 def known_length(length: Number | None) -> Number | None:
     """Give a length of an option; None while only an image that is yet to be read can say what its unit is."""
     return None if isinstance(length, Measured) else length
@@ -187,19 +170,9 @@ def refuse_lengths(o: Options, reason: str, kind: type[VorotoolError] = UsageErr
     _converted(o, refuse)
 
 
-def measured(o: Options) -> list[str]:
-    """Names of the options that have a unit: some of those that are given."""
-    values = {name: getattr(o, name) for name in o.sources}
-    return [
-        name
-        for name, value in values.items()
-        if any(isinstance(each, Measured) for each in (value if isinstance(value, tuple) else (value,)))
-    ]
-
-
 def _converted(o: Options, convert: Callable[[str, Measured], Any]) -> dict[str, Any]:
     """Convert the values of all options that have a unit."""
-    return {name: _in_pixels(flag(o.command, name), getattr(o, name), convert) for name in measured(o)}
+    return {name: _in_pixels(flag(o.command, name), getattr(o, name), convert) for name in o.measured}
 
 
 def _in_pixels(option: str, value: Any, converted: Callable[[str, Measured], Any]) -> Any:
@@ -254,9 +227,9 @@ def _as_double(exact: Fraction) -> float | None:
 
 def check_units(o: Options, targets: Sequence[Target]) -> None:
     """Refuse a size of pixels that nothing shows, and no length is measured by."""
-    if o.unit is None or o.unit.is_spacing or measured(o):
+    if o.unit is None or o.unit.is_spacing or o.measured:
         return
-    of_map = getattr(o, "is_laid_out", False) and any(each.what.startswith("distance") for each in targets)
+    of_map = o.is_laid_out and any(each.what.startswith("distance") for each in targets)
     if not shows_units(targets) and not o.scale_bar and not of_map:
         raise UsageError("--pixel-size applies to tables and vectors: use --what table, or leave it out")
 

@@ -22,7 +22,7 @@ from vorotool.formats.volumes.opening import kind_of_head, open_volume
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
 from vorotool.jobs.inputs import JobInput, frame_of, read_voxel_points, report_no_seeds
-from vorotool.jobs.options import OF_FRAMES, OF_IMAGES, Options, changed
+from vorotool.jobs.options import OF_FRAMES, Options, changed
 from vorotool.jobs.outlined_images import report_cleaning
 from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.pixel_sizes import lengths_of_voxels, spacing_of
@@ -30,7 +30,7 @@ from vorotool.jobs.refusals import check_voxel_size, refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streams import Tessellated, check_chunks, tessellated_rows
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import PixelSize, sides_of, unit_columns, unit_stats
+from vorotool.jobs.units import PixelSize, shows_units, sides_of, unit_columns, unit_stats
 from vorotool.numeric.length_units import unit_name
 from vorotool.products.inputs import VOLUME_NAMES
 from vorotool.render.label_images.slices import SlicePicture
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from vorotool.render.label_images.picture import LabelPicture
     from vorotool.render.looks import World
 
-_OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert", "min-area", "fill-holes"})
+_OF_VOLUMES = ("seeds", "connectivity", "threshold", "invert", "min_area", "fill_holes")
 """Options that images and volumes have, and points have not."""
 
 
@@ -131,8 +131,7 @@ def read_volume_seeds(run: Run, o: Options, given: JobInput) -> tuple[Options, V
     """Read a volume, or points of space; options with a unit are in that of the voxels then."""
     if not _is_volume(o, given.path):
         return _read_points(run, o, given)
-    of_points = o.among("columns", *OF_FRAMES)
-    refuse(of_points, "applies to lists of points, but the input is a volume with its own frame")
+    refuse(o, ("columns", *OF_FRAMES), "applies to lists of points, but the input is a volume with its own frame")
     with reading(given.path):
         source = open_volume(given.path, input_format=o.input_format)
         if source.note:
@@ -155,8 +154,7 @@ def _read_points(run: Run, o: Options, given: JobInput) -> tuple[Options, Volume
             "0.325,0.325,1.5um"
         )
     o = lengths_of_voxels(o, None)
-    of_volumes = o.among(*(name for name in OF_IMAGES if name in _OF_VOLUMES))
-    refuse(of_volumes, "applies to volumes, but the input is a list of points")
+    refuse(o, _OF_VOLUMES, "applies to volumes, but the input is a list of points")
     run.stats |= unit_stats(o.pixel_size)
     with reading(given.path):
         points = read_voxel_points(run, o, given, properties="table" in o.what or o.names_columns or given.has_page)
@@ -215,7 +213,7 @@ def with_voxel_sides(run: Run, o: Options, given: JobInput, grid: VoxelGrid | No
                 f"{given.name} has voxels of {grid.size_text()}, which are not cubes: distances are in voxels; "
                 "--spacing auto measures with these sides"
             )
-        elif grid is not None and given.has_units:
+        elif grid is not None and (o.scale_bar or shows_units(given.targets)):
             run.note(f"{given.name} states voxels of {grid.size_text()}: --spacing auto uses that")
         return o
     if asked.is_auto:

@@ -74,11 +74,11 @@ class VoronoiProducts(Results):
         with opened_input(o, given, "sites") as source:
             o, value = read_opened(run, o, given, source, columns=o.columns)
         if is_of(value, "Raster"):
-            refuse({"columns": o.columns}, "applies to lists of points, but the input is an image")
+            refuse(o, ["columns"], "applies to lists of points, but the input is an image")
             image: ReadPolygons = resolved("jobs.outlined_images:outlined")(run, o, given, value)
             return as_sites(image.polygons), image, image.options
-        of_images = o.among("spacing", *OF_IMAGES, "simplify")
-        refuse(of_images, "applies to images, but the input holds points, lines or polygons")
+        of_images = ("spacing", *OF_IMAGES, "simplify")
+        refuse(o, of_images, "applies to images, but the input holds points, lines or polygons")
         sites = as_sites(value)
         if not len(sites.polygons):
             report_no_geometry(run, o)

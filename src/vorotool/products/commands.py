@@ -14,7 +14,7 @@ class Command(NamedTuple):
     job: str  # `module:function` of `function(run, options, given)`, which reads an input and gives its results
     reads: Holds | None  # the geometry that it reads beside images; what is drawn again may be any
     text: str  # what `--help` says; the second paragraph is an example
-    job_in_space: str = ""  # the job where the input has three axes
+    jobs: tuple[tuple[str, str], ...] = ()  # those for the value of `--method`, or in `space`
     check: str = ""  # `module:function` of `function(options, targets)`, which refuses what no table says
     instead: tuple[tuple[str, str], ...] = ()  # options that it lacks, and what to do instead
 
@@ -35,13 +35,13 @@ Example:
 INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG, NPY,
 Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept. With --volume it is a volume: a
 stack (TIFF, NPY, Zarr), or points with a z.""",
-        job_in_space="jobs.volumes:VolumeProducts",
+        jobs=(("space", "jobs.volumes:VolumeProducts"),),
         check="jobs.tessellation:check",
         instead=(("--unit", "give --pixel-size, such as 0.325um"),),
     ),
     "delaunay": Command(
         "Exact Delaunay triangulation of points or of an image.",
-        "jobs.triangulation:products",
+        "jobs.triangulation:MeshProducts",
         "points",
         f"""Triangulate points exactly: no circle through a triangle's vertices holds another point.
 
@@ -57,7 +57,11 @@ kept. OBJ and files for Triangle (.edge, .ele, .node) number the points instead.
 --what statistics summarizes area, perimeter, roundness, neighbors and distances of whole cells.
 
 --what compare lists where the digital rule differs from the exact triangulation, each with its cause.""",
-        job_in_space="jobs.triangulation:TetrahedraProducts",
+        jobs=(
+            ("space", "jobs.triangulation:TetrahedraProducts"),
+            ("digital", "jobs.triangulation:DigitalProducts"),
+            ("digital-valid", "jobs.triangulation:RepairedProducts"),
+        ),
     ),
     "alphashape": Command(
         "Alpha shapes of points, of one radius or of all.",
@@ -79,7 +83,7 @@ kept.
 over r.
 
 With --space points have a z: their shape consists of tetrahedra, and --what surface is its closed surface.""",
-        job_in_space="jobs.space_shape:SpaceShapeProducts",
+        jobs=(("space", "jobs.space_shape:SpaceShapeProducts"),),
         instead=(
             (
                 "--spacing",

@@ -63,10 +63,12 @@ class Rows:
 
     def table(self, *, is_file: bool = False, has_ids: bool = True) -> Table:
         """Return all columns."""
+        if isinstance(self.columns, Table) and self.further == {} and (has_ids or "id" not in self.columns):
+            return self.columns
         ours = {name: column for name, column in self._stored().items() if has_ids or name != "id"}
         if self.further is None and self.item is not None and is_of(self.source, "PolygonSet"):
             return with_columns_of(ours, self.source, self.item, is_part=is_file and self.is_part)
-        return Table(ours).with_properties(self.further or {})
+        return Table(ours).with_properties(self.further) if self.further else Table(ours)
 
     def with_columns(self, **columns: Any) -> Rows:
         """Add columns of ours."""

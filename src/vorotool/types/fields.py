@@ -53,7 +53,7 @@ class Declared(NamedTuple):
         if given is None and self.is_optional:
             return None
         if self.meaning is Meaning.AXIS:
-            return checked_y_axis(given, name)
+            return given if isinstance(given, str) and given in AXES else checked_y_axis(given, name)
         if self.meaning is Meaning.VALUE:
             self._measure(self.shape, (len(given),) if self.shape else (), name, sizes)
             return given

@@ -80,9 +80,9 @@ def part_table(columns: Mapping[str, Any], polygons: PolygonSet, polygon: Rows) 
 
 def with_ends(columns: Mapping[str, Any], properties: Mapping[str, Any], ends: Mapping[str, Rows]) -> Table:
     """Return columns with those that are wanted of the site at each end: ``NAME_a`` and ``NAME_b``."""
-    further = wanted(properties).items()
+    table, further = Table(columns), wanted(properties).items()
     own = {f"{name}_{end}": _looked_up(values, rows) for name, values in further for end, rows in ends.items()}
-    return Table(columns).with_properties(own)
+    return table.with_properties(own) if own else table
 
 
 def ends_of_regions(columns: Mapping[str, Any], sites: Any) -> Table:

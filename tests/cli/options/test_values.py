@@ -17,8 +17,8 @@ from vorotool.cli.values.lengths import (
     rectangle,
     with_hole_areas,
 )
-from vorotool.jobs.options import Options, changed
-from vorotool.jobs.units import Measured, PixelSize, lengths_in_pixels
+from vorotool.jobs.options import Measured, Options, changed
+from vorotool.jobs.units import PixelSize, lengths_in_pixels
 from vorotool.numeric.length_units import METERS, is_known, ratio
 
 MEANINGLESS = {

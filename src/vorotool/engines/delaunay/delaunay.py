@@ -100,7 +100,7 @@ def delaunay(
     >>> len(delaunay([[0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 2], [1, 1, 0.5]]).tetrahedra)
     4
     """
-    if is_of_space(points):
+    if not isinstance(points, PointSet) and is_of_space(points):
         make = resolved(f"{_IN_SPACE}:tetrahedralization")
         return make(points, strict=strict, threads=threads, progress=progress)
     return triangulated(points, strict=strict, threads=threads, progress=progress)
@@ -108,7 +108,7 @@ def delaunay(
 
 def triangulated(points: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> Triangulation:
     """Triangulate points of the plane."""
-    given = _point_set(points)
+    given = points if isinstance(points, PointSet) else _point_set(points)
     if len(given) > MOST_POINTS:
         raise LimitError(f"the input has {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
     threads = checked_threads(threads)
@@ -120,9 +120,7 @@ def triangulated(points: Any, *, strict: bool = False, threads: int = 0, progres
 
 
 def _point_set(points: Any) -> PointSet:
-    """Return a set of points, or convert what holds them."""
-    if isinstance(points, PointSet):
-        return points
+    """Convert what holds points."""
     from vorotool.convert.points import PAIRS_OR_TRIPLES, as_points
 
     return as_points(points, shapes=PAIRS_OR_TRIPLES)
@@ -271,7 +269,7 @@ def insert_points(
     [[0, 3, 2], [0, 1, 3], [3, 1, 2]]
     """
     check_value(mesh, "mesh", "Triangulation")
-    given = _point_set(points)
+    given = points if isinstance(points, PointSet) else _point_set(points)
     total = len(mesh.points) + len(given)
     if total > MOST_POINTS:
         raise LimitError(f"there would be {total} points, more than {MOST_POINTS}: triangulate them in parts")

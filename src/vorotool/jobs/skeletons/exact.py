@@ -45,7 +45,7 @@ class ExactProducts(SkeletonProducts):
         # what is refused is refused here, where the input has its name
         if not self._is_inside_only:
             _ = self.of_all
-        elif options.wants_skeleton:
+        elif set(options.what) != {"offset"}:
             _ = self.whole
         else:
             _ = self.value("offset")
@@ -73,7 +73,7 @@ class ExactProducts(SkeletonProducts):
     def inside(self) -> FeatureSkeleton[Seen]:
         """What is inside each feature by itself, and what was seen of each diagram that is looked at."""
         o, look = self.options, self._look if self._is_looked_at else None
-        border = self._polygons.frame if o.has_open_border else None
+        border = self._polygons.frame if o.border == "open" else None
         how = {"complete": o.complete is not False, "look": look, "border": border and border.extent}
         with self.telling_once():
             return self.call(SKELETON_INSIDE, self._polygons, o.gap, phase="skeleton", **how)
@@ -130,7 +130,7 @@ class ExactProducts(SkeletonProducts):
     def _more_stats(self) -> dict[str, Any]:
         """How far a skeleton with a gap is from the exact one: a second diagram, so only for whom it is written."""
         o = self.options
-        if o.has_open_border:
+        if o.border == "open":
             return {"border": "open"}
         if not o.gap:
             return {}

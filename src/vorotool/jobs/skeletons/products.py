@@ -13,14 +13,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, Kind, Message, RepairWarning, silent
+from vorotool.errors import InputError, Kind, Message, RepairWarning, UsageError, silent
 from vorotool.jobs.inputs import JobInput, check_columns
 from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options, Place
 from vorotool.jobs.outlined_images import read_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop, written_grid
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
-from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import (
@@ -62,9 +61,8 @@ class SkeletonProducts(Results, ABC):
         with run.phase("read"):
             self._polygons, self.is_mask, options, self.frame, self.grid = read_polygons(run, options, given)
         super().__init__(run, options)
-        if self.frame is None:
-            of_images = {"what thickness": "thickness" in options.what}
-            refuse(of_images, "applies to images, but the input is polygons or lines")
+        if self.frame is None and "thickness" in options.what:
+            raise UsageError("--what thickness applies to images, but the input is polygons or lines")
         self.backdrop = placed_backdrop(run, options, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_columns(options, self._polygons.properties)
@@ -304,7 +302,7 @@ class SkeletonProducts(Results, ABC):
         """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
         for what in self._all_derived():
             self._verify_derived(what, progress)
-        if not self.options.wants_skeleton:
+        if set(self.options.what) == {"offset"}:  # of the whole diagram
             return
         self._verify_whole(progress)
         for value in self._all_lines():  # ends that skeletons are extended to, and smooth lines
@@ -401,7 +399,7 @@ class SkeletonProducts(Results, ABC):
         found |= {"side": o.side, "threads": o.threads}
         if self.is_mask:
             found |= {"outline": o.outline or "crack", "connectivity": int(o.connectivity or 8)}
-        if o.wants_skeleton:
+        if set(o.what) != {"offset"}:
             found |= self._skeleton_stats(self.joined)
         if o.smooth is not None:
             made = self._all_lines()

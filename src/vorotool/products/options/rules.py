@@ -103,6 +103,13 @@ EXCLUDING = (
 )
 # fmt: on
 """Of each rule, no condition of the first kind may hold with one of the second."""
+ONLY = {
+    each: frozenset(each.removeprefix("only:").split(","))
+    for rule in EXCLUDING
+    for each in rule.these.split()
+    if each.startswith("only:")
+}
+"""The results of conditions that nothing else is asked for."""
 
 # Rows stay rows: one argument a line would hide the table.
 # fmt: off

@@ -11,20 +11,19 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.arrays import Floats, Nesting, divides, following, starts_of
-from vorotool.numeric.checks import check_index
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types import fields as f
 from vorotool.types.box import Box
 from vorotool.types.features import Areas, Rows
 from vorotool.types.fields import UNSTATED, YAxis, record
 from vorotool.types.mesh.triangulation import ALL, Mesh, Triangulation, lengths_of
-from vorotool.types.points.point_set import numbered
+from vorotool.types.points.point_set import OfPoints
 from vorotool.types.table import Computed
 from vorotool.types.values import Geometric, Graph, Pictured, Tabular, Value, counted
 
 
 @record
-class CellSet(Value, Tabular, Geometric, Pictured):
+class CellSet(OfPoints, Tabular, Geometric, Pictured):
     """Clipped Voronoi cells, one per point, in the order of the points.
 
     A cell that meets its frame nowhere, or in no area, is empty; so is that of a point which lies on an earlier one.
@@ -71,6 +70,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     """
 
     maker = "voronoi_cells"
+    _places = "sites"
 
     sites: NDArray[np.float64] = f.position("sites", 2)
     coordinates: NDArray[np.float64] = f.position("vertices", 2)
@@ -95,15 +95,9 @@ class CellSet(Value, Tabular, Geometric, Pictured):
                 count = len(getattr(self, name)) - 1
         if count != len(self.sites):
             raise InputError(f"there are {count} cells, but {len(self.sites)} sites: give one cell per site")
-        check_index(self.index, count, "point")
 
     def __len__(self) -> int:
         return len(self.sites)
-
-    @property
-    def label_array(self) -> NDArray[np.int64]:
-        """(n,) labels: the input's own, else 1 to n."""
-        return numbered(self.labels, len(self))
 
     @cached_property
     def nesting(self) -> Nesting:

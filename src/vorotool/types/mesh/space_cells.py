@@ -11,21 +11,20 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.arrays import Booleans, Floats
-from vorotool.numeric.checks import check_index
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.features import Rows
 from vorotool.types.fields import record
-from vorotool.types.points.point_set import numbered
+from vorotool.types.points.point_set import OfPoints
 from vorotool.types.table import Table
-from vorotool.types.values import Tabular, Value, counted
+from vorotool.types.values import Tabular, counted
 
 BOX_SIDES = ("low x", "high x", "low y", "high y", "low z", "high z")
 """Sides of the box, as -1 - k stands for them in `face_cells`."""
 
 
 @record
-class SpaceCellSet(Value, Tabular):
+class SpaceCellSet(OfPoints, Tabular):
     """Voronoi cells of points in space, clipped to a box: convex polyhedra, one per point, in the order of the points.
 
     A cell that meets the box nowhere, or in no volume, has no faces; so has that of a point which lies on an earlier
@@ -77,6 +76,7 @@ class SpaceCellSet(Value, Tabular):
     """
 
     maker = "voronoi_cells"
+    _places = "sites"
 
     sites: NDArray[np.float64] = f.position("sites", 3)
     vertices: NDArray[np.float64] = f.position("vertices", 3)
@@ -92,7 +92,6 @@ class SpaceCellSet(Value, Tabular):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        check_index(self.index, len(self.sites), "point")
         for name, least, end in (
             ("corners", 0, len(self.vertices)),
             ("face_cells", -len(BOX_SIDES), len(self.sites)),
@@ -104,11 +103,6 @@ class SpaceCellSet(Value, Tabular):
 
     def __len__(self) -> int:
         return len(self.sites)
-
-    @property
-    def label_array(self) -> NDArray[np.int64]:
-        """(n,) labels: the input's own, else 1 to n."""
-        return numbered(self.labels, len(self))
 
     @property
     def is_empty(self) -> Booleans:

@@ -122,12 +122,6 @@ def _point_columns(mesh: Triangulation) -> dict[str, Any]:
     }
 
 
-def mesh_rows(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows:
-    """Return the rows of a part, by default of the edges."""
-    makers: dict[str | None, Callable[[Any], Table]] = {"triangles": triangle_table, "table": point_table}
-    return Rows(makers.get(what, edge_table)(mesh))
-
-
 def mesh_features(mesh: Any, what: str | None) -> Rows:
     """Return the rows of a part with their geometry, by default of the triangles."""
     parts: dict[str, Callable[[], Rows]] = {"edges": lambda: _of_corners(mesh, edge_table(mesh), mesh.edges)}

@@ -15,7 +15,7 @@ from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.features import Rows
 from vorotool.types.fields import record
-from vorotool.types.mesh.triangulation import ALL, OfPoints
+from vorotool.types.mesh.triangulation import ALL, Triangulated
 from vorotool.types.table import Computed, Lookup, Table
 from vorotool.types.values import Tabular, counted
 
@@ -29,7 +29,7 @@ EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
 
 
 @record
-class Tetrahedralization(OfPoints, Tabular):
+class Tetrahedralization(Triangulated, Tabular):
     """Delaunay triangulation of points in space: tetrahedra, triangles and edges, as 0-based int32 indices.
 
     The sphere through the corners of a tetrahedron holds no point inside. The cell of points on one sphere is divided

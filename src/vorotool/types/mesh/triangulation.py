@@ -6,7 +6,7 @@ from dataclasses import field
 from fractions import Fraction
 from functools import cached_property
 from math import sqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,12 +20,9 @@ from vorotool.types import fields as f
 from vorotool.types.box import Box
 from vorotool.types.features import Rows
 from vorotool.types.fields import UNSTATED, YAxis, record
-from vorotool.types.points.point_set import numbered
+from vorotool.types.points.point_set import OfPoints
 from vorotool.types.table import Table
 from vorotool.types.values import Graph, Pictured, Tabular, Value, WithParts, counted
-
-if TYPE_CHECKING:
-    from vorotool.types.features import Rows
 
 FLAT = 2.0**-20
 """Triangles whose largest angle has a smaller sine are computed in rationals: floating point would lose half."""
@@ -41,7 +38,8 @@ class Mesh:
     """What has edges and maybe triangles, in files and frames."""
 
     def _rows(self, what: str | None = None) -> Rows:
-        return resolved("types.mesh.tables:mesh_rows")(self, what)
+        of_parts = {"triangles": "triangle_table", "table": "point_table"}
+        return Rows(resolved(f"types.mesh.tables:{of_parts.get(what or '', 'edge_table')}")(self))
 
     def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows:
         return resolved("types.mesh.tables:mesh_features")(self, what)
@@ -50,22 +48,12 @@ class Mesh:
         return self.edges if what == "edges" else self.triangles
 
 
-class OfPoints(Value):
+class Triangulated(OfPoints):
     """What is made of points, of which several may lie at one place."""
 
-    points: NDArray[np.float64]
-    labels: NDArray[np.int64] | None
+    _places = "points"
+
     first: NDArray[np.int32]
-    index: Any
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        check_index(self.index, len(self.points), "point")
-
-    @property
-    def label_array(self) -> NDArray[np.int64]:
-        """(n,) labels: the input's own, else 1 to n."""
-        return numbered(self.labels, len(self.points))
 
     @property
     def is_duplicate(self) -> NDArray[np.bool_]:
@@ -79,7 +67,7 @@ class OfPoints(Value):
 
 
 @record
-class Triangulation(Mesh, OfPoints, Tabular, WithParts, Graph, Pictured):
+class Triangulation(Mesh, Triangulated, Tabular, WithParts, Graph, Pictured):
     """Triangles, edges and hull of points, as 0-based int32 indices.
 
     Triangles and edges follow a Morton curve through the points: their order depends on the coordinates, not on the

@@ -23,37 +23,43 @@ LABEL = "label"
 """The column whose integers from 1 are the labels of points."""
 
 
-class Points(Value):
-    """A list of points, which may have labels of their own."""
+class OfPoints(Value):
+    """A value about each of some points, which may have labels and names of their own."""
 
-    _places: ClassVar[str] = "xy"
-    """The field with the coordinates, one letter an axis."""
+    _places: ClassVar[str]
+    """The field with the coordinates."""
 
     labels: NDArray[np.int64] | None
     index: Any
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_index(self.index, len(getattr(self, self._places)), "point")
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels: the input's own, else 1 to n."""
+        count = len(getattr(self, self._places))
+        return np.arange(1, count + 1, dtype=np.int64) if self.labels is None else self.labels
+
+
+class Points(OfPoints):
+    """A list of points."""
+
+    _places = "xy"
+    """One letter an axis."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, self._places, finite_rows(getattr(self, self._places), len(self._places)))
         if self.labels is not None:
             object.__setattr__(self, "labels", checked_labels(self.labels, len(self)))
         super().__post_init__()
-        check_index(self.index, len(self), "point")
 
     def __len__(self) -> int:
         return len(getattr(self, self._places))
 
-    @property
-    def label_array(self) -> NDArray[np.int64]:
-        """(n,) labels: the input's own, else 1 to n."""
-        return numbered(self.labels, len(self))
-
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
         return np.array(getattr(self, self._places), dtype=dtype, copy=copy)
-
-
-def numbered(labels: NDArray[np.int64] | None, count: int) -> NDArray[np.int64]:
-    """Return the labels of so many points, or numbers from 1."""
-    return np.arange(1, count + 1, dtype=np.int64) if labels is None else labels
 
 
 @record
