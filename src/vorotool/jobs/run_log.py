@@ -50,7 +50,7 @@ class Run:
     ) -> None:
         self._quiet, self._verbose = quiet, verbose and not quiet
         self._target, self._no_clobber = stats, no_clobber
-        self._make_bar = None if quiet or not sys.stderr.isatty() else bar  # bars are for terminals
+        self._make_bar = None if quiet else bar
         self.warnings: list[Message] = []
         self.notes: list[Message] = []
         self.seconds: dict[str, float] = {}
@@ -111,7 +111,7 @@ class Run:
         start = time.perf_counter()
         self._inner.append(0.0)
         try:
-            yield None if self._make_bar is None else self.progress(name)
+            yield self.progress(name)
         finally:
             elapsed = time.perf_counter() - start
             self.seconds[name] = self.seconds.get(name, 0.0) + elapsed - self._inner.pop()
@@ -135,7 +135,7 @@ class Run:
     def progress(self, label: str, *, after: float = PROGRESS_AFTER) -> Progress:
         """Return what shows a bar on a terminal, once the work has taken a second; a phase has its own."""
         make_bar = self._make_bar
-        if make_bar is None:
+        if make_bar is None or not sys.stderr.isatty():
             return None
         start = time.monotonic()
         bar: list[Report] = []
