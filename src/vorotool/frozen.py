@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import MISSING, FrozenInstanceError, dataclass, field, fields
 from functools import partial
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, dataclass_transform, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeVar, dataclass_transform, overload
 
 if TYPE_CHECKING:
     from inspect import Signature
@@ -55,31 +55,64 @@ def frozen(kind: type[Any] | None = None, /, *, eq: bool = True, repr: bool = Tr
     return made
 
 
+class _Plan(NamedTuple):
+    """What making a value of a class looks up."""
+
+    by_place: list[str]
+    by_name: set[str]
+    usual: dict[str, Any]  # of all fields, in their order; what has no default is MISSING
+    required: list[str]
+    factories: list[tuple[str, Callable[[], Any]]]
+
+
+_PLANS: dict[type[Any], _Plan] = {}
+
+
+def _plan_of(kind: type[Any]) -> _Plan:
+    """Return the plan of a class, which is made with its first value."""
+    if kind not in _PLANS:
+        own = fields(kind)
+        _PLANS[kind] = _Plan(
+            [each.name for each in own if each.init and not each.kw_only],
+            {each.name for each in own if each.init},
+            {each.name: each.default for each in own},
+            [each.name for each in own if each.default is MISSING and each.default_factory is MISSING],
+            [(each.name, each.default_factory) for each in own if each.default_factory is not MISSING],
+        )
+    return _PLANS[kind]
+
+
 def _init(self: Any, /, *given: Any, **named: Any) -> None:
-    kind, own = type(self), fields(self)
-    by_place = [each.name for each in own if each.init and not each.kw_only]
-    if len(given) > len(by_place):
-        raise TypeError(f"{kind.__name__}() takes {len(by_place)} values by place, but got {len(given)}")
-    values = dict(zip(by_place, given, strict=False))
-    twice = values.keys() & named.keys()
-    unknown = named.keys() - {each.name for each in own if each.init}
-    if twice or unknown:
+    kind = type(self)
+    plan = _plan_of(kind)
+    if len(given) > len(plan.by_place):
+        raise TypeError(f"{kind.__name__}() takes {len(plan.by_place)} values by place, but got {len(given)}")
+    twice = named.keys() & plan.by_place[: len(given)] if given else ()
+    if twice or not named.keys() <= plan.by_name:
         said = "got multiple values for" if twice else "got an unexpected keyword"
-        raise TypeError(f"{kind.__name__}() {said} argument {min(twice or unknown)!r}")
-    values |= named
-    for each in own:
-        if each.name in values:
-            value = values[each.name]
-        elif each.default is not MISSING:
-            value = each.default
-        elif each.default_factory is not MISSING:
-            value = each.default_factory()
-        else:
-            raise TypeError(f"{kind.__name__}() missing required argument {each.name!r}")
-        object.__setattr__(self, each.name, value)
+        raise TypeError(f"{kind.__name__}() {said} argument {min(twice or named.keys() - plan.by_name)!r}")
+    held = self.__dict__
+    held.update(plan.usual)
+    held.update(zip(plan.by_place, given, strict=False))
+    held.update(named)
+    for name, factory in plan.factories:
+        if held[name] is MISSING:
+            held[name] = factory()
+    for name in plan.required:
+        if held[name] is MISSING:
+            raise TypeError(f"{kind.__name__}() missing required argument {name!r}")
     settle = getattr(self, "__post_init__", None)
     if settle is not None:
         settle()
+
+
+def unchecked(kind: type[T], /, **named: Any) -> T:
+    """Make a value of fields that are known to fit: what has no default has to be among them."""
+    made, plan = object.__new__(kind), _plan_of(kind)
+    made.__dict__.update(plan.usual)
+    made.__dict__.update((name, factory()) for name, factory in plan.factories if name not in named)
+    made.__dict__.update(named)
+    return made
 
 
 def _refuse(self: Any, name: str, *_: Any) -> NoReturn:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError
-from vorotool.frozen import frozen
+from vorotool.frozen import frozen, unchecked
 from vorotool.numeric.numbers import shown_number
 
 _KEY = "declared"
@@ -48,7 +48,7 @@ class Declared(NamedTuple):
     least: int = 0  # items of each row
     is_optional: bool = False
 
-    def settle(self, given: Any, name: str, sizes: dict[str, int]) -> Any:
+    def settle(self, given: Any, name: str, sizes: dict[Axis, int]) -> Any:
         """Check a field and return it as it is kept; lengths that its axes name are noted in `sizes`."""
         if given is None and self.is_optional:
             return None
@@ -73,14 +73,16 @@ class Declared(NamedTuple):
         view.flags.writeable = False
         return view
 
-    def _measure(self, shape: tuple[Axis, ...], found: tuple[int, ...], name: str, sizes: dict[str, int]) -> None:
+    def _measure(self, shape: tuple[Axis, ...], found: tuple[int, ...], name: str, sizes: dict[Axis, int]) -> None:
         """Compare a shape with the declared one; the first field that has a named axis says how long it is."""
-        known = tuple(axis if isinstance(axis, int) else sizes.get(axis, axis) for axis in shape)
-        if len(known) != len(found) or any(a != b for a, b in zip(known, found, strict=True) if isinstance(a, int)):
-            raise InputError(f"{name} must have shape {_text(known)}, but has shape {_text(found)}")
-        sizes.update((axis, size) for axis, size in zip(known, found, strict=True) if isinstance(axis, str))
+        pairs = zip(shape, found, strict=False)
+        known = [axis if isinstance(axis, int) else sizes.get(axis, size) for axis, size in pairs]
+        if len(shape) != len(found) or known != list(found):
+            wanted = tuple(axis if isinstance(axis, int) else sizes.get(axis, axis) for axis in shape)
+            raise InputError(f"{name} must have shape {_text(wanted)}, but has shape {_text(found)}")
+        sizes.update(zip(shape, found, strict=True))
 
-    def _check_starts(self, starts: NDArray[Any], name: str, sizes: dict[str, int]) -> None:
+    def _check_starts(self, starts: NDArray[Any], name: str, sizes: dict[Axis, int]) -> None:
         """Check starts of rows: 0 first, the number of items last."""
         (rows,) = self.shape
         if starts.ndim != 1 or not len(starts):
@@ -138,7 +140,17 @@ def starts(rows: Axis, items: Axis, *, least: int = 0) -> Any:
 
 def declared(value: object) -> dict[str, Declared]:
     """Return the declarations of the fields of a value."""
-    return {each.name: each.metadata[_KEY] for each in fields(value) if _KEY in each.metadata}  # type: ignore[arg-type]
+    return _declared_of(type(value))
+
+
+_DECLARED: dict[type[Any], dict[str, Declared]] = {}
+
+
+def _declared_of(kind: type[Any]) -> dict[str, Declared]:
+    """Return the declarations of a class, which are collected with its first value."""
+    if kind not in _DECLARED:
+        _DECLARED[kind] = {each.name: each.metadata[_KEY] for each in fields(kind) if _KEY in each.metadata}
+    return _DECLARED[kind]
 
 
 def with_y_axis(value: T, axis: YAxis) -> T:
@@ -161,6 +173,22 @@ def with_y_axis(value: T, axis: YAxis) -> T:
     return made
 
 
+def fitting(kind: type[T], **named: Any) -> T:
+    """Make a value of what an engine has made: fields are settled as declared, but not compared with each other."""
+    return unchecked(kind, **_settled(kind, named))
+
+
+def with_fitting(value: T, **changes: Any) -> T:
+    """Replace fields by what an engine has made, see `fitting`."""
+    held = {each.name: getattr(value, each.name) for each in fields(value)}  # type: ignore[arg-type]
+    return unchecked(type(value), **(held | _settled(type(value), changes)))
+
+
+def _settled(kind: type[Any], named: dict[str, Any]) -> dict[str, Any]:
+    known = _declared_of(kind)
+    return {name: known[name].settle(given, name, {}) if name in known else given for name, given in named.items()}
+
+
 @dataclass_transform(
     eq_default=False,
     frozen_default=True,
@@ -175,11 +203,9 @@ class Record:
     """A frozen data class whose declared fields are checked when it is made."""
 
     def __post_init__(self) -> None:
-        sizes: dict[str, int] = {}
-        for each in fields(self):  # type: ignore[arg-type]
-            own: Declared | None = each.metadata.get(_KEY)
-            if own is not None:
-                object.__setattr__(self, each.name, own.settle(getattr(self, each.name), each.name, sizes))
+        sizes: dict[Axis, int] = {}
+        for name, own in declared(self).items():
+            object.__setattr__(self, name, own.settle(getattr(self, name), name, sizes))
 
 
 YAxis = Literal["up", "down", "none"]

@@ -13,7 +13,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.repaired_polygons import flat_holes, given_shapes, with_flat_shells_as_lines
 from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError, warn
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import divides, norms, owners, ranges, starts_of
+from vorotool.numeric.arrays import Floats, Indices, divides, mask_of, norms, owners, ranges, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, Run
@@ -337,9 +337,10 @@ def report_small(given: PolygonSet, placement: Placement, *, strict: bool) -> No
     step = math.ldexp(1.0, placement.exponent)
     if not placement.largest_move or not len(given):
         return
-    is_small = _are_small(given, (given.xy - placement.origin) / step)
-    if is_small.any():
-        is_small &= _are_moved(given, placement, step)
+    small = _are_small(given, placement.origin, step)
+    if not small.size:
+        return
+    is_small = mask_of(small, len(given)) & _are_moved(given, placement, step)
     count = int(np.count_nonzero(is_small))
     if not count:
         return
@@ -353,15 +354,19 @@ def report_small(given: PolygonSet, placement: Placement, *, strict: bool) -> No
     warn(message, RepairWarning)
 
 
-def _are_small(given: PolygonSet, steps: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """(p,) whether each line is shorter and each polygon narrower than `SMALL`, but not a single place."""
-    first = given.ring_starts[given.polygon_starts[:-1]]
-    last = given.ring_starts[given.polygon_starts[:-1] + 1]
-    sizes = last - first
-    xy, own = steps[ranges(first, sizes)], owners(sizes)
+def _are_small(given: PolygonSet, origin: tuple[float, float], step: float) -> Indices:
+    """Lines that are shorter and polygons that are narrower than `SMALL`, but not a single place."""
+    shell = given.polygon_starts[:-1]
+    first, sizes = given.ring_starts[shell], given.ring_starts[shell + 1] - given.ring_starts[shell]
+    a, b, c = ((given.xy[first + sizes * third // 3] - origin) / step for third in range(3))
+    chosen = np.flatnonzero(~_are_wide(a, b, c, given.is_line))
+    if not chosen.size:
+        return chosen
+    first, sizes, is_line = first[chosen], sizes[chosen], given.is_line[chosen]
+    xy, own = (given.xy[ranges(first, sizes)] - origin) / step, owners(sizes)
     begin = starts_of(sizes)[:-1]
     sides = np.maximum.reduceat(xy, begin) - np.minimum.reduceat(xy, begin)
-    width = np.where(given.is_line, sides.max(axis=1), sides.min(axis=1))
+    width = np.where(is_line, sides.max(axis=1), sides.min(axis=1))
     way = np.roll(xy, -1, axis=0) - xy
     way[begin + sizes - 1] = xy[begin] - xy[begin + sizes - 1]
     length = norms(way)
@@ -369,9 +374,21 @@ def _are_small(given: PolygonSet, steps: NDArray[np.float64]) -> NDArray[np.bool
     across = way[order][:, ::-1] * (1, -1) / np.where(length[order] > 0, length[order], 1)[:, None]
     level = ((xy - xy[begin][own]) * across[own]).sum(axis=1)
     thin = np.maximum.reduceat(level, begin) - np.minimum.reduceat(level, begin)
-    width = np.where(given.is_line, width, np.minimum(width, thin))
+    width = np.where(is_line, width, np.minimum(width, thin))
     width = np.where(width > 0, width, sides.max(axis=1))
-    return (width > 0) & (width < SMALL)
+    return chosen[(width > 0) & (width < SMALL)]
+
+
+def _are_wide(a: Floats, b: Floats, c: Floats, is_line: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(p,) whether three vertices of each show that it is not small, by far: the heights of their triangle do.
+
+    Twice its area is at most the least height times the longest side, which is below three times the largest difference
+    of coordinates from the first vertex.
+    """
+    (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+    longest = np.maximum(np.abs(b - a), np.abs(c - a)).max(axis=1)
+    wide: NDArray[np.bool_] = np.abs(ux * vy - uy * vx) > 6 * SMALL * longest
+    return wide | (is_line & (longest > 2 * SMALL))
 
 
 def _are_moved(given: PolygonSet, placement: Placement, step: float) -> NDArray[np.bool_]:

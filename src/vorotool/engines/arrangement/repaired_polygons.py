@@ -343,12 +343,21 @@ def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
 
 
 def _are_flat(polygons: PolygonSet, places: NDArray[Any]) -> NDArray[np.bool_]:
-    start, size = polygons.ring_starts, np.diff(polygons.ring_starts)
-    ring = owners(size)
-    is_other = (places != places[start[:-1]][ring]).any(axis=1)
+    """(r,) whether a ring has vertices at one or two places."""
+    first, size = polygons.ring_starts[:-1], np.diff(polygons.ring_starts)
+    a, b, c = (places[first + size * third // 3] for third in range(3))
+    is_flat = ~((a != b).any(axis=1) & (b != c).any(axis=1) & (c != a).any(axis=1))
+    unknown = np.flatnonzero(is_flat)
+    if unknown.size:
+        first, size = first[unknown], size[unknown]
+        is_flat[unknown] = ~_have_three_places(places[ranges(first, size)], starts_of(size)[:-1], owners(size))
+    return is_flat
+
+
+def _have_three_places(places: NDArray[Any], first: Indices, ring: Indices) -> NDArray[np.bool_]:
+    is_other = (places != places[first][ring]).any(axis=1)
     vertex = np.where(is_other, np.arange(len(ring)), len(ring))
-    second = np.minimum.reduceat(vertex, start[:-1]) if len(size) else vertex
-    second = np.where(second < len(ring), second, start[:-1])  # of one place it is the first
+    second = np.minimum.reduceat(vertex, first)
+    second = np.where(second < len(ring), second, first)  # of one place it is the first
     is_third = is_other & (places != places[second][ring]).any(axis=1)
-    has_three: NDArray[np.bool_] = np.bincount(ring[is_third], minlength=len(size)) > 0
-    return ~has_three
+    return np.bincount(ring[is_third], minlength=len(first)) > 0

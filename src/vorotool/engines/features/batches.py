@@ -269,8 +269,16 @@ def _batches(
     if not chosen:
         return []
     arrays = RingArrays.of(used)
+    if len(chosen) == 1:
+        return [_whole_batch(used, arrays, placement)]
     corners = np.stack(bounds(placement.vertices))
     return [_batch(used, arrays, placement, corners, features.polygons_of(own)) for own in chosen]
+
+
+def _whole_batch(used: PolygonSet, arrays: RingArrays, placement: Placement) -> FeatureBatch:
+    polygons, rings, vertices = (np.arange(len(rows)) for rows in (arrays.rings, arrays.sizes, arrays.xy))
+    part = arrays.bare(feature=used.feature, connectivity=used.connectivity)
+    return FeatureBatch(polygons, rings, vertices, part, placement, placement.vertices[:0], 1.0)
 
 
 def _batch(
@@ -281,8 +289,7 @@ def _batch(
     places = placement.vertices[vertices]
     x, y = places.T
     is_known = [bool(((x == corner_x) & (y == corner_y)).any()) for corner_x, corner_y in corners.tolist()]
-    whole = len(vertices) == len(used.xy)
-    beyond = corners[:0] if whole else np.unique(corners[np.logical_not(is_known)], axis=0)
+    beyond = np.unique(corners[np.logical_not(is_known)], axis=0)
     own = replace(placement, vertices=places)
     return FeatureBatch(polygons, rings, vertices, part, own, beyond, len(vertices) / len(used.xy))
 
@@ -291,9 +298,10 @@ def _shapes_of(batch: FeatureBatch, checks: bool, progress: Progress) -> BatchSh
     made = arranged(batch.part, batch.placement, progress=progress)
     if checks and not _are_apart(made):
         raise _DependentError
-    feature = batch.part.feature
-    _, own = np.unique(feature, return_inverse=True)
-    repaired = np.bincount(own, made.is_repaired, minlength=1)[own] > 0
+    repaired = made.is_repaired
+    if repaired.any():
+        _, own = np.unique(batch.part.feature, return_inverse=True)
+        repaired = np.bincount(own, repaired, minlength=1)[own] > 0
     return BatchShapes(batch, made, placed_shapes(made.graph, is_repaired=repaired))
 
 

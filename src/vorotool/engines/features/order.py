@@ -65,6 +65,8 @@ class InputOrder:
     @classmethod
     def of(cls, whole: FeatureShapes, parts: Sequence[BatchShapes]) -> InputOrder:
         """Find it."""
+        if len(parts) == 1 and whole.corners is None and not any(whole.repairs.values()):
+            return cls._as_is(whole, parts[0])
         source = stacked([shapes.batch.polygons[shapes.placed.source] for shapes in parts])
         order = np.argsort(source, kind="stable")
         places = (
@@ -82,6 +84,14 @@ class InputOrder:
         ]
         table = _all_sites(whole, parts, polygons, places[1:])
         return cls(_all_polygons(whole, parts, source[order], order), table, polygons, sites)
+
+    @classmethod
+    def _as_is(cls, whole: FeatureShapes, shapes: BatchShapes) -> InputOrder:
+        """Keep the order of a batch with all features, of which none was repaired."""
+        placed = shapes.placed
+        numbers = [np.arange(len(rows), dtype=np.int32) for rows in (placed.polygons, placed.sites)]
+        nothing = np.empty(0, dtype=np.int64)  # where nothing was repaired, nobody asks where polygons come from
+        return cls(_all_polygons(whole, [], nothing, nothing), placed.sites, numbers[:1], numbers[1:])
 
 
 def stacked(columns: Sequence[NDArray[Any]]) -> NDArray[Any]:

@@ -35,6 +35,7 @@ from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Run
 from vorotool.products.formats import resolved
 from vorotool.types.box import Extent, bounds
+from vorotool.types.fields import with_fitting
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.segment_voronoi import EDGE, SiteTable
@@ -121,6 +122,8 @@ def _opened_diagram(shapes: BatchShapes, border: Extent, is_whole: bool, **run: 
 
 def _without_beyond(made: Skeleton, shapes: BatchShapes) -> Skeleton:
     """Give sites the numbers of the graph: no arc inside is beside what is beyond everything."""
+    if not len(shapes.batch.beyond):
+        return made
     is_segment = made.sites >= len(shapes.graph.points)
     return replace(made, sites=made.sites - is_segment * np.int32(len(shapes.batch.beyond)))
 
@@ -135,7 +138,7 @@ def joined_with_places(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, 
     order = InputOrder.of(whole, [shapes for shapes, _ in parts])
     skeletons = [skeleton for _, skeleton in parts]
     if len(parts) == 1 and not any(whole.repairs.values()):  # in order already
-        return replace(skeletons[0], site_table=order.site_table, polygons=order.polygons), Places(None)
+        return with_fitting(skeletons[0], site_table=order.site_table, polygons=order.polygons), Places(None)
     own = [numbers[skeleton.polygon] for numbers, skeleton in zip(order.polygon_numbers, skeletons, strict=True)]
     polygon = stacked(own).astype(np.int32)
     arcs, nodes = Places.by(polygon), Places.by(stacked(_node_polygons(skeletons, own)))

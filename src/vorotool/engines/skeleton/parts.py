@@ -123,10 +123,12 @@ def without_equal_nodes(skeleton: Skeleton) -> Skeleton:
 
 def contraction(skeleton: Skeleton) -> Contraction | None:
     """Contract arcs whose two nodes have the same coordinates, and number nodes and branches anew; None if none has."""
-    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
-    is_equal = (source == target).all(axis=1)
-    if not is_equal.any():
+    (x, y), (source, target) = skeleton.vertices.T, skeleton.arcs.T
+    equal = np.flatnonzero(x[source] == x[target])
+    equal = equal[y[source[equal]] == y[target[equal]]]
+    if not equal.size:
         return None
+    is_equal = mask_of(equal, len(skeleton))
     count = len(skeleton.vertices)
     root = connected_roots(skeleton.arcs[is_equal], count)
     is_single = _single_places(skeleton, is_equal)

@@ -16,7 +16,7 @@ from vorotool.numeric.checks import check_index
 from vorotool.numeric.coordinates import coordinate_rows
 from vorotool.types import fields as f
 from vorotool.types.box import Box
-from vorotool.types.fields import UNSTATED, YAxis, record
+from vorotool.types.fields import UNSTATED, YAxis, record, with_fitting
 from vorotool.types.identity import feature_labels, names_of, other_columns
 from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted
 
@@ -115,6 +115,9 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
         check_index(self.index, count, "polygon")
         if self.connectivity not in (None, 4, 8):
             raise InputError(f"connectivity is {self.connectivity}: it must be 4 or 8, or left out")
+        self._check_finite()
+
+    def _check_finite(self) -> None:
         finite = np.isfinite(self.xy)
         if not finite.all():
             bad = np.flatnonzero(~finite.all(axis=1))
@@ -163,7 +166,9 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
         >>> moved.xy[1].tolist(), moved.as_given.xy[1].tolist()
         ([4.0, 0.0], [4.1, 0.0])
         """
-        made = replace(self, xy=xy)
+        places = coordinate_rows(xy, "vertex")
+        made = with_fitting(self, xy=places) if len(places) == len(self.xy) else replace(self, xy=places)
+        made._check_finite()
         made.__dict__["_as_given"] = self.as_given
         return made
 
@@ -257,13 +262,12 @@ def _check_rings(
         )
     if not divides(starts, vertices, least=1):
         raise InputError(f"ring_starts must increase from 0 to the number of vertices, {vertices}, without empty rings")
-    if len(polygons) and (polygons[0] != 0 or not np.isin(np.diff(polygons), (0, 1)).all()):
+    begins = polygons[1:] != polygons[:-1]  # of each ring but the first: whether it is that of another polygon
+    if len(polygons) and (polygons[0] != 0 or (polygons[1:] - polygons[:-1] != begins).any()):
         raise InputError("ring_polygon must increase from 0 without gaps: number the polygons in order")
-    first = np.diff(polygons, prepend=-1) > 0
-    lone = np.diff(np.append(np.flatnonzero(first), len(kinds))) == 1
-    if (kinds[first] == HOLE).any() or (kinds[~first] != HOLE).any() or (kinds[first][~lone] == LINE).any():
+    if (kinds[:1] == HOLE).any() or ((kinds[1:] == HOLE) == begins).any() or (kinds[:-1][~begins] == LINE).any():
         raise InputError("the rings of a polygon must be a shell and then holes, or one line")
-    if not np.isin(kinds, (SHELL, HOLE, LINE)).all():
+    if ((kinds < SHELL) | (kinds > LINE)).any():
         raise InputError("ring_kind must be 0 (shell), 1 (hole) or 2 (line)")
 
 
@@ -271,6 +275,6 @@ def _checked_features(values: Any, count: int) -> NDArray[np.int32]:
     feature = _integers(values, np.int32, "feature")
     if len(feature) != count:
         raise InputError(f"feature must hold one value per polygon, {count}, but holds {len(feature)}")
-    if count and (feature[0] < 0 or (np.diff(feature) < 0).any()):
+    if count and (feature[0] < 0 or (feature[1:] < feature[:-1]).any()):
         raise InputError("feature must not decrease: the parts of a feature are consecutive")
     return feature

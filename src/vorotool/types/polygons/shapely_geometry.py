@@ -13,6 +13,7 @@ from vorotool.errors import InputError
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of, within
 from vorotool.numeric.checks import index_of_rows
+from vorotool.types.fields import fitting
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 
 _POINT, _LINESTRING, _LINEARRING, _POLYGON, _MULTIPOINT = 0, 1, 2, 3, 4  # type numbers of GEOS
@@ -175,7 +176,14 @@ class RingArrays:
 
     def bare(self, **known: Any) -> PolygonSet:
         """Make a set of polygons of which no more is known than this."""
-        return PolygonSet(self.xy, starts_of(self.sizes), self.kind, owners(self.rings, np.int32), **known)
+        return fitting(
+            PolygonSet,
+            xy=self.xy,
+            ring_starts=starts_of(self.sizes),
+            ring_kind=self.kind,
+            ring_polygon=owners(self.rings, np.int32),
+            **({"feature": np.arange(len(self.rings))} | known),
+        )
 
     def polygons(self, given: PolygonSet, source: NDArray[Any], **others: Any) -> PolygonSet:
         """Make a set of polygons that are described as those of another set: ids, features, properties and index."""
