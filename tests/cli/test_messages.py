@@ -100,6 +100,8 @@ def test_any_encoding_of_the_terminal_will_do(tmp_path, encoding):
         ("voronoi dots.csv --input-crs EPSG:99999 -o a.geojson", 2, "EPSG:99999"),
         ("delaunay dots.csv --crs 25833", 2, "EPSG:25833"),
         ("tessellate two --out-dir out", 2, "two/*.csv"),
+        ("completion", 2, "Choose from bash, zsh, fish\n"),
+        ("completion bahs", 2, "did you mean bash?"),
         ("alphashape dots.csv --auto -r 3", 2, "-r and --auto"),
         ("delaunay dots.csv -o a.csv2", 2, "did you mean .csv?"),
     ],

@@ -64,6 +64,10 @@ class Choice(click.Choice):  # type: ignore[type-arg]  # that of click 8.1 takes
         except click.BadParameter as error:
             self.fail(error.message.rstrip(".") + meant(str(value), self.choices), param, ctx)
 
+    def get_missing_message(self, *_: object, **__: object) -> str:
+        """List the names on one line."""
+        return f"Choose from {', '.join(map(str, self.choices))}"
+
 
 class _InRange(ParameterType):
     """A number with a least value, and perhaps a largest."""

@@ -101,7 +101,7 @@ def test_a_directory(tmp_path, monkeypatch, name):
 
 def test_an_impossible_name(tmp_path):
     assert "the name of the output is empty" in error_of(OutputError, "")
-    assert "x" * 300 in error_of(OutputError, tmp_path / ("x" * 300))
+    assert error_of(OutputError, tmp_path / ("x" * 300)).count("x" * 300) == 1
     assert repr("a\0b") in error_of(OutputError, "a\0b")
     assert files_in(tmp_path) == []
 

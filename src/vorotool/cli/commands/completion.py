@@ -18,6 +18,7 @@ from click.shell_completion import (
     split_arg_string,
 )
 
+from vorotool.cli.command import Choice
 from vorotool.jobs.terminal import print_text
 
 VARIABLE = "_VOROTOOL_COMPLETE"
@@ -155,7 +156,7 @@ def complete(group: click.Command) -> int:
 
 
 @click.command("completion")
-@click.argument("shell", type=click.Choice(list(SHELLS)))
+@click.argument("shell", type=Choice(list(SHELLS)))
 @click.pass_context
 def command(context: click.Context, shell: str) -> None:
     """Print the script by which a shell completes options, their values, and files of the kinds that are read.

@@ -205,7 +205,8 @@ def followed(name: str, option: str = OUTPUT) -> str:
     except VorotoolError:
         raise
     except (OSError, ValueError) as error:
-        raise OutputError(f"{name!r} cannot be written: {error}; choose another name") from None
+        fault = getattr(error, "strerror", None) or error
+        raise OutputError(f"{name!r} cannot be written: {fault}; choose another name") from None
     return target
 
 
