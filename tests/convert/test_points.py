@@ -30,6 +30,7 @@ FRAME = geopandas.GeoDataFrame({"name": ["a", None, "c"]}, geometry=SERIES.value
         XY,
         tuple(map(tuple, XY)),
         iter(XY),
+        memoryview(np.array(XY)),
         np.array(XY),
         np.array(XY, dtype=">f8"),
         *(np.array(XY, dtype=kind) for kind in (np.float16, np.float32, np.longdouble)),

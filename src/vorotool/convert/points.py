@@ -60,8 +60,7 @@ def _points_of(source: Any, name: str, shapes: str) -> PointSet:
     if is_of(source, "Raster", "LabelImage"):
         raise unexpected(source, f"points; for an image use vorotool.seeds_from_raster({name})")
     refuse_paths(source)
-    if isinstance(source, Iterator):
-        source = items_of(source)
+    source = items_of(source)
     if isinstance(source, np.ndarray) and source.dtype.names is None and source.dtype.kind not in "OU":
         return PointSet(_checked(source, name, shapes))
     held = held_features(source)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -57,8 +57,7 @@ def _polygons_in(source: Any, name: str) -> PolygonSet:
     refuse_paths(source)
     if isinstance(source, Raster | LabelImage):
         raise unexpected(source, f"polygons; for an image use vorotool.outlines({name})")
-    if isinstance(source, Iterator):
-        source = items_of(source)
+    source = items_of(source)
     if getattr(source, "ndim", 0) == 2 and getattr(source, "dtype", None) == np.dtype(bool):  # of NumPy or xarray
         outlined: PolygonSet = resolved("engines.label_images.outlines:outlines")(source)
         return outlined

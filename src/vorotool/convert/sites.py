@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from math import isnan
 from typing import TYPE_CHECKING, Any
@@ -60,8 +60,7 @@ def as_sites(source: Any, by: Any = None, name: str = "sites") -> Sites:
 
 
 def _features(source: Any, name: str) -> Sites:
-    if isinstance(source, Iterator):
-        source = items_of(source)
+    source = items_of(source)
     if isinstance(source, PolygonSet | Sites):
         return _of_polygons(source) if isinstance(source, PolygonSet) else source
     from vorotool.convert.features import held_features

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -128,8 +127,7 @@ def _points_of(source: Any) -> VolumePoints:
         labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
         return VolumePoints(source.sites, labels, source.properties, source.index)
     refuse_paths(source)
-    if isinstance(source, Iterator):
-        source = items_of(source)
+    source = items_of(source)
     is_plain = isinstance(source, np.ndarray) and source.dtype.names is None and source.dtype.kind not in "OU"
     held = None if is_plain else held_features(source)
     if held is not None:

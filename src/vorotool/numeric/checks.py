@@ -153,8 +153,12 @@ def listing(names: list[Any]) -> str:
     return ", ".join([*shown, *(["…"] if len(names) > MOST_SHOWN else [])])
 
 
-def items_of(source: Iterator[Any]) -> list[Any]:
-    """Take all items of an iterator."""
+def items_of(source: Any) -> Any:
+    """Take all items of an iterator, and a buffer as an array; all else stays as it is."""
+    if isinstance(source, memoryview):
+        return np.asarray(source)
+    if not isinstance(source, Iterator):
+        return source
     try:
         return list(source)
     except (OSError, ValueError) as error:
