@@ -206,7 +206,7 @@ def _objects(run: Run, image: LabelImage) -> LabelImage:
 def _size(o: Options) -> PixelSize | None:
     """Return what lengths are measured by, or refuse it where no picture has any."""
     scale = o.looks.scale
-    if o.pixel_size is not None and not o.looks.has_scale_bar and not (scale is not None and scale.is_ratio):
+    if o.pixel_size is not None and not o.looks.scale_bar and not (scale is not None and scale.is_ratio):
         raise UsageError("--pixel-size applies to lengths: add --scale-bar or --scale 1:N, or leave it out")
     return o.pixel_size
 

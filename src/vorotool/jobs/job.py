@@ -11,12 +11,12 @@ from vorotool.errors import Kind, LimitError, Message, UsageError
 from vorotool.formats.io.atomic_output import open_output, spoken
 from vorotool.formats.io.sources import suffix_of
 from vorotool.jobs.inputs import JobInput, naming, read_backdrop, refuse_several
-from vorotool.jobs.options import Options, changed
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets
 from vorotool.jobs.units import in_stated_unit, in_units, length_in_units, table_in_units, unit_stats
 from vorotool.numeric.parallel import Progress
-from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, format_named, picture_format, resolved
+from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, format_named, resolved
 from vorotool.products.registry import is_of, write_product
 from vorotool.signals import end_by_exceptions
 
@@ -45,7 +45,7 @@ def options_of_line(command: str, given: Mapping[str, Any], sources: Mapping[str
     if "what" not in sources:
         fmt = format_named(o.format or ending)
         usual = (what for what, each in own.items() if fmt in each.usual_for)
-        return changed(o, what=(next(usual, next(iter(own))),))
+        return Options(command, sources=sources, **{**values, "what": (next(usual, next(iter(own))),)})
     for what in (what for what in o.what if what not in own):
         raise UsageError(f"--what {what} needs points in the plane: with --space use {', '.join(own)}")
     return o
@@ -227,7 +227,7 @@ class Results:
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, before anything is."""
-        if picture_format(target.fmt) == "png":
+        if target.fmt == "png" or target.fmt in ANIMATIONS:
             drawing = self.drawing(target.what, "png")
             drawing.check(self.options.max_pixels)
             if target.fmt in ANIMATIONS:

@@ -132,23 +132,12 @@ class Options:
         """The looks of pictures."""
         from vorotool.render.looks import Looks
 
-        return Looks(
-            self.scale,
-            self.drawing_unit,
-            self.background,
-            self.colors,
-            self.line_widths,
-            self.label_by,
-            self.legend,
-            self.scale_bar,
-            self.aspect,
-            self.extent,
-        )
+        return Looks._make(getattr(self, name) for name in Looks._fields)
 
     @property
     def draws_diagram(self) -> bool:
         """Whether the diagram as PNG is a picture, not a mask."""
-        return bool(self.layers or self.overlay or self.looks.given())
+        return bool(self.layers or self.overlay or any(each not in (None, (), False) for each in self.looks))
 
 
 def _following(o: Any) -> dict[str, Any]:

@@ -49,9 +49,9 @@ def world_of(
     looks, is_angular, is_image = o.looks, is_geographic(crs) and frame is None, frame is not None
     aspect = aspect_at((bounds[1] + bounds[3]) / 2) if is_angular and bounds is not None else 1.0
     bar = None
-    if looks.has_scale_bar and (is_angular or (size is not None and is_geographic(size.crs))):
+    if looks.scale_bar and (is_angular or (size is not None and is_geographic(size.crs))):
         run.note("no scale bar is drawn: the length of a degree of longitude varies over the map")
-    elif looks.has_scale_bar:
+    elif looks.scale_bar:
         bar = _scale_bar(crs, unit, size, is_image=is_image)
     scale = looks.scale
     wants_unit = is_paper if scale is None else scale.is_ratio and looks.drawing_unit is None

@@ -15,11 +15,9 @@ from vorotool.jobs.units import (
     in_coordinates,
     refuse_lengths,
     shows_units,
-    sides_of,
     unit_stats,
 )
 from vorotool.products.options import flag, options_of
-from vorotool.products.registry import is_of
 from vorotool.types.fields import UP
 
 if TYPE_CHECKING:
@@ -150,19 +148,6 @@ def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
     return replace(stretched(polygons, 1, -1) if size.y_up else polygons, y_axis=UP, crs=size.crs)
 
 
-def in_steps(o: Options, points: Any) -> PointSet:
-    """Give points in pixels, or the sites of an image, in steps of ``--spacing``."""
-    sides = None if o.pixel_size is None or o.pixel_size.sides is None else sides_of(o)
-    if is_of(points, "PointSet") and (sides is None or set(sides.units) == {1} == {sides.step}):
-        made: PointSet = replace(points, xy=points.xy + 0.0)  # there is no -0
-        return made
-    from vorotool.convert.points import as_points
-    from vorotool.types.scaling import stretched
-
-    sides = sides_of(o)
-    return stretched(as_points(points), sides.x, sides.y)
-
-
 def written_grid(size: PixelSize | None, grid: PixelGrid | None) -> PixelGrid | None:
     """Give what images that are written say of their pixels: the sides of ``--spacing``, else what the input says."""
     if size is None or size.sides is None or size.unit is None or (grid is not None and grid.transform is not None):
@@ -200,12 +185,21 @@ def lengths_of_vectors(o: Options, value: PointSet | PolygonSet | Sites) -> Opti
     """Give options in the coordinates of points, lines and polygons; ``--pixel-size auto`` is their unit."""
     from vorotool.numeric.length_units import unit_of
 
-    if not o.measured and (o.pixel_size is None or not o.pixel_size.is_auto):
+    is_auto = o.pixel_size is not None and o.pixel_size.is_auto
+    if not o.measured and not is_auto:
         return o
     unit = unit_of(value)
-    if o.pixel_size is not None and o.pixel_size.is_auto:
+    shapes: Any = getattr(value, "polygons", value)
+    if o.pixel_size is not None and is_auto:
         o = changed(o, pixel_size=_size_of(o.pixel_size, unit))
-    return _converted(o, unit, _shapes(value))
+    if not o.measured:
+        return o
+    if unit is None:
+        system = "; of a map name its system with --input-crs, and with --crs one that is in meters"
+        return _refused(o, _USUAL + (system if "input_crs" in options_of(o.command) else ""))
+    if not unit.is_length:
+        return _refused_degrees(o, shapes.crs, shapes.xy)
+    return in_coordinates(o, Sides(unit.unit, (unit.side,) * 2))
 
 
 def unit_of_vectors(o: Options, value: Any, *, with_system: bool = True) -> InputUnit | None:
@@ -216,12 +210,6 @@ def unit_of_vectors(o: Options, value: Any, *, with_system: bool = True) -> Inpu
     if size is not None and size.unit is not None:
         return InputUnit(size.unit, size.factor)
     return unit_of(value) if with_system or getattr(value, "polygons", value).crs is None else None
-
-
-def _shapes(value: PointSet | PolygonSet | Sites) -> PointSet | PolygonSet:
-    from vorotool.convert.sites import Sites
-
-    return value.polygons if isinstance(value, Sites) else value
 
 
 def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
@@ -235,18 +223,14 @@ def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
         return _refused(o)
     if not unit.is_length:
         return _refused_degrees(o, grid.crs)
-    if grid.transform is not None:
-        _refuse_places(o)
+    if grid.transform is not None:  # places begin in the corner of the image
+        for name in (name for name in ("frame", "start", "end") if name in o.measured):
+            option = flag(o.command, name)
+            raise UsageError(f"{option} of an image on a map is in its pixels: give numbers without a unit")
     sides = unit.side * grid.height, unit.side * grid.width
     if grid.is_square:
         sides = sides[1], sides[1]
     return in_coordinates(o, Sides(unit.unit, sides, _step(o)))
-
-
-def _refuse_places(o: Options) -> None:
-    """Refuse places with a unit in an image on a map, whose own begin in the corner of the image."""
-    for name in (name for name in ("frame", "start", "end") if name in o.measured):
-        raise UsageError(f"{flag(o.command, name)} of an image on a map is in its pixels: give numbers without a unit")
 
 
 def sized(grid: PixelGrid | None, o: Options) -> PixelGrid:
@@ -306,21 +290,6 @@ def _size_of(asked: PixelSize, unit: InputUnit | None) -> PixelSize:
             "or 1m for coordinates in meters"
         )
     return PixelSize(unit.side, unit.unit)
-
-
-def _converted(o: Options, unit: InputUnit | None, shapes: PointSet | PolygonSet) -> Options:
-    if not o.measured:
-        return o
-    if unit is None:
-        system = (
-            "; of a map name its system with --input-crs, and with --crs one that is in meters"
-            if "input_crs" in options_of(o.command)
-            else ""
-        )
-        return _refused(o, f"{_USUAL}{system}")
-    if not unit.is_length:
-        return _refused_degrees(o, shapes.crs, shapes.xy)
-    return in_coordinates(o, Sides(unit.unit, (unit.side,) * 2))
 
 
 def _refused(o: Options, instead: str = "") -> Options:

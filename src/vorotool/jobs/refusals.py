@@ -12,7 +12,7 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import check_frame
 from vorotool.numeric.length_units import unit_of
 from vorotool.products.commands import COMMANDS
-from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, picture_format, resolved
+from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, SHOWN_AS, TABLES, resolved
 from vorotool.products.options import flag, options_of
 from vorotool.products.options.row import Option
 from vorotool.products.options.rules import EXCLUDING, NEEDING, ONLY
@@ -89,7 +89,7 @@ def _needed(o: Options, condition: str) -> str:
 def _kinds_of(o: Options, target: Target) -> set[str]:
     """Give what an output is, as conditions name it: with its result, and without."""
     product = o.products[target.what]
-    fmt, shown = FORMATS[target.fmt], picture_format(target.fmt)
+    fmt, shown = FORMATS[target.fmt], SHOWN_AS.get(target.fmt, target.fmt)
     layers = product.layers.get(shown) if shown in PICTURES else None
     is_drawn = target.what != "diagram" or o.command != "tessellate" or o.draws_diagram
     is_picture = bool(layers) and target.what != "thickness" and is_drawn
@@ -186,7 +186,7 @@ def _check_layers(o: Options, targets: Sequence[Target]) -> None:
     """Refuse layers, and colors and widths of layers, that a picture has not."""
     known: list[str] = []
     for target in targets:
-        layers = o.products[target.what].layers.get(picture_format(target.fmt), ())
+        layers = o.products[target.what].layers.get(SHOWN_AS.get(target.fmt, target.fmt), ())
         known += layers
         if layers:
             _check_chosen(o, target.fmt, target.what, layers)

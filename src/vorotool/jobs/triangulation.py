@@ -21,7 +21,7 @@ from vorotool.jobs.inputs import (
 )
 from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
-from vorotool.jobs.pixel_sizes import in_steps, placed_backdrop, placed_mesh, unit_of_vectors
+from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, unit_of_vectors
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import Amount, box_amounts, in_units, refuse_lengths, sides_of, table_in_units, unit_columns
 from vorotool.numeric.parallel import Progress
@@ -110,7 +110,15 @@ class MeshProducts(Results):
         return points, list(to_shapely(clip))
 
     def _triangulate(self) -> Any:
-        mesh: Any = self.call(TRIANGULATE, in_steps(self.options, self._points), phase="triangulate")
+        size = self.options.pixel_size
+        points: Any = self._points
+        sides = None if size is None else size.sides
+        if is_of(points, "PointSet") and (sides is None or set(sides.units) == {1} == {sides.step}):
+            points = replace(points, xy=points.xy + 0.0)  # there is no -0
+        else:  # sites of an image, or points whose distances are in steps of `--spacing`
+            sides = sides_of(self.options)
+            points = resolved("types.scaling:stretched")(resolved("convert.points:as_points")(points), sides.x, sides.y)
+        mesh: Any = self.call(TRIANGULATE, points, phase="triangulate")
         note_repeated_labels(self.run, self._points, mesh)
         return mesh
 

@@ -7,13 +7,14 @@ from contextlib import contextmanager
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
-from math import prod
+from math import isfinite, prod
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeVar
 
-from vorotool.errors import UsageError, VorotoolError
+from vorotool.errors import UsageError
 from vorotool.jobs.options import Measured, Options, changed
 from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
+from vorotool.numeric.numbers import nearest_double
 from vorotool.products.formats import FORMATS
 from vorotool.products.options import flag, options_of
 from vorotool.products.registry import PLOTS
@@ -161,11 +162,11 @@ def check_frame(frame: Sequence[float]) -> None:
         raise UsageError(f"--frame is too large to compute with: use numbers of at most {LARGEST:g}")
 
 
-def refuse_lengths(o: Options, reason: str, kind: type[VorotoolError] = UsageError) -> None:
+def refuse_lengths(o: Options, reason: str) -> None:
     """Refuse the first length that has a unit, if there is one."""
 
     def refuse(option: str, length: Measured) -> NoReturn:
-        raise kind(f"{option} {length.text} has a unit, but {reason}")
+        raise UsageError(f"{option} {length.text} has a unit, but {reason}")
 
     _converted(o, refuse)
 
@@ -207,22 +208,13 @@ def _number(sides: Sides, option: str, length: Measured) -> Fraction | float:
             "to measure with their sides"
         )
     exact = length.number * prod([found] * length.power) / pixel
-    rounded = _as_double(exact)
-    if rounded is None:
+    rounded = nearest_double(exact)
+    if not isfinite(rounded) or (exact and not rounded):
         raise UsageError(f"invalid {option} {length.text!r}: expected a number of pixels that a float can hold")
     return exact if length.is_exact else rounded
 
 
 _VOXELS = ("voxels that are not cubes", "SX,SY,SZ")
-
-
-def _as_double(exact: Fraction) -> float | None:
-    """Give the nearest number; None where that is infinite, or 0 for what is not."""
-    try:
-        rounded = float(exact)
-    except OverflowError:
-        return None
-    return rounded if rounded or not exact else None
 
 
 def check_units(o: Options, targets: Sequence[Target]) -> None:

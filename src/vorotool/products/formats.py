@@ -124,17 +124,14 @@ GENERAL = Writer("formats.text.tables:write_value", ("fmt", "what", "flatten", "
 """What writes the rows or the features of any value."""
 ANIMATIONS = ("gif", "apng", "webp")
 """Formats of pictures that move."""
+SHOWN_AS = dict.fromkeys(ANIMATIONS, "png")
+"""The format of a picture that a frame of an animation is like."""
 
 
 def format_named(name: str) -> str | None:
     """Give the format that a name or an extension stands for, in any case; None if there is no such."""
     lower = name.lower().removeprefix(".")
     return lower if lower in FORMATS else EXTENSIONS.get(f".{lower}")
-
-
-def picture_format(name: str) -> str:
-    """Give the format of a picture that a frame of an animation is like; of all else its own."""
-    return "png" if name in ANIMATIONS else name
 
 
 def resolved(function: str) -> Callable[..., Any]:

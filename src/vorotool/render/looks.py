@@ -26,9 +26,6 @@ LARGEST_WIDTH = 1e6
 SCALE_BAR = "scale-bar"
 """What the color of the scale bar is chosen by, as that of a layer."""
 
-OPTIONS = ("scale", "unit", "background", "color", "line-width", "label-by", "legend", "scale-bar", "aspect", "extent")
-"""Those that looks are chosen by, in the order of their fields."""
-
 
 class Scale(NamedTuple):
     """A scale: millimeters of paper a unit, or a ratio, 1 to a number."""
@@ -38,7 +35,7 @@ class Scale(NamedTuple):
 
 
 class Looks(NamedTuple):
-    """What is chosen of the looks of pictures."""
+    """What is chosen of the looks of pictures, by the names of the options."""
 
     scale: Scale | None = None
     drawing_unit: str | None = None  # of the input, if it names none
@@ -46,8 +43,8 @@ class Looks(NamedTuple):
     colors: tuple[tuple[str, str], ...] = ()
     line_widths: tuple[tuple[str, float], ...] = ()
     label_by: str | None = None  # column that names objects
-    has_legend: bool = False  # they are drawn
-    has_scale_bar: bool = False  # they are drawn
+    legend: bool = False  # it is drawn
+    scale_bar: bool = False  # it is drawn
     aspect: float | None = None  # px of a unit of y for each of a unit of x
     extent: str | None = None  # what the page of an image's result shows
 
@@ -60,14 +57,10 @@ class Looks(NamedTuple):
             None if ground == "none" else ground,
             dict(self.colors),
             dict(self.line_widths),
-            has_legend=self.has_legend,
-            scale_bar=scale_bar if self.has_scale_bar else None,
+            has_legend=self.legend,
+            scale_bar=scale_bar if self.scale_bar else None,
             label_by=self.label_by,
         )
-
-    def given(self) -> list[str]:
-        """Names of the options that are given."""
-        return [name for name, value in zip(OPTIONS, self, strict=True) if value not in (None, (), False)]
 
 
 def looks_of(

@@ -34,7 +34,8 @@ class OfPoints(Value):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        check_index(self.index, len(getattr(self, self._places)), "point")
+        if self.index is not None:
+            check_index(self.index, len(getattr(self, self._places)), "point")
 
     @property
     def label_array(self) -> NDArray[np.int64]:
