@@ -16,7 +16,7 @@ PATTERNS = {
     "formats.text.tables:_NUMBER": f"{DIGITS}!",
     "batch.inputs:_NUMBER": f"{DIGITS}!",
     "batch.tables:_RECORD": DIGITS,
-    "formats.sniffing:_SVG": "\n" * 300_000,
+    "formats.recognition:_SVG": "\n" * 300_000,
     "formats.drawing.svg_shapes:_LENGTH": f"{DIGITS}!",
     "formats.drawing.svg_shapes:_NUMBERS": f"{DIGITS}!",
 }

@@ -12,13 +12,13 @@ from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import NPY, Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note, with_crs, with_stated_axis
-from vorotool.formats.sniffing import PICTURES, TIFF_MAGIC, UTF8_MARK, image_of
+from vorotool.formats.recognition import PICTURES, TIFF_MAGIC, image_format, recognized
 from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.frozen import frozen
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.numbers import Flatten, checked_flatten, checked_tolerance
 from vorotool.products.formats import resolved
-from vorotool.products.inputs import IMAGE_NAMES, INPUTS, NAMES_WITH, Holds, known_input_format
+from vorotool.products.inputs import INPUTS, NAMES_WITH, Holds, known_input_format
 from vorotool.products.registry import is_of
 from vorotool.types.fields import y_axis_of
 
@@ -164,29 +164,6 @@ def open_zarr(name: str, input_format: str | None = None, page: int | None = Non
 _CRS, _TO_CRS = option("--input-crs", "crs"), option("--crs", "to_crs")
 _LAYER = option("--input-layer or FILE:LAYER", "layer or FILE:LAYER")
 
-_IMAGE_SUFFIXES = {f".{name}": kind for name, kind in IMAGE_NAMES.items() if kind != "zarr"}
-_RESULTS: dict[bytes, Holds] = {
-    b'"vorotool.skeleton"': "skeleton",
-    b'"vorotool.offsets"': "offsets",
-    b'"vorotool.voronoi"': "voronoi",
-}
-
-
-def recognized(
-    source: Source, geometry: str | None = None, said: str | None = None, columns: str | None = None
-) -> tuple[Holds, Source]:
-    """Tell what a source holds, and give it with its format; what was parsed to tell comes with it."""
-    result = _result(source.data) if geometry is None and said in (None, "json", "geojson") else None
-    may_be_points = columns is not None and source.data.startswith(NPY)
-    image = None if may_be_points or result else image_format(source, said)
-    if image is not None:
-        return "image", replace(source, format=image)
-    from vorotool.formats.text_recognition import recognized_geometry, text_source
-
-    if result is not None:
-        return result, text_source(source, "json")
-    return recognized_geometry(source, geometry, said, columns)
-
 
 def read_recognized(holds: Holds, source: Source, options: ReadOptions) -> Any:
     """Read what a source was recognized as: points, polygons, an image, a skeleton or offset curves."""
@@ -226,38 +203,3 @@ def image_source(source: Source, said: str | None = None) -> Source:
         )
     refuse_for_images(ReadOptions(), source.layer)
     return replace(source, format=found)
-
-
-def image_format(source: Source, said: str | None = None) -> str | None:
-    """Give the format of an image: what is said, else the extension, else the content; None if it is no image."""
-    if said is not None and "image" not in INPUTS[said].readers:
-        return None
-    found, by_name = image_of(source.data), _IMAGE_SUFFIXES.get(source.suffix)
-    kind = found or by_name
-    if said in (None, "npy") and (kind is None or (kind == "npy" and not _is_npy_image(source))):
-        return None
-    chosen = said or by_name or found
-    if chosen == "zarr":
-        raise InputError(f"{source.name} is a file, but a Zarr store is a folder: leave out {INPUT_FORMAT}")
-    if not source.data:
-        raise InputError(f"{source.name} is empty, but an image is expected: check the program that wrote it")
-    if found and found != chosen:
-        said_so = option(f"--input-format {found}", f'input_format="{found}"')
-        raise InputError(f"{source.name} is not a {chosen} file, it begins as {found}: use {said_so}")
-    return chosen
-
-
-def _is_npy_image(source: Source) -> bool:
-    from vorotool.formats.io.arrays import npy_header
-
-    try:
-        shape = npy_header(source).shape
-    except InputError:
-        return False
-    return len(shape) in (2, 3) and shape[1] != 2
-
-
-def _result(data: bytes) -> Holds | None:
-    """What of ours text looks like the JSON of, which is not parsed to tell."""
-    found = next((holds for kind, holds in _RESULTS.items() if kind in data), None)
-    return found if found and data.lstrip(UTF8_MARK + b" \t\r\n").startswith(b"{") else None

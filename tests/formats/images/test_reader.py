@@ -13,7 +13,7 @@ from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.opening import image_format
+from vorotool.formats.recognition import image_format
 
 LIMIT = 10**7
 

@@ -16,7 +16,7 @@ from support.readers.point_reading import error_of, npy, read
 from support.readers.written import bytes_of
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.sources import STANDARD_INPUT, Source
-from vorotool.formats.text_recognition import point_format
+from vorotool.formats.recognition import geometry_format
 from vorotool.products.inputs import INPUTS
 
 POINT_FORMATS = sorted(each.name for each in INPUTS.values() if "points" in each.readers)
@@ -44,7 +44,7 @@ POINT_FORMATS = sorted(each.name for each in INPUTS.values() if "points" in each
     ],
 )
 def test_detection(name, content, expected):
-    assert point_format(Source(name, content if isinstance(content, bytes) else content.encode())) == expected
+    assert geometry_format(Source(name, content if isinstance(content, bytes) else content.encode())) == expected
 
 
 @pytest.mark.parametrize("suffix", [".gml", ".tab", ".mif"])

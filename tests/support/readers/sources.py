@@ -3,8 +3,9 @@
 from vorotool.formats.images.label_images import label_image_of
 from vorotool.formats.images.reader import picture_and_grid, read_image
 from vorotool.formats.io.sources import Source
-from vorotool.formats.opening import image_source, opened, read_recognized, recognized
+from vorotool.formats.opening import image_source, opened, read_recognized
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.recognition import recognized
 from vorotool.products.inputs import IMAGE_NAMES, NAMES_WITH, known_input_format
 
 

@@ -42,7 +42,7 @@ from vorotool.formats.drawing.polygons import (
 )
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.sniffing import BINARY_DXF
+from vorotool.formats.recognition import BINARY_DXF
 from vorotool.numeric.curves.flatten import CURVE_PART, MOST_PIECES
 from vorotool.numeric.curves.inverse_functions import PI, cosine_and_sine, hypotenuse
 from vorotool.types.fields import UP

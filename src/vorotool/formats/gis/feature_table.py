@@ -131,7 +131,7 @@ def _points(features: Features, options: ReadOptions) -> PointRows:
     kept = _kept(features)
     options.note_left_out(features.name, len(features.geometry) - len(kept))
     geometry = features.geometry[kept]
-    if not options.wants_z and shapely.has_z(geometry).any():
+    if options.axes == 2 and shapely.has_z(geometry).any():
         options.note_heights(features.name)
     _check_kinds(features, kept, _POINTS, "not a point", not_a_point_advice)
     points, items = single_points(geometry)
@@ -141,8 +141,8 @@ def _points(features: Features, options: ReadOptions) -> PointRows:
     if not len(points):
         return PointRows(no_points(options.axes), None, columns, {"y_axis": UP, "crs": features.crs})
     _check_finite(features, geometry, kept)
-    found = shapely.get_coordinates(points, include_z=options.wants_z)
-    if options.wants_z and not np.isfinite(found[:, 2]).all():
+    found = shapely.get_coordinates(points, include_z=options.axes == 3)
+    if options.axes == 3 and not np.isfinite(found[:, 2]).all():
         owner = int(owners[int(np.argmin(np.isfinite(found[:, 2])))])
         raise InputError(f"{features.shown(owner)} has no finite z; give all points one, such as POINT Z (3 4 5)")
     return PointRows(found, None, columns, {"y_axis": UP, "crs": features.crs})

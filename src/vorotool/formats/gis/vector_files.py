@@ -39,7 +39,7 @@ from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import Source, check_unpacked, decoding, interruptible
 from vorotool.formats.io.temporaries import Placement, committed_together, new_folder
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.sniffing import format_of
+from vorotool.formats.recognition import format_of
 from vorotool.numeric.crs import member_of_text
 
 TITLES = {"fgb": "FlatGeobuf", "shp": "Shapefile", "kml": "KML", "gpx": "GPX"}

@@ -14,8 +14,8 @@ from vorotool.formats.images.tiff_reader import count_pages, opened_tiff, page_o
 from vorotool.formats.io.arrays import npy_header
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import GZIP, NPY, Source, check_pixels, decoding, explained_reading, read_source
-from vorotool.formats.opening import image_format, open_zarr
-from vorotool.formats.sniffing import PICTURES, TIFF_MAGIC, image_of
+from vorotool.formats.opening import open_zarr
+from vorotool.formats.recognition import PICTURES, TIFF_MAGIC, format_of, image_format
 from vorotool.frozen import frozen
 from vorotool.types.pixels import PixelGrid
 
@@ -66,7 +66,7 @@ def _plain_size(source: Source) -> tuple[int, int]:
     if source.data.startswith(SIGNATURE):
         png = png_header(source)
         return png.width, png.height
-    if image_of(source.data) == "pnm":
+    if format_of(source.data) == "pnm":
         pnm = pnm_header(source)
         return pnm.width, pnm.height
     if source.data.startswith(NPY):
@@ -97,7 +97,7 @@ def page_count(path: str) -> int | None:
             content = io.BytesIO(source.data) if source.is_unpacked else path
             with opened_tiff(path, content) as tiff, decoding(path, "TIFF"):
                 return max(1, count_pages(tiff))
-        if kind in PICTURES and image_of(source.data) == kind:
+        if kind in PICTURES and format_of(source.data) == kind:
             return picture_pages(source if source.is_unpacked else read_source(path), kind)
         return None if kind is None else 1
     except (OSError, ValueError, VorotoolError):

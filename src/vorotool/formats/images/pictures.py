@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, Message, option
 from vorotool.formats.images.tiff_layout import TiffLayout
 from vorotool.formats.io.sources import Source, check_pixels, decoding, interruptible
-from vorotool.formats.sniffing import PICTURES, image_of
+from vorotool.formats.recognition import PICTURES, format_of
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -72,7 +72,7 @@ def picture_pages(source: Source, kind: str) -> int:
 def _opened(source: Source, kind: str) -> Iterator[Any]:
     """Open a file by its header."""
     name = PICTURES[kind]
-    if image_of(source.data) != kind:
+    if format_of(source.data) != kind:
         raise InputError(f"{source.name} does not begin as a {name} image: is it damaged, or another format?")
     from imageio.v3 import imopen
     from PIL import Image

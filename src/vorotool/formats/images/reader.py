@@ -26,7 +26,7 @@ from vorotool.formats.images.png_writer import SIGNATURE
 from vorotool.formats.io.arrays import npy_header, npy_values
 from vorotool.formats.io.sources import Source, check_pixels, decoding
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.sniffing import GAP, PICTURES
+from vorotool.formats.recognition import GAP, PICTURES
 from vorotool.types.images import Raster
 from vorotool.types.pixels import PixelGrid
 

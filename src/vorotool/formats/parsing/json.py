@@ -10,7 +10,7 @@ from typing import Any
 from vorotool.errors import NO_PROPERTIES, InputError, LimitError, option
 from vorotool.formats.io.sources import Source, check_nesting
 from vorotool.formats.parsing.reader_options import shortened
-from vorotool.formats.sniffing import RECORD_MARK
+from vorotool.formats.recognition import RECORD_MARK
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.types.fields import MEMBER, YAxis, y_axis_member
 

@@ -48,13 +48,8 @@ class ReadOptions:
     flatten: float | None = None  # how far lines may be from the curves of drawings
     join_tolerance: float | None = None  # how far ends of curves may be apart that are joined
     y_axis: YAxis | None = None  # which way y goes, where the caller says it
-    wants_z: bool = False  # points are of space, and have a z
+    axes: int = 2  # coordinates of a point: 3 in space
     curves_advice: str = ""  # what the note about flattened curves adds; drawings have the note only with it
-
-    @property
-    def axes(self) -> int:
-        """Coordinates of a point."""
-        return 3 if self.wants_z else 2
 
     def check_vertices(self, name: str, count: int) -> None:
         """Raise LimitError if ``count`` vertices are too many."""

@@ -26,7 +26,7 @@ _SPACE = option("delaunay or alphashape --space", 'geometry="space"')
 
 def _note_plane(name: str, options: ReadOptions) -> None:
     """Say that z is no coordinate of points in the plane."""
-    if not options.wants_z:
+    if options.axes == 2:
         text = f"{name}: only x and y are used; z is ignored (points in space: {_SPACE})"
         options.note(Message(text, source=name))
 
@@ -193,6 +193,6 @@ def read_xyz(source: Source, options: ReadOptions) -> PointRows:
         return read_text(source, options)
     x, y, z = columns
     _note_plane(source.name, options)
-    rows = read_text(source, replace(options, columns=f"{x},{y},z={z}" if options.wants_z else f"{x},{y}"))
+    rows = read_text(source, replace(options, columns=f"{x},{y},z={z}" if options.axes == 3 else f"{x},{y}"))
     names = {f"column_{z}": "z"}
     return rows._replace(properties={names.get(name, name): rows.properties[name] for name in rows.properties})

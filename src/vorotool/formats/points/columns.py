@@ -47,35 +47,26 @@ class Wanted(NamedTuple):
         return self.plane if self.z is None else [*self.plane, self.z]
 
 
-def parse_columns(columns: str, *, wants_z: bool = False) -> Wanted:
+def parse_columns(columns: str, *, axes: int = 2) -> Wanted:
     """Take the names apart; that of z has ``z=`` before it."""
     parts = [part.strip() for part in columns.split(",")]
-    of_z = [part for part in parts if wants_z and part.lower().startswith("z=")]
+    of_z = [part for part in parts if axes == 3 and part.lower().startswith("z=")]
     wanted = Wanted([part for part in parts if part not in of_z], of_z[0][2:].strip() if of_z else None)
     is_zero = [_is_number(part) and not part.strip("0") for part in wanted.all]
     is_unclear = not all(wanted.all) or any(is_zero) or len(set(wanted.all)) < len(wanted.all)
     if len(wanted.plane) not in (2, 3) or len(of_z) > 1 or is_unclear:
         form = "two or three different columns as X,Y or X,Y,LABEL"
         raise UsageError(
-            f"{COLUMNS} is {shortened(columns)}: name {'X,Y,z=Z or X,Y,z=Z,LABEL' if wants_z else form}, by name or "
+            f"{COLUMNS} is {shortened(columns)}: name {'X,Y,z=Z or X,Y,z=Z,LABEL' if axes == 3 else form}, by name or "
             "by number from 1"
         )
     return wanted
 
 
 def choose(name: str, fields: list[str], wanted: Wanted | None, options: ReadOptions) -> tuple[bool, Chosen]:
-    """Whether the first record is a header, and which columns are x, y and, if one is, the label."""
-    return _recognize(name, fields, options) if wanted is None else _look_up(name, fields, wanted, options)
-
-
-def chosen_columns(name: str, fields: list[str], options: ReadOptions) -> Chosen:
-    """Choose the columns of a table that are x, y and, if one is, the label: as in delimited text."""
-    wanted = None if options.columns is None else parse_columns(options.columns, wants_z=options.wants_z)
-    return choose(name, fields, wanted, options)[1]
-
-
-def _recognize(name: str, fields: list[str], options: ReadOptions) -> tuple[bool, Chosen]:
-    """Find the coordinates by the header; two columns without one are x, y, in space three x, y, z."""
+    """Tell whether the first record is a header, and which columns are x, y and, if one is, the label."""
+    if wanted is not None:
+        return _look_up(name, fields, wanted, options)
     chosen = coordinate_columns(fields, axes=options.axes)
     if chosen is not None:
         used = [fields[column] for column in chosen]
@@ -86,9 +77,15 @@ def _recognize(name: str, fields: list[str], options: ReadOptions) -> tuple[bool
         label = chosen[options.axes] if len(chosen) > options.axes else None
         return True, Chosen(chosen[: options.axes], label)
     header = not any(_looks_numeric(field) for field in fields) and any(fields)
-    if not header and len(fields) == options.axes:
+    if not header and len(fields) == options.axes:  # without names they are x, y, in space x, y, z
         return False, Chosen(list(range(options.axes)))
-    raise _no_z(name, fields) if options.wants_z else _unknown_columns(name, fields, header)
+    raise _no_z(name, fields) if options.axes == 3 else _unknown_columns(name, fields, header)
+
+
+def chosen_columns(name: str, fields: list[str], options: ReadOptions) -> Chosen:
+    """Choose the columns of a table that are x, y and, if one is, the label: as in delimited text."""
+    wanted = None if options.columns is None else parse_columns(options.columns, axes=options.axes)
+    return choose(name, fields, wanted, options)[1]
 
 
 def note_no_label(name: str, options: ReadOptions) -> None:
@@ -100,7 +97,7 @@ def _look_up(name: str, fields: list[str], wanted: Wanted, options: ReadOptions)
     """Find the columns that the user named; a name makes the first record a header."""
     plane = [_find_column(name, fields, column) for column in wanted.plane]
     z = None
-    if options.wants_z:
+    if options.axes == 3:
         names = [plain_name(field) for field in fields]
         if wanted.z is None and names.count("z") != 1:
             raise _no_z(name, fields)
@@ -109,7 +106,7 @@ def _look_up(name: str, fields: list[str], wanted: Wanted, options: ReadOptions)
     if len(set(chosen.used)) < len(chosen.used):
         shown = _cut(",".join(wanted.all))
         raise InputError(f"{name}: {COLUMNS} {shown} names one column twice; {_listing(fields)}")
-    named = not all(map(_is_number, wanted.all)) or (options.wants_z and wanted.z is None)
+    named = not all(map(_is_number, wanted.all)) or (options.axes == 3 and wanted.z is None)
     values = [fields[i] for i in chosen.used]
     return named or (any(values) and not any(_looks_numeric(value) for value in values)), chosen
 

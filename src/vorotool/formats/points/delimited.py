@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.convert.tables import placed_by, plain_name
+from vorotool.convert.tables import coordinate_columns, placed_by, plain_name
 from vorotool.errors import NO_PROPERTIES, InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import (
@@ -34,6 +34,8 @@ from vorotool.formats.points.columns import (
 )
 from vorotool.frozen import frozen
 from vorotool.numeric.numbers import typed_texts
+from vorotool.products.formats import resolved
+from vorotool.products.inputs import INPUTS
 from vorotool.types.points.point_set import PointSet
 
 GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
@@ -78,10 +80,13 @@ class DelimitedText:
 
 def read_text(source: Source, options: ReadOptions) -> PointRows:
     """Read delimited text."""
-    wanted = None if options.columns is None else parse_columns(options.columns, wants_z=options.wants_z)
+    wanted = None if options.columns is None else parse_columns(options.columns, axes=options.axes)
     data, delimiter, line, fields = begun(source.data)
     if not line:
         return PointRows(no_points(options.axes), None, {}, {})
+    if wanted is None and source.format == "csv" and has_geometry(fields):
+        read: Callable[[Source, ReadOptions], PointRows] = resolved(INPUTS["csv-wkt"].readers["points"])
+        return read(replace(source, format="csv-wkt"), options)
     header, chosen = choose(source.name, fields, wanted, options)
     layout = DelimitedText(source.name, data, delimiter, line, fields, header, chosen)
     if options.max_sites is not None and data.count(b"\n") >= options.max_sites:
@@ -95,6 +100,11 @@ def read_text(source: Source, options: ReadOptions) -> PointRows:
         numbered = _read_rows(replace(layout, chosen=chosen._replace(label=None)), options)
     note_no_label(source.name, options)
     return numbered
+
+
+def has_geometry(fields: Sequence[str]) -> bool:
+    """Tell whether a header names a column of geometry, and no coordinates."""
+    return geometry_column(fields) is not None and coordinate_columns(fields) is None
 
 
 def geometry_column(fields: Sequence[str]) -> int | None:
@@ -260,7 +270,7 @@ def read_node(source: Source, options: ReadOptions) -> PointSet | PointRows:
         )
     base = _checked_numbering(source, values[:, 0])
     properties = _attributes(source, header, options)
-    if options.wants_z:  # whose labels are from 1
+    if options.axes == 3:  # whose labels are from 1
         return PointRows(values[:, 1:], None, properties, {})
     return PointSet(values[:, 1:], None, properties, first_number=base)
 

@@ -42,7 +42,7 @@ def read_json(source: Source, options: ReadOptions) -> PointRows:
     _refuse_columns(source.name, options)
     for index, point in enumerate(document):
         if type(point) is list and len(point) > options.axes:
-            form = "[x, y, z]" if options.wants_z else "[x, y]"
+            form = "[x, y, z]" if options.axes == 3 else "[x, y]"
             raise InputError(
                 f"{source.name}, point {index + 1}: {shortened(point)} has {len(point)} numbers; write {form}"
             )
@@ -51,7 +51,7 @@ def read_json(source: Source, options: ReadOptions) -> PointRows:
 
 
 def _form(options: ReadOptions) -> str:
-    return "[[x, y, z], …]" if options.wants_z else "[[x, y], …]"
+    return "[[x, y, z], …]" if options.axes == 3 else "[[x, y], …]"
 
 
 def _refuse_columns(name: str, options: ReadOptions) -> None:
@@ -97,7 +97,7 @@ def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions)
     options.check_sites(name, len(collected.positions))
     found = position_array(collected.positions, lambda i: place(collected.features[i]), options.axes)
     options.note_left_out(name, collected.without_geometry)
-    if not options.wants_z and any(len(position) > 2 for position in collected.positions):
+    if options.axes == 2 and any(len(position) > 2 for position in collected.positions):
         options.note_heights(name)
     crs, unit = document.get("crs"), stated_unit(document)
     if crs is unit is None and options.crs is None:

@@ -14,11 +14,10 @@ from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
 from vorotool.formats.io.arrays import npy_header, npy_values
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.sources import NPY, STANDARD_INPUT, Source, explained_reading, read_source, reading
-from vorotool.formats.opening import recognized
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.points.columns import PointRows, parse_columns
 from vorotool.formats.points.tables import check_coordinates, npy_labels
-from vorotool.formats.sniffing import image_of
+from vorotool.formats.recognition import format_of, recognized
 from vorotool.formats.volumes.source import NpyVolume, Spool, VolumeSource, ZarrVolume, check_voxels, slabs_of
 from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.formats.zarr.store import is_folder, is_store
@@ -82,7 +81,7 @@ def _opened(name: str, said: str | None) -> VolumeSource:
 
 def kind_of_head(head: bytes) -> str | None:
     """Tell the format of a volume by its first bytes."""
-    found = image_of(head)
+    found = format_of(head)
     return found if found in ("tiff", "npy") else None
 
 
@@ -125,7 +124,7 @@ def read_xyz(
         max_sites=max_sites,
         threads=checked_threads(threads),
         note=note or no_note,
-        wants_z=True,
+        axes=3,
     )
     name = fspath(path)
     with reading(name):
@@ -158,7 +157,7 @@ def _of_array(source: Source, options: ReadOptions) -> PointRows:
             f"{source.name} holds {header.shape[1]} columns without names: name x, y and z with {_NUMBERS}"
         )
     options.check_sites(source.name, header.shape[0])
-    wanted = parse_columns(options.columns or "1,2,z=3", wants_z=True)
+    wanted = parse_columns(options.columns or "1,2,z=3", axes=3)
     if wanted.z is None:
         raise UsageError(f"{option('--columns')} names no z: use {_NUMBERS}")
     chosen = [_column_number(source.name, each, header.shape[1]) for each in wanted.all]

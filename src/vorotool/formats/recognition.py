@@ -1,20 +1,18 @@
-"""The format of points, polygons, lines and drawings, which of them a source holds, and its text."""
+"""What an input is: its format, told by what is said of it, its name or its first bytes, and what it holds."""
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from typing import NamedTuple
 
 from vorotool.errors import INPUT_FORMAT, OTSU, InputError, UsageError, option
-from vorotool.formats.io.sources import NPZ, Source
-from vorotool.formats.sniffing import UTF8_MARK, format_of
+from vorotool.formats.io.sources import NPY, NPZ, Source
 from vorotool.products.formats import resolved
-from vorotool.products.inputs import INPUTS, Holds
+from vorotool.products.inputs import IMAGE_NAMES, INPUTS, Holds
 
-_ALPHA = option("alphashape", "alpha_shape")
-_TAKERS = option(
-    "skeleton-exact, skeleton-approx, voronoi, distance or draw", "skeleton_exact, skeleton_approx or voronoi"
-)
-
+_IMAGES = frozenset(IMAGE_NAMES.values())
+_IMAGE_SUFFIXES = {f".{name}": kind for name, kind in IMAGE_NAMES.items() if kind != "zarr"}
 DRAWN = frozenset(each.name for each in INPUTS.values() if "curves" in each.has)
 """Formats of drawings."""
 
@@ -22,16 +20,107 @@ _SUFFIXES = {f".{name}": each.name for each in INPUTS.values() for name in each.
 """Extensions that tell the format; JSON is of one of several kinds, and text of any."""
 _OF_ROWS = frozenset({"", ".csv", ".tsv", ".txt", ".wkt"})
 """Extensions of texts that need nothing but rows; other formats are damaged without a document or a header."""
+
+TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
+RECORD_MARK = b"\x1e"
+"""What each text of a GeoJSON text sequence begins with; it may then have several lines."""
+BINARY_DXF = b"AutoCAD Binary DXF\r\n\x1a\0"
+UTF8_MARK = b"\xef\xbb\xbf"
+
+PICTURES = {"jpeg": "JPEG", "bmp": "BMP", "gif": "GIF", "webp": "WebP", "avif": "AVIF"}
+"""Formats and what they are called."""
+
+GAP = rb"(?:\s|#[^\n\r]*[\n\r])+"
+"""Between the numbers of a header of PBM, PGM or PPM: space and comments."""
+_HEAD = 4096
+"""Bytes that tell the format of what is no image."""
+_IMAGE_HEAD = 65_536
+"""Those of an image, which may begin with comments."""
+
+
+class Sign(NamedTuple):
+    """What files of a format begin with."""
+
+    format: str  # of those that are not read the extension, with its dot
+    head: bytes  # these bytes
+    at: int = 0  # at this place
+    pattern: bytes = b""  # and what matches this
+
+
+_SVG = rb"(?s)(<\?xml[^>]*>|<!--.*?-->|<!DOCTYPE[^>\[]*(\[.*?\]\s*)?>|\s++)*+<([\w-]+:)?svg[\s>]"
+_DXF = rb"(999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n"
+_MARKUP = rb"(?:<[?!][^>]*>\s*)*<%b[\s>]"
+_WKT = (
+    rb"(?i)(SRID\s*=\s*\d+\s*;\s*)?((MULTI)?(POINT|LINESTRING|POLYGON|CURVE|SURFACE)|GEOMETRYCOLLECTION|LINEARRING|"
+    rb"CIRCULARSTRING|COMPOUNDCURVE|CURVEPOLYGON|POLYHEDRALSURFACE|TIN|TRIANGLE)\s*(Z|M|ZM)?\s*(\(|EMPTY)"
+)
+_SIGNS = (
+    Sign("png", b"\x89PNG"),
+    *(Sign("tiff", head) for head in TIFF_MAGIC),
+    Sign("npy", NPY),
+    Sign("pnm", b"P", pattern=rb"P([1-6])" + GAP + rb"(?=[0-9])"),
+    Sign("jpeg", b"\xff\xd8\xff"),
+    *(Sign("gif", b"GIF87a"), Sign("gif", b"GIF89a")),
+    Sign("webp", b"WEBP", 8, b"RIFF"),
+    *(Sign("avif", b"ftypavif", 4), Sign("avif", b"ftypavis", 4)),
+    # the size of its header
+    Sign("bmp", b"BM", pattern=rb"(?s:BM.{12})[\x0c\x10\x28\x34\x38\x40\x6c\x7c](\0{3}|\0{0,2}\Z)"),
+    Sign("dxf", BINARY_DXF),
+    Sign("svg", b"<", pattern=_SVG),
+    *(Sign("dxf", head, pattern=_DXF) for head in (b"0", b"999")),
+    *(Sign(".pdf", b"%PDF-"), Sign(".ps", b"%!PS"), Sign(".eps", b"\xc5\xd0\xd3\xc6"), Sign(".otf", b"OTTO\0")),
+    *(Sign(".ttf", b"\0\1\0\0\0"), Sign(".woff", b"wOFF"), Sign(".woff2", b"wOF2"), Sign(".ttc", b"ttcf")),
+    Sign(".dwg", b"AC10", pattern=rb"AC10\d\d\0"),
+    *(Sign("npz", NPZ), Sign("gpkg", b"SQLite format 3\0"), Sign("fgb", b"fgb\x03fgb")),
+    *(Sign("shp", b"\0\0\x27\x0a"), Sign("parquet", b"PAR1"), Sign("las", b"LASF")),
+    *(Sign("ply", b"ply\n"), Sign("ply", b"ply\r")),
+    *(Sign("geojson", b"{"), Sign("json", b"["), Sign("jsonl", RECORD_MARK)),
+    *(Sign(name, b"<", pattern=_MARKUP % name.encode()) for name in ("kml", "gpx")),
+    *(Sign("wkt", bytes([letter]), pattern=_WKT) for letter in b"SMPLGCTsmplgct"),
+)
+
+
+def format_of(data: bytes) -> str | None:
+    """Tell the format by what a file begins with, text after its blanks; None of rows of text, if it is any."""
+    whole, text = data[:_IMAGE_HEAD], data[:_HEAD].removeprefix(UTF8_MARK).lstrip()
+    for sign in _SIGNS:
+        start = whole if sign.format in _IMAGES else text
+        if start.startswith(sign.head, sign.at) and re.match(sign.pattern, start):
+            return sign.format
+    return None
+
+
+_ALPHA = option("alphashape", "alpha_shape")
+_TAKERS = option(
+    "skeleton-exact, skeleton-approx, voronoi, distance or draw", "skeleton_exact, skeleton_approx or voronoi"
+)
+
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 _WITH_COLUMNS = ("csv", "json", "jsonl", "npz", "parquet", "gpkg", "ply", "xyz", "las")
+_RESULTS: dict[bytes, Holds] = {
+    b'"vorotool.skeleton"': "skeleton",
+    b'"vorotool.offsets"': "offsets",
+    b'"vorotool.voronoi"': "voronoi",
+}
 
 
-def recognized_geometry(
-    source: Source, geometry: str | None, said: str | None, columns: str | None
+def recognized(
+    source: Source, geometry: str | None = None, said: str | None = None, columns: str | None = None
 ) -> tuple[Holds, Source]:
-    """Tell what a source holds that is no image, and give it with its format."""
+    """Tell what a source holds, and give it with its format; what was parsed to tell comes with it."""
+    if geometry is None and said in (None, "json", "geojson") and (result := _result(source.data)) is not None:
+        return result, text_source(source, "json")
+    may_be_points = columns is not None and source.data.startswith(NPY)
+    image = None if may_be_points else image_format(source, said)
+    if image is not None:
+        return "image", replace(source, format=image)
     if geometry == "points" or (geometry in (None, "sites") and columns is not None):
-        chosen = _by_header(source, said or point_format(source), columns)
+        chosen = said or geometry_format(source)
+        if said is None and chosen in DRAWN:
+            raise InputError(
+                f"{source.name} is a drawing (polygons and lines), but points or an image are expected: use {_TAKERS}, "
+                f"or convert the drawing to an image and use {OTSU}"
+            )
         source = text_source(source, chosen)
         if columns is not None and source.format not in _WITH_COLUMNS:
             raise UsageError(
@@ -50,18 +139,43 @@ def recognized_geometry(
     return holds, source
 
 
-def point_format(source: Source) -> str:
-    """Tell the format of points; a drawing has none."""
-    found = _format(source)
-    if found in DRAWN:
-        raise InputError(
-            f"{source.name} is a drawing (polygons and lines), but points or an image are expected: use {_TAKERS}, or "
-            f"convert the drawing to an image and use {OTSU}"
-        )
-    return found
+def image_format(source: Source, said: str | None = None) -> str | None:
+    """Give the format of an image: what is said, else the extension, else the content; None if it is no image."""
+    if said is not None and "image" not in INPUTS[said].readers:
+        return None
+    found, by_name = format_of(source.data), _IMAGE_SUFFIXES.get(source.suffix)
+    found = found if found in _IMAGES else None
+    kind = found or by_name
+    if said in (None, "npy") and (kind is None or (kind == "npy" and not _is_npy_image(source))):
+        return None
+    chosen = said or by_name or found
+    if chosen == "zarr":
+        raise InputError(f"{source.name} is a file, but a Zarr store is a folder: leave out {INPUT_FORMAT}")
+    if not source.data:
+        raise InputError(f"{source.name} is empty, but an image is expected: check the program that wrote it")
+    if found and found != chosen:
+        said_so = option(f"--input-format {found}", f'input_format="{found}"')
+        raise InputError(f"{source.name} is not a {chosen} file, it begins as {found}: use {said_so}")
+    return chosen
 
 
-def _format(source: Source) -> str:
+def _is_npy_image(source: Source) -> bool:
+    from vorotool.formats.io.arrays import npy_header
+
+    try:
+        shape = npy_header(source).shape
+    except InputError:
+        return False
+    return len(shape) in (2, 3) and shape[1] != 2
+
+
+def _result(data: bytes) -> Holds | None:
+    """What of ours text looks like the JSON of, which is not parsed to tell."""
+    found = next((holds for kind, holds in _RESULTS.items() if kind in data), None)
+    return found if found and data.lstrip(UTF8_MARK + b" \t\r\n").startswith(b"{") else None
+
+
+def geometry_format(source: Source) -> str:
     """Tell the format of what is no image: by the extension, else by the content; drawings by either."""
     named, found = _SUFFIXES.get(source.suffix), format_of(source.data)
     is_drawn = named in DRAWN and bool(source.data.strip())
@@ -70,19 +184,10 @@ def _format(source: Source) -> str:
     is_told = named is not None and "points" in INPUTS[named].readers
     if found == "npz" and not is_told and resolved("formats.gis.vector_files:holds_shapefile")(source.data):
         return "shp"
-    _refuse_convertible(source, found)
+    kind = source.suffix if source.suffix in _CONVERSIONS else found
+    if kind in _CONVERSIONS:
+        raise _not_supported(source, kind)
     return str(named) if is_told else found or "csv"
-
-
-def _by_header(source: Source, chosen: str, columns: str | None = None) -> str:
-    """Take points from a column of well-known text where the header names such a one, and no coordinates."""
-    if chosen != "csv" or columns is not None:
-        return chosen
-    from vorotool.convert.tables import coordinate_columns
-    from vorotool.formats.points.delimited import begun, geometry_column
-
-    fields = begun(text_source(source, chosen).data).fields
-    return "csv-wkt" if geometry_column(fields) is not None and coordinate_columns(fields) is None else chosen
 
 
 def has_no_rows(source: Source) -> bool:
@@ -94,7 +199,7 @@ def polygon_format(source: Source) -> str:
     """Tell the format of polygons by the extension, else by the content."""
     if source.suffix in (".poly", ".json"):
         return source.suffix.removeprefix(".")
-    found = _format(source)
+    found = geometry_format(source)
     if found in DRAWN:
         return found
     if found == "geojson" and source.suffix != ".geojson":  # an object: of either kind
@@ -120,10 +225,15 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     """Tell whether what is no image holds polygons or lines; JSON is parsed for it."""
     if said == "poly" or (said is None and source.suffix == ".poly"):
         return "polygons", text_source(source, "poly")
-    chosen = _by_header(source, said or _format(source))
-    if chosen == "csv" or "polygons" not in INPUTS[chosen].readers:
-        return "points", text_source(source, chosen)
+    chosen = said or geometry_format(source)
     source = text_source(source, chosen)
+    if chosen == "csv":
+        from vorotool.formats.points.delimited import begun, has_geometry
+
+        if has_geometry(begun(source.data).fields):
+            chosen, source = "csv-wkt", replace(source, format="csv-wkt")
+    if chosen == "csv" or "polygons" not in INPUTS[chosen].readers:
+        return "points", source
     if INPUTS[chosen].features and chosen != "wkt":
         source = replace(source, document=resolved("formats.gis.feature_table:features_of")(source))
         return ("polygons" if source.document.holds_shapes else "points"), source
@@ -196,34 +306,15 @@ def text_source(source: Source, chosen: str) -> Source:
 
 
 # ---- what is not read ----------------------------------------------------------------------------
-_MAPS = (".gml", ".gdb", ".tab", ".mif")
-_SHAPEFILE_PARTS = (".shx", ".dbf", ".prj", ".cpg")
-_DRAWINGS = (".pdf", ".eps", ".ps", ".ai")
 _FONTS = (".ttf", ".otf", ".ttc", ".woff", ".woff2")
-_OTHERS = (".dwg", ".zip", ".qgz", ".qgs", ".roi", *_FONTS, *_SHAPEFILE_PARTS)
-
-
-def _refuse_convertible(source: Source, found: str | None) -> None:
-    """Refuse the formats of maps and drawings that are not read, by extension or content."""
-    kind = source.suffix if source.suffix in _MAPS + _DRAWINGS + _OTHERS else found
-    if kind is None or not kind.startswith("."):
-        return
-    if kind == ".zip" and b".roi" in source.data:
-        kind = ".roi"
-    from pathlib import Path
-
-    file = source.name if source.suffix == kind else f"FILE{kind}"
-    advice = _CONVERSIONS.get(kind, _MAP).format(file=file, stem=Path(file).with_suffix(""))
-    raise InputError(f"{source.name}: {kind} files are not supported; {advice}")
-
-
+_SHAPEFILE_PARTS = (".shx", ".dbf", ".prj", ".cpg")
 _DRAWING = (
     f"convert it to an image and use {OTSU}, for example: {{}}; or, for its outlines, an SVG: inkscape {{{{file}}}} "
     "--export-text-to-path --export-plain-svg --export-filename={{stem}}.svg"
 )
 _POSTSCRIPT = _DRAWING.format("gs -o {stem}.png -sDEVICE=pnggray -r300 -dEPSCrop {file}")
-_MAP = "convert it: ogr2ogr -f GeoJSON {stem}.geojson {file}"
 _CONVERSIONS = {
+    **dict.fromkeys((".gml", ".gdb", ".tab", ".mif"), "convert it: ogr2ogr -f GeoJSON {stem}.geojson {file}"),
     **dict.fromkeys((".eps", ".ps", ".ai"), _POSTSCRIPT),
     ".pdf": _DRAWING.format("pdftoppm -r 300 -gray -singlefile {file} {stem}"),
     **dict.fromkeys(
@@ -235,4 +326,15 @@ _CONVERSIONS = {
     **dict.fromkeys((".qgz", ".qgs"), "it is a project of QGIS: name the files of its layers"),
     ".roi": "make a mask of the regions in ImageJ (Edit, Selection, Create Mask), and use that image",
 }
-"""What to do with a file, by its extension; with others as with maps."""
+"""What to do with a file that is not read, by its extension."""
+
+
+def _not_supported(source: Source, kind: str) -> InputError:
+    """Say that the format of a map or a drawing is not read, and what to do."""
+    if kind == ".zip" and b".roi" in source.data:
+        kind = ".roi"
+    from pathlib import Path
+
+    file = source.name if source.suffix == kind else f"FILE{kind}"
+    advice = _CONVERSIONS[kind].format(file=file, stem=Path(file).with_suffix(""))
+    return InputError(f"{source.name}: {kind} files are not supported; {advice}")
