@@ -121,6 +121,10 @@ def write(
         raise UsageError(f"invalid fmt {shown_number(fmt)}: expected the name of a format, such as csv")
     legend, scale_bar = checked_flag(legend, "legend"), checked_flag(scale_bar, "scale_bar")
     name = fmt or Path(path).suffix
+    if not name:
+        raise UsageError(
+            f"{path!r} has no extension, by which the format is chosen: add one, such as .csv, or give fmt"
+        )
     chosen = format_named(name) or name.lower().removeprefix(".")
     if y_up is not None and isinstance(value, Record):
         value = with_y_axis(value, y_axis_of(checked_flag(y_up, "y_up")))

@@ -73,6 +73,14 @@ def test_attributes_that_are_called_as_parts_of_a_geopackage(tmp_path):
     assert {name: read[name].tolist() for name in columns} == columns
 
 
+def test_names_that_differ_by_case_alone_are_one_in_a_geopackage(tmp_path):
+    columns = {"Name": ["a", "b", "c"], "NAME": [1, 2, 3], "name_2": [4, 5, 6], "name": [7, 8, 9]}
+    with pytest.warns(vorotool.VorotoolWarning, match="NAME is NAME_3; name is name_4"):
+        vorotool.write(shapes(properties=columns), tmp_path / "a.gpkg")
+    read = load(tmp_path / "a.gpkg")
+    assert [read[name].tolist() for name in ("Name", "NAME_3", "name_2", "name_4")] == list(columns.values())
+
+
 def rows_of(*features):
     rows = FeatureRows()
     rows.write(b'{"type":"FeatureCollection","features":[\n')

@@ -9,6 +9,7 @@ import shapely
 import vorotool
 from support.families.values import example_values
 from support.readers.written import rows_of, written
+from support.refusals import refused
 from vorotool import _core
 from vorotool.convert.frames import to_geopandas
 from vorotool.products.registry import parts_of
@@ -59,3 +60,11 @@ def test_cells_have_their_measures_in_every_format():
     for fmt in ("csv", "tsv"):
         assert [row["area"] for row in rows_of(written(cells, fmt), "," if fmt == "csv" else "\t")] == ["4", "4"]
     assert json.loads(written(cells, "json"))["polygons"][0]["properties"]["perimeter"] == 8
+
+
+def test_a_path_without_an_extension_is_named(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    mesh = vorotool.delaunay([[0, 0], [4, 0], [0, 3]])
+    refused(vorotool.UsageError, "'edges' has no extension", vorotool.write, mesh, "edges")
+    vorotool.write(mesh, "edges", fmt="csv")
+    assert (tmp_path / "edges").read_text().startswith("label_a,")

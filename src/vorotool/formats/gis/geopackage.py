@@ -11,17 +11,18 @@ import os
 import shutil
 import sqlite3
 import tempfile
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager, suppress
 from datetime import date, datetime
+from itertools import count
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from vorotool.errors import INPUT_FORMAT, OUTPUT, OVERWRITE, InputError, LimitError, OutputError
+from vorotool.errors import INPUT_FORMAT, OUTPUT, OVERWRITE, InputError, LimitError, OutputError, warn
 from vorotool.formats.gis.feature_table import TABLE, Features, checked_geometry, chosen_layer, layer_fault
-from vorotool.formats.gis.feature_writer import GdalFeatures, move_into
+from vorotool.formats.gis.feature_writer import GdalFeatures, TypedColumn, move_into
 from vorotool.formats.io.atomic_output import current_rules, failure
 from vorotool.formats.io.sources import Source, check_unpacked, decoding, interruptible, read_source
 from vorotool.formats.io.temporaries import committed_together, new_folder
@@ -353,7 +354,7 @@ class GeoPackage(GdalFeatures):
 
     def finish(self) -> None:
         """Write the file, with the layers of results that were written to the same place."""
-        columns = self.columns()
+        columns = self._distinct(self.columns())
         taken = {name.lower() for name in columns}
         options = {
             "FID": next(name for name in ("fid", "ogc_fid", "voro_fid") if name not in taken),
@@ -373,3 +374,18 @@ class GeoPackage(GdalFeatures):
         out = io.BytesIO()
         self.gdal_write(out, columns, driver="GPKG", layer_options=options)
         self.out.write(out.getbuffer())
+
+    def _distinct(self, columns: Mapping[str, TypedColumn]) -> dict[str, TypedColumn]:
+        """Add numbers to names that differ from others by the case of letters alone, which are one in SQL."""
+        made: dict[str, TypedColumn] = {}
+        taken, renamed = {name.lower() for name in columns}, []
+        for name, column in columns.items():
+            own = name
+            if name.lower() in map(str.lower, made):
+                own = next(each for k in count(2) if (each := f"{name}_{k}").lower() not in taken)
+                taken.add(own.lower())
+                renamed.append(f"{name} is {own}")
+            made[own] = column
+        if renamed:
+            warn(f"{self.path}: names of columns in a GeoPackage differ by more than case: {'; '.join(renamed)}")
+        return made
