@@ -21,6 +21,7 @@ from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import Amount, length_in_units, unit_text
+from vorotool.numeric.length_units import unit_name
 from vorotool.numeric.numbers import nearest_double
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
@@ -53,7 +54,8 @@ class ShapeProducts(Results):
         super().__init__(run, o)
         self.radius = chosen_radius(o.r, o.alpha, o.auto)
         self._has_told_regions = False
-        self.backdrop = placed_backdrop(run, o, given.backdrop)
+        if given.backdrop is not None:
+            self.backdrop = placed_backdrop(run, o, given.backdrop)
         mesh = self._triangulation(points)
         mesh = mesh if is_of(mesh, "SeedSet") else placed_mesh(o.pixel_size, mesh)
         self._points, self._allow_empty = points, is_of(points, "SeedSet") or not len(points)
@@ -198,7 +200,9 @@ class ShapeProducts(Results):
         r = self.shape.r if self.has_shape else self.radius
         r = None if r is None else length_in_units(self.options.pixel_size, r)
         family, curves = self.written("family", "html"), self.written("curves", "html")
-        write_alpha_html(out, family, curves, r=r, unit=self.page_unit)
+        stated: Any = self.run.coordinates if self.options.pixel_size is None else self.options.pixel_size
+        unit = None if stated is None or stated.unit is None else unit_name(stated.unit)
+        write_alpha_html(out, family, curves, r=r, unit=unit)
 
     def frames(self, what: str) -> Callable[[Fraction], NDArray[np.uint8]]:
         """Draw shapes whose radius grows to that of the shape, or to the largest critical one if that is infinite."""

@@ -12,7 +12,7 @@ from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import STANDARD, input_identity
 from vorotool.formats.io.sources import file_of
 from vorotool.formats.zarr.store import is_folder, is_store
-from vorotool.jobs.options import OF_FRAMES, OF_IMAGES, OF_SHAPES, OF_SITES, Measured, Options, changed
+from vorotool.jobs.options import OF_FRAMES, OF_IMAGES, OF_SITES, Measured, Options, changed
 from vorotool.jobs.pixel_sizes import (
     lengths_of_image,
     lengths_of_vectors,
@@ -84,11 +84,9 @@ def read_opened(
 
     The options that come back have lengths in its coordinates.
     """
-    wants_unit = (
-        wants_unit or bool(o.measured) or (o.pixel_size is not None and o.pixel_size.is_auto)
-    )  # a column may state it
+    is_auto = o.pixel_size is not None and o.pixel_size.is_auto
+    wants_unit = wants_unit or is_auto or bool(o.measured)  # a column may state it
     wants_properties = properties and not o.no_properties
-
     how: dict[str, Any] = {
         "columns": columns,
         "max_pixels": o.max_pixels,
@@ -97,7 +95,7 @@ def read_opened(
         "threads": o.threads,
         "crs": o.input_crs,
     }
-    if o.command in OF_SHAPES:
+    if o.flatten is not None or o.join_tolerance is not None:
         source, tolerances = _tolerances(o, source, how)
         how |= tolerances
     value: Any = source.read(note=run.note, to_crs=o.crs, y_up=o.y_up, curves_advice=curves_advice, **how)

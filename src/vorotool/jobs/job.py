@@ -193,14 +193,6 @@ class Results:
     def check_page(self) -> None:
         """Refuse a page that is too large."""
 
-    @property
-    def page_unit(self) -> str | None:
-        """The unit of lengths on pages."""
-        from vorotool.numeric.length_units import unit_name
-
-        stated: Any = self.run.coordinates if self.options.pixel_size is None else self.options.pixel_size
-        return None if stated is None or stated.unit is None else unit_name(stated.unit)
-
     def emptiness(self, what: str) -> str:
         """Say why a result is empty; nothing of one that is not, or whose emptiness surprises nobody."""
         return ""

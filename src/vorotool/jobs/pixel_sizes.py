@@ -166,13 +166,11 @@ def placed_mesh(size: PixelSize | None, mesh: Placed) -> Placed:
     return made
 
 
-def placed_backdrop(run: Run, o: Options, backdrop: Backdrop | None) -> Backdrop | None:
+def placed_backdrop(run: Run, o: Options, backdrop: Backdrop) -> Backdrop:
     """Give the image of ``--overlay`` as what is drawn over it lies."""
     size = o.pixel_size
-    if backdrop is not None and size is not None and size.sides is not None:
+    if size is not None and size.sides is not None:
         raise UsageError("--overlay shows pixels as squares: leave it out with --spacing")
-    if backdrop is None:
-        return None
     from vorotool.jobs.second_files import side_of_backdrop
 
     return replace(backdrop, y_up=size is not None and size.y_up, side=side_of_backdrop(run, o, backdrop.grid))

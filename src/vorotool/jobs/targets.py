@@ -37,29 +37,26 @@ def plan_targets(o: Options, source: str) -> list[Target]:
     if output is not None and out_dir is not None:
         raise UsageError("give -o or --out-dir, not both")
     several = len(what) > 1
-    wanted = dict.fromkeys(what) if fmt is None else _formats_of_results(products, what, fmt)
-    if out_dir is not None:
+    is_usual = fmt is None or all(fmt in products[name].formats for name in what)
+    wanted = dict.fromkeys(what, fmt) if is_usual else _formats_of_results(products, what, fmt)
+    if several and out_dir is None and (output is None or stream_kind(output) is not None):
+        raise UsageError(
+            "several results need -o STEM (files STEM.<what>.<ext>, or layers of STEM.gpkg) or --out-dir DIR"
+        )
+    if several or out_dir is not None:
         from pathlib import Path
 
-        stem = Path(out_dir) / ("stdin" if source == "-" else Path(without_gz(output_name(source))).stem)
+        given = EXTENSIONS.get(suffix_of(output)) if out_dir is None else None
+        if out_dir is not None:
+            stem = Path(out_dir) / ("stdin" if source == "-" else Path(without_gz(output_name(source))).stem)
+        else:
+            stem = Path(output).with_suffix("") if given else Path(output)
         choose = _several_format if several else _chosen
-        chosen = {name: choose(products, name, wanted[name], None) for name in what}
-        return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
-    if several:
-        if output is None or stream_kind(output) is not None:
-            raise UsageError(
-                "several results need -o STEM (files STEM.<what>.<ext>, or layers of STEM.gpkg) or --out-dir DIR"
-            )
-        from pathlib import Path
-
-        given = EXTENSIONS.get(suffix_of(output))
-        stem = Path(output).with_suffix("") if given else Path(output)
-        chosen = {name: _several_format(products, name, wanted[name], given) for name in what}
+        chosen = {name: choose(products, name, wanted[name], given) for name in what}
         # one GeoPackage holds all results that it can, as layers
         held = {name for name in what if given == chosen[name] == "gpkg"}
-        return [
-            Target(name, output if name in held else _named(stem, name, chosen[name]), chosen[name]) for name in what
-        ]
+        paths = {name: _named(stem, name if several else None, chosen[name]) for name in what}
+        return [Target(name, output if name in held else paths[name], chosen[name]) for name in what]
     name = what[0]
     path = "-" if output is None else output
     chosen_format = _chosen(products, name, wanted[name], None if path == "-" else suffix_of(path))

@@ -53,7 +53,8 @@ class VoronoiProducts(Results):
                 with run.phase("read polygons"):
                     polygons, cuts[name] = read_cut(run, options, f"--{name}", path, self._first(given, sites))
                 sites = replace(sites, polygons=polygons)
-        self.backdrop = placed_backdrop(run, self.options, given.backdrop)
+        if given.backdrop is not None:
+            self.backdrop = placed_backdrop(run, self.options, given.backdrop)
         self.features = sites.count
         self._sites, self._clip = sites, cuts.get("clip")
         self.cells = self._made(sites, cuts)

@@ -63,7 +63,8 @@ class SkeletonProducts(Results, ABC):
         super().__init__(run, options)
         if self.frame is None and "thickness" in options.what:
             raise UsageError("--what thickness applies to images, but the input is polygons or lines")
-        self.backdrop = placed_backdrop(run, options, given.backdrop)
+        if given.backdrop is not None:
+            self.backdrop = placed_backdrop(run, options, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_columns(options, self._polygons.properties)
         self._derived: dict[Made, Any] = {}
