@@ -218,14 +218,13 @@ def finest_deviation(places: Floats) -> Floats:
 
 
 def on_grid(points: Floats) -> Floats:
-    """Round coordinates to the decimals of the file that is being written."""
-    return rounded(points, _WRITTEN.get().how.decimals)
+    """Round coordinates to the decimals of the file that is being written, if it has any."""
+    decimals = _WRITTEN.get().how.decimals
+    return points if decimals is None else rounded(points, decimals)
 
 
-def rounded(points: Floats, decimals: int | None) -> Floats:
+def rounded(points: Floats, decimals: int) -> Floats:
     """Round coordinates to decimals; those whose doubles are coarser stay, and so does what is no finite number."""
-    if decimals is None:
-        return points
     is_number = np.isfinite(points)
     if not is_number.all():
         made = points.copy()

@@ -104,7 +104,7 @@ def read_text(source: Source, options: ReadOptions) -> PointRows:
 
 def has_geometry(fields: Sequence[str]) -> bool:
     """Tell whether a header names a column of geometry, and no coordinates."""
-    return geometry_column(fields) is not None and coordinate_columns(fields) is None
+    return any(field.strip().lower() in GEOMETRY_COLUMNS for field in fields) and coordinate_columns(fields) is None
 
 
 def geometry_column(fields: Sequence[str]) -> int | None:

@@ -40,7 +40,7 @@ def written_rings(
     threads: int = 0,
 ) -> WrittenRings:
     """Round the vertices of rings, and repair features that are invalid then."""
-    given = rounded(points, decimals), nesting
+    given = points if decimals is None else rounded(points, decimals), nesting
     if is_coverage or decimals is not None:
         given = _compact(*given)
     made, repaired = given, 0

@@ -150,16 +150,26 @@ def write_rows(
         return
     digits = check_precision(precision)
     each_digits = [0 if column.is_place else digits for column in columns]
-    texts = _lookup_texts(columns, each_digits, threads)
+    looked_up = {  # by the identity of what lookups show: each array once
+        id(column.values.values): (column.values.values, n)
+        for column, n in zip(columns, each_digits, strict=True)
+        if isinstance(column.values, Lookup)
+    }
+    texts = {
+        key: _core.text.NumberTexts(values, n, threads)
+        for key, (values, n) in looked_up.items()
+        if isinstance(values, np.ndarray) and values.dtype.kind == "f"
+    }
     rows = len(columns[0].values)
 
-    def formatted(part: slice) -> list[bytes]:
-        parts = [column.part(part, texts) for column in columns]
-        values, missing = [each for each, _ in parts], [each for _, each in parts]
-        return _core.text.format_rows(values, missing, each_digits, 1, shape, by_tabs)
+    def formatted(begin: int) -> list[bytes]:
+        part = slice(begin, min(begin + SLICE_ROWS, rows))
+        values, missing = zip(*(column.part(part, texts) for column in columns), strict=True)
+        return _core.text.format_rows(list(values), list(missing), each_digits, 1, shape, by_tabs)
 
     between = b"" if shape is None else shape.separator.encode()
-    for number, blocks in enumerate(in_order(formatted, slices(rows, SLICE_ROWS), threads if rows > SLICE_ROWS else 1)):
+    parts = in_order(formatted, range(0, rows, SLICE_ROWS), threads if rows > SLICE_ROWS else 1)
+    for number, blocks in enumerate(parts):
         if number and between:
             out.write(between)
         for block in blocks:
@@ -176,25 +186,6 @@ def write_list_rows(
         out.write(b"\n")
         write_rows(out, columns, shape, precision=precision, threads=threads)
         out.write(b"\n")
-
-
-def slices(rows: int, size: int) -> list[slice]:
-    """Cut rows into slices of a size; none for no rows."""
-    return [slice(begin, min(begin + size, rows)) for begin in range(0, rows, size)]
-
-
-def _lookup_texts(columns: Sequence[Column], digits: Sequence[int], threads: int) -> dict[int, _core.text.NumberTexts]:
-    """Texts of the numbers that lookups show, by the identity of their arrays: each array once."""
-    arrays = {
-        id(c.values.values): (c.values.values, n)
-        for c, n in zip(columns, digits, strict=True)
-        if isinstance(c.values, Lookup)
-    }
-    return {
-        key: _core.text.NumberTexts(array, n, threads)
-        for key, (array, n) in arrays.items()
-        if isinstance(array, np.ndarray) and array.dtype.kind == "f"
-    }
 
 
 def coordinate_text(value: float) -> str:

@@ -18,7 +18,6 @@ from vorotool.formats.text.row_writer import (
     RowShape,
     TypedOutput,
     check_precision,
-    slices,
     write_list_rows,
     write_rows,
 )
@@ -40,7 +39,10 @@ _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at 
 def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
     """Write a table; the bytes depend on nothing but the table, the format and the precision."""
     check_precision(precision)
-    columns = [Column.of(name, values) for name, values in _with_unit(table).items()]
+    unit, stored = current_written().how.unit, table.stored()
+    if unit is not None and stored:
+        stored |= _unit_column(table, unit)
+    columns = [Column.of(name, values) for name, values in stored.items()]
     if fmt in ("csv", "tsv"):
         _write_delimited(out, columns, fmt == "tsv", precision, threads)
     elif fmt == "json":
@@ -50,16 +52,14 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
 
 
 # ---- units ---------------------------------------------------------------------------------------
-def _with_unit(table: Table) -> dict[str, Any]:
-    columns, unit = table.stored(), current_written().how.unit
-    if unit is None or not columns:
-        return columns
+def _unit_column(table: Table, unit: str) -> dict[str, Any]:
+    """Give the column that names the unit of each row, by its name."""
     column: Lookup | list[str | None] = Lookup([unit], np.zeros(table.rows, dtype=np.int32))
-    if next(iter(columns)) == "measure":  # a row is a measure: lengths, areas, and numbers without a unit
+    if next(iter(table)) == "measure":  # a row is a measure: lengths, areas, and numbers without a unit
         from vorotool.types.mesh.tables import unit_of_measure
 
-        column = [unit_of_measure(name, unit) for name in columns["measure"]]
-    return columns | {"voro_unit" if "unit" in columns else "unit": column}
+        column = [unit_of_measure(name, unit) for name in table["measure"]]
+    return {"voro_unit" if "unit" in table else "unit": column}
 
 
 # ---- CSV and TSV ---------------------------------------------------------------------------------
@@ -215,10 +215,11 @@ def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Loo
     kind = values[:0].dtype.newbyteorder("<")
     header = {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": (len(values),)}
 
-    def gathered(rows: slice) -> NDArray[np.uint8]:
+    def gathered(begin: int) -> NDArray[np.uint8]:
+        rows = slice(begin, min(begin + _SLICE_VALUES, len(values)))
         return np.ascontiguousarray(values[rows], dtype=kind).view(np.uint8)
 
-    parts = slices(len(values), _SLICE_VALUES)
+    parts = range(0, len(values), _SLICE_VALUES)
     with archive.open(entry, "w", force_zip64=True) as member:
         np.lib.format.write_array_header_1_0(member, header)
         for part in in_order(gathered, parts, threads if len(parts) > 1 else 1):
