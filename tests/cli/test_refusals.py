@@ -61,6 +61,7 @@ USAGE = {
     "draw a.csv --passes 1": "draw has no --passes: tessellate has it",
     "draw a.csv --widht 1": "--width",
     "draw a.csv --layers seeds": "'seeds': not one of cells",
+    "draw a.svg --scale 2:1 -o b.svg": "'2:1': expected millimeters per unit, such as 0.5, or a ratio, such as 1:100; 1:0",
     "draw a.csv --layers cells,seed": "'seed' is not one of cells",
     # ---- names that are like others
     "skeleton-exact a.png --what centerlines": "did you mean centerline?",
@@ -91,6 +92,7 @@ USAGE = {
     "tessellate mask.pbm --cell-size 2 -o a.tif": "--cell-size",
     "tessellate mask.pbm --like mask.pbm -o a.tif": "--like applies to lists of points",
     "tessellate dots.csv --page 0 -o a.png": "--page",
+    "skeleton-exact shape.json --decimals 2 -o a.dxf": "--decimals applies only to coordinates in tables, GeoJSON, WKT",
     "delaunay dots.csv --input-layer a": "--input-layer",
     "alphashape dots.csv -r 5um": "has a unit, but the unit of the input is unknown",
     "delaunay space.csv --what hull": "--space",

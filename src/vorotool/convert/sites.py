@@ -189,8 +189,9 @@ def _values(features: Sites, by: Any) -> list[Any]:
         raise InputError(f"invalid {_BY}: expected one value per feature, {features.count}, but got {len(values)}")
     missing = [k for k, value in enumerate(values) if _is_missing(value)]
     if missing:
+        number = option(str(missing[0] + 1), str(missing[0]))
         raise InputError(
-            f"invalid {_BY}: feature {missing[0]} has no value ({counted(len(missing), 'such feature')}): fill it in"
+            f"invalid {_BY}: feature {number} has no value ({counted(len(missing), 'such feature')}): fill it in"
         )
     return values
 

@@ -33,7 +33,7 @@ _KINDS = {
     ".amounts": "pictures of thickness",
     ".sized": "pictures (-f svg)",
     ".animation": "animations (-f gif, apng, webp)",
-    ".coordinates": "coordinates in tables and vectors",
+    ".coordinates": "coordinates in tables, GeoJSON, WKT and GIS files, not in drawings",
     ".digits": "formats of text, such as csv",
     ".parts": "tables and GeoJSON whose rows are parts of features or pairs (--what branches, points, edges, ...)",
     ".curves": "formats that have no curves, such as GeoJSON and WKT",

@@ -120,8 +120,9 @@ def test_features_with_a_common_value_are_one_site():
     assert list(cells.table()["id"]) == ["b", "a"]
     with pytest.raises(InputError, match="expected one value per feature, 4, but got 2"):
         voronoi(sites, by=["a", "b"])
-    with pytest.raises(InputError, match="feature 1 has no value"):
+    with pytest.raises(InputError, match="feature 1 has no value") as caught:
         voronoi(sites, by=["a", None, "b", "c"])
+    assert "feature 2 has no value" in caught.value.typed  # on the command line they count from 1
     with pytest.raises(UsageError, match="invalid by 'name'"):
         voronoi(sites, by="name")
 

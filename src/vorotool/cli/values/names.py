@@ -79,7 +79,7 @@ def scale(text: str) -> Scale:
     one, colon, rest = text.partition(":")
     number = number_or_nan(rest if colon else one)
     if (colon and number_or_nan(one) != 1) or not isfinite(number) or not number > 0:
-        raise UnexpectedError("expected millimeters per unit, such as 0.5, or a ratio, such as 1:100")
+        raise UnexpectedError("expected millimeters per unit, such as 0.5, or a ratio, such as 1:100; 1:0.5 enlarges")
     return Scale(number, is_ratio=bool(colon))
 
 
