@@ -61,7 +61,7 @@ USAGE = {
     "draw a.csv --passes 1": "draw has no --passes: tessellate has it",
     "draw a.csv --widht 1": "--width",
     "draw a.csv --layers seeds": "'seeds': not one of cells",
-    "draw a.svg --scale 2:1 -o b.svg": "'2:1': expected millimeters per unit, such as 0.5, or a ratio, such as 1:100; 1:0",
+    "draw a.svg --scale 2:1 -o b.svg": "'2:1': expected millimeters per unit, such as 0.5, or a ratio, such as 1:100",
     "draw a.csv --layers cells,seed": "'seed' is not one of cells",
     # ---- names that are like others
     "skeleton-exact a.png --what centerlines": "did you mean centerline?",
