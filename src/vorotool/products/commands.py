@@ -83,7 +83,7 @@ kept.
 over r.
 
 With --space points have a z: their shape consists of tetrahedra, and --what surface is its closed surface.""",
-        jobs=(("space", "jobs.space_shape:SpaceShapeProducts"),),
+        jobs=(("space", "jobs.alpha_shape:SpaceShapeProducts"),),
         instead=(
             (
                 "--spacing",

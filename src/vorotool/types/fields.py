@@ -138,16 +138,11 @@ def starts(rows: Axis, items: Axis, *, least: int = 0) -> Any:
     return _declare(Meaning.NUMBER, np.int64, rows, rows_of=items, least=least)
 
 
-def declared(value: object) -> dict[str, Declared]:
-    """Return the declarations of the fields of a value."""
-    return _declared_of(type(value))
-
-
 _DECLARED: dict[type[Any], dict[str, Declared]] = {}
 
 
-def _declared_of(kind: type[Any]) -> dict[str, Declared]:
-    """Return the declarations of a class, which are collected with its first value."""
+def declared(kind: type[Any]) -> dict[str, Declared]:
+    """Return the declarations of the fields of a class, which are collected with its first value."""
     if kind not in _DECLARED:
         _DECLARED[kind] = {each.name: each.metadata[_KEY] for each in fields(kind) if _KEY in each.metadata}
     return _DECLARED[kind]
@@ -185,7 +180,7 @@ def with_fitting(value: T, **changes: Any) -> T:
 
 
 def _settled(kind: type[Any], named: dict[str, Any]) -> dict[str, Any]:
-    known = _declared_of(kind)
+    known = declared(kind)
     return {name: known[name].settle(given, name, {}) if name in known else given for name, given in named.items()}
 
 
@@ -204,7 +199,7 @@ class Record:
 
     def __post_init__(self) -> None:
         sizes: dict[Axis, int] = {}
-        for name, own in declared(self).items():
+        for name, own in declared(type(self)).items():
             object.__setattr__(self, name, own.settle(getattr(self, name), name, sizes))
 
 

@@ -92,7 +92,7 @@ def _reversed_rings(polygons: PolygonSet) -> NDArray[np.integer]:
 
 
 def _declared(value: Any) -> dict[str, Declared]:
-    return declared(value) if isinstance(value, Record) else {}
+    return declared(type(value)) if isinstance(value, Record) else {}
 
 
 def _scale(factor: Fraction, *, of_steps: bool) -> tuple[float, float]:
