@@ -14,14 +14,7 @@ from vorotool.engines.alpha.alpha_shape import chosen_radius
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
-from vorotool.jobs.inputs import (
-    JobInput,
-    check_columns,
-    note_repeated_labels,
-    read_sites,
-    read_voxel_points,
-    report_no_geometry,
-)
+from vorotool.jobs.inputs import JobInput, check_columns, read_sites, read_space, triangulated
 from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh
@@ -48,9 +41,6 @@ if TYPE_CHECKING:
     from vorotool.types.alpha.complex import AlphaComplex
     from vorotool.types.alpha.shape import AlphaHull
     from vorotool.types.alpha.space import SpaceAlphaComplex, SpaceAlphaShape
-
-
-TRIANGULATE = "engines.delaunay.delaunay:delaunay"
 
 
 class ShapeProducts(Results):
@@ -99,9 +89,7 @@ class ShapeProducts(Results):
 
             seeds = seeds_of(self.run, self.options, points)
             return digital_mesh(self.run, self.options, points, seeds)[0]
-        exact: Any = self.call(TRIANGULATE, points, phase="triangulate")
-        note_repeated_labels(self.run, points, exact)
-        return exact
+        return triangulated(self.run, self.options, points)
 
     def _shape(self) -> AlphaShape:
         o = self.options
@@ -286,14 +274,9 @@ class SpaceShapeProducts(Results):
         super().__init__(run, options)
         if not options.measured:  # what is wrong with it is said before a long file is read
             chosen_radius(options.r, options.alpha, options.auto)
-        with run.phase("read"):
-            points = read_voxel_points(run, options, given, properties=options.names_columns)
-            check_columns(options, points.properties)
-            if not len(points):
-                report_no_geometry(run, options)
+        points = read_space(run, options, given, properties=False)
         self.radius = chosen_radius(options.r, options.alpha, options.auto)
-        mesh: Any = self.call(TRIANGULATE, points, phase="triangulate")
-        note_repeated_labels(run, points, mesh)
+        mesh = triangulated(run, options, points)
         self._allow_empty = not len(points)
         how: Any = {"phase": "alpha complex", "allow_empty": self._allow_empty}
         self.family: SpaceAlphaComplex = self.call("engines.alpha.alpha_complex:alpha_complex", mesh, **how)

@@ -36,11 +36,8 @@ if TYPE_CHECKING:
     from vorotool.jobs.targets import Target
     from vorotool.render.canvas.layers import Backdrop
     from vorotool.types.images import Raster
-    from vorotool.types.mesh.tetrahedralization import Tetrahedralization
-    from vorotool.types.mesh.triangulation import Triangulation
     from vorotool.types.points.point_set import PointSet, VolumePoints
     from vorotool.types.points.seed_set import SeedSet
-    from vorotool.types.values import Value
     from vorotool.types.volumes.volume import VolumeSeeds
 
 
@@ -216,6 +213,16 @@ def read_voxel_points(run: Run, o: Options, given: JobInput, *, properties: bool
     return run.call(o, "formats.volumes.opening:read_xyz", given.path, phase=None, properties=is_wanted, **how)
 
 
+def read_space(run: Run, o: Options, given: JobInput, *, properties: bool) -> VolumePoints:
+    """Read points in space to triangulate."""
+    with run.phase("read"):
+        points = read_voxel_points(run, o, given, properties=properties or o.names_columns)
+        check_columns(o, points.properties)
+        if not len(points):
+            report_no_geometry(run, o)
+    return points
+
+
 def seeds_of_image(run: Run, o: Options, image: Raster, mode: SeedMode | None) -> SeedSet:
     """Find the seeds of an image, as the options say."""
     from vorotool.engines.tessellation.seeding import seeds_from_raster
@@ -323,10 +330,12 @@ def note_other_size(run: Run, o: Options, given: JobInput, shape: Sequence[int])
     )
 
 
-def note_repeated_labels(run: Run, points: Value, mesh: Triangulation | Tetrahedralization) -> None:
-    """Say that labels name groups of points, where they repeat."""
+def triangulated(run: Run, o: Options, points: Any) -> Any:
+    """Triangulate points, and say that labels name groups of points, where they repeat."""
+    mesh: Any = run.call(o, "engines.delaunay.delaunay:delaunay", points, phase="triangulate")
     if getattr(points, "labels", None) is not None and mesh.labels is None and len(mesh.points):
         run.note("labels repeat: points are numbered from 1, and label is an ordinary column")
+    return mesh
 
 
 @contextmanager

@@ -12,11 +12,10 @@ from vorotool.jobs.inputs import (
     JobInput,
     check_columns,
     frame_of,
-    note_repeated_labels,
     read_sites,
-    read_voxel_points,
-    report_no_geometry,
+    read_space,
     tell_empty_cells,
+    triangulated,
     window_of,
 )
 from vorotool.jobs.job import Results
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
     from vorotool.types.mesh.triangulation import DigitalComparison
     from vorotool.types.points.seed_set import SeedSet
 
-TRIANGULATE, VERIFY = "engines.delaunay.delaunay:delaunay", "engines.delaunay.delaunay:verify_triangulation"
+VERIFY = "engines.delaunay.delaunay:verify_triangulation"
 
 
 def seeds_of(run: Run, o: Options, points: Any) -> SeedSet:
@@ -118,9 +117,7 @@ class MeshProducts(Results):
         else:  # sites of an image, or points whose distances are in steps of `--spacing`
             sides = sides_of(self.options)
             points = resolved("types.scaling:stretched")(resolved("convert.points:as_points")(points), sides.x, sides.y)
-        mesh: Any = self.call(TRIANGULATE, points, phase="triangulate")
-        note_repeated_labels(self.run, self._points, mesh)
-        return mesh
+        return triangulated(self.run, self.options, points)
 
     def check_page(self) -> None:
         """Refuse a page of too many cells."""
@@ -313,14 +310,8 @@ class TetrahedraProducts(Results):
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         super().__init__(run, options)
         refuse_lengths(options, "points in space have none: give numbers in their coordinates")
-        with run.phase("read"):
-            with_columns = bool({"table", "cells"} & set(options.what)) or options.names_columns
-            points = read_voxel_points(run, options, given, properties=with_columns)
-            check_columns(options, points.properties)
-            if not len(points):
-                report_no_geometry(run, options)
-        self.mesh: Any = self.call(TRIANGULATE, points, phase="triangulate")
-        note_repeated_labels(run, points, self.mesh)
+        points = read_space(run, options, given, properties=bool({"table", "cells"} & set(options.what)))
+        self.mesh = triangulated(run, options, points)
 
     def value(self, what: str) -> Any:
         """Give the triangulation, or its cells."""
