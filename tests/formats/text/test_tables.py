@@ -80,6 +80,7 @@ def test_empty_tables():
     assert written(table, "json") == b"[]\n"
     assert np.load(io.BytesIO(written(table, "npz")))["label"].shape == (0,)
     assert written(Table({}), "csv") == b""
+    assert written(Table({}), "json") == b"[]\n"
 
 
 @pytest.mark.parametrize("fmt", TABLES)

@@ -69,7 +69,7 @@ def open_output(
     """Open an output that replaces an older file only when all of it has been written."""
     name = os.fspath(path)
     rules = Rules(no_clobber, tuple(inputs), option)
-    descriptor, target, is_regular = _checked_place(name, rules, binary=binary)
+    descriptor, target, is_regular = check_output(name, binary=binary, **rules._asdict())
     told = partial(explained, name, option)
     if descriptor is not None:  # open already: written in order, after what it holds
         with told(), open_output_descriptor(descriptor) as out:
@@ -99,6 +99,14 @@ def open_output(
         commit.placements[target] = Placement(temporary, told, check if no_clobber else None)
 
 
+class Place(NamedTuple):
+    """Where an output goes."""
+
+    descriptor: int | None  # that is open already
+    target: str  # of others the file, links followed
+    is_regular: bool  # an ordinary file, which may be replaced, is there or will be
+
+
 def check_output(
     path: str | os.PathLike[str],
     *,
@@ -107,12 +115,36 @@ def check_output(
     inputs: Iterable[str | os.PathLike[str]] = (),
     makes_folder: bool = False,
     option: str = OUTPUT,
-) -> None:
-    """Find out before any work whether `open_output` would refuse an output."""
+) -> Place:
+    """Find out where an output goes, and refuse one that cannot be written: before any work, too."""
     name = os.fspath(path)
-    place = _checked_place(name, Rules(no_clobber, tuple(inputs), option), binary=binary)
-    if place.is_regular:
-        check_folder(name, os.path.dirname(place.target), makes_folder=makes_folder, option=option)
+    if name == STANDARD:
+        number, is_terminal = number_of(sys.stdout), sys.stdout.isatty()
+    else:
+        number = descriptor_of(name)
+        is_terminal = number is not None and os.isatty(number)
+    if binary and is_terminal:
+        raise terminal_error()
+    if number is not None:
+        with explained(name, option):
+            check_writable(number)
+    if number is not None or name == STANDARD:
+        return Place(number, name, False)
+    target, mode = followed(name, option), None
+    with suppress(OSError):
+        mode = os.stat(target).st_mode
+    if not name:
+        raise OutputError("the name of the output is empty: name a file")
+    if name.endswith(os.sep) or (mode is not None and stat.S_ISDIR(mode)):
+        raise OutputError(f"{name!r} is a directory: name a file in it")
+    if mode is not None and not stat.S_ISREG(mode):
+        return Place(None, target, False)
+    if mode is not None:
+        Rules(no_clobber, tuple(inputs), option).check(name, target)
+        if not os.access(target, os.W_OK):
+            raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with {option}")
+    check_folder(name, os.path.dirname(target), makes_folder=makes_folder, option=option)
+    return Place(None, target, True)
 
 
 def check_folder(name: str, folder: str, *, makes_folder: bool = False, option: str = OUTPUT) -> None:
@@ -145,43 +177,6 @@ def terminal_error() -> UsageError:
 def spoken(name: str) -> str:
     """Give what messages call an output."""
     return STANDARD_OUTPUT if name == STANDARD else name
-
-
-class _Place(NamedTuple):
-    """Where an output goes."""
-
-    descriptor: int | None  # that is open already
-    target: str  # of others the file, links followed
-    is_regular: bool  # an ordinary file, which may be replaced, is there or will be
-
-
-def _checked_place(name: str, rules: Rules, *, binary: bool) -> _Place:
-    """Find out where an output goes, and refuse one that cannot be written."""
-    if name == STANDARD:
-        number, is_terminal = number_of(sys.stdout), sys.stdout.isatty()
-    else:
-        number = descriptor_of(name)
-        is_terminal = number is not None and os.isatty(number)
-    if binary and is_terminal:
-        raise terminal_error()
-    if number is not None:
-        with explained(name, rules.option):
-            check_writable(number)
-    if number is not None or name == STANDARD:
-        return _Place(number, name, False)
-    target, mode = followed(name, rules.option), None
-    with suppress(OSError):
-        mode = os.stat(target).st_mode
-    if not name:
-        raise OutputError("the name of the output is empty: name a file")
-    if name.endswith(os.sep) or (mode is not None and stat.S_ISDIR(mode)):
-        raise OutputError(f"{name!r} is a directory: name a file in it")
-    if mode is None or not stat.S_ISREG(mode):
-        return _Place(None, target, mode is None)
-    rules.check(name, target)
-    if not os.access(target, os.W_OK):
-        raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with {rules.option}")
-    return _Place(None, target, True)
 
 
 def followed(name: str, option: str = OUTPUT) -> str:

@@ -52,7 +52,7 @@ class Source:
     @property
     def suffix(self) -> str:
         """Extension of the name in lower case, with its dot, that of gzip left out; empty for standard input."""
-        return suffix_of(without_gz(self.name))
+        return suffix_of(self.name.lower().removesuffix(".gz"))
 
 
 @frozen

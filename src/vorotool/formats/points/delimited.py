@@ -159,7 +159,7 @@ def _read_rows(layout: DelimitedText, options: ReadOptions) -> PointRows:
     labels = None if chosen.label is None else _labels(layout, values[:, axes])
     rest = [i for i in range(fields) if i not in chosen.used] if options.properties else []
     x, y = (layout.fields[column] if layout.header else "" for column in chosen.coordinates[:2])
-    properties = _properties(layout, rest, options.threads)
+    properties = _properties(layout, rest, options.threads) if rest else {}
     return PointRows(values[:, :axes], labels, properties, placed_by(x, y, has_crs=options.crs is not None))
 
 
@@ -175,8 +175,6 @@ def _labels(layout: DelimitedText, values: NDArray[np.float64]) -> NDArray[np.in
 
 
 def _properties(layout: DelimitedText, columns: list[int], threads: int) -> dict[str, list[str]]:
-    if not columns:
-        return {}
     try:
         layout.data.decode("utf-8")
     except UnicodeDecodeError as error:

@@ -276,6 +276,4 @@ def write_cells_arrays(out: BinaryIO, cells: CellSet, *, threads: int = 0) -> No
         "frame": np.array(cells.frame.sides),
         Y_AXIS: np.array([cells.y_axis]),
     }
-    table = rows_of(cells).table().stored()
-    columns = [Column.of(name, values) for name, values in table.items()]
-    write_npz(out, [*columns, *(Column.of(name, values) for name, values in arrays.items())], threads)
+    write_npz(out, {**rows_of(cells).table().stored(), **arrays}, threads)

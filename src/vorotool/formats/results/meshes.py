@@ -361,6 +361,4 @@ def _write_npz(out: BinaryIO, places: Floats, cells: SpaceCellSet, threads: int)
         "cell_faces": cells.cell_faces,
         "box": cells.box.reshape(-1),
     }
-    table = rows_of(cells).table().stored()
-    columns = [Column.of(name, values) for name, values in table.items()]
-    write_npz(out, [*columns, *(Column.of(name, values) for name, values in arrays.items())], threads)
+    write_npz(out, {**rows_of(cells).table().stored(), **arrays}, threads)

@@ -42,13 +42,20 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
     unit, stored = current_written().how.unit, table.stored()
     if unit is not None and stored:
         stored |= _unit_column(table, unit)
+    if fmt == "npz":
+        write_npz(out, stored, threads)
+        return
     columns = [Column.of(name, values) for name, values in stored.items()]
-    if fmt in ("csv", "tsv"):
-        _write_delimited(out, columns, fmt == "tsv", precision, threads)
-    elif fmt == "json":
-        _write_json(out, columns, precision, threads)
+    if fmt == "json":
+        out.write(b"[")
+        texts = [json_column(column, precision) for column in columns]
+        write_list_rows(out, texts, object_shape([*stored]), precision=precision, threads=threads)
+        out.write(b"]\n")
     else:
-        write_npz(out, columns, threads)
+        text = partial(_text_of, precision=precision, is_safe=current_written().how.is_safe)
+        write_rows(out, [Column(name, [text(name)]) for name in stored], by_tabs=fmt == "tsv")
+        texts = [column.mapped(text) for column in columns]
+        write_rows(out, texts, by_tabs=fmt == "tsv", precision=precision, threads=threads)
 
 
 # ---- units ---------------------------------------------------------------------------------------
@@ -72,13 +79,6 @@ def safe_text(text: str) -> str:
     return f"'{text}" if re.match(_FORMULA, text) and not re.fullmatch(_NUMBER, text) else text
 
 
-def _write_delimited(out: BinaryIO, columns: list[Column], by_tabs: bool, precision: int | None, threads: int) -> None:
-    text = partial(_text_of, precision=precision, is_safe=current_written().how.is_safe)
-    write_rows(out, [Column(column.name, [text(column.name)]) for column in columns], by_tabs=by_tabs)
-    texts = [column.mapped(text) for column in columns]
-    write_rows(out, texts, by_tabs=by_tabs, precision=precision, threads=threads)
-
-
 def _text_of(value: Any, precision: int | None, *, is_safe: bool = False) -> str:
     """Text of a mixed column: numbers as in other columns, lists and objects as JSON."""
     if isinstance(value, str):
@@ -93,20 +93,10 @@ def _text_of(value: Any, precision: int | None, *, is_safe: bool = False) -> str
 
 
 # ---- JSON ----------------------------------------------------------------------------------------
-def _write_json(out: BinaryIO, columns: list[Column], precision: int | None, threads: int) -> None:
-    shape = object_shape([column.name for column in columns])
-    out.write(b"[")
-    texts = [json_column(column, precision) for column in columns]
-    write_list_rows(out, texts, shape, precision=precision, threads=threads)
-    out.write(b"]\n")
-
-
 def object_shape(names: list[str], before: str = "", after: str = "") -> RowShape:
     """Shape of rows that are JSON objects with these members, within further text."""
-    openings = [f"{json_text(name)}:" for name in names]
-    return RowShape(
-        (f"{before}{{{openings[0]}", *(f",{opening}" for opening in openings[1:]), f"}}{after}"), ",\n", "null"
-    )
+    around = [*(f"{',' if number else ''}{json_text(name)}:" for number, name in enumerate(names)), f"}}{after}"]
+    return RowShape((f"{before}{{{around[0]}", *around[1:]), ",\n", "null")
 
 
 def json_column(column: Column, precision: int | None = None) -> Column:
@@ -160,10 +150,10 @@ def _archive(out: BinaryIO) -> zipfile.ZipFile:
     return zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED)  # type: ignore[call-overload]
 
 
-def write_npz(out: BinaryIO, columns: list[Column], threads: int) -> None:
+def write_npz(out: BinaryIO, columns: Mapping[str, Any], threads: int) -> None:
     """Write one array a column, of any lengths."""
     with _archive(out) as archive:
-        for column in columns:
+        for column in [Column.of(name, values) for name, values in columns.items()]:
             _write_array(archive, column.name, _npz_values(column), threads)
             if column.missing is not None:
                 _write_array(archive, f"{column.name}_missing", column.missing, threads)
