@@ -40,9 +40,11 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
         run.stats |= unit_stats(asked)
         return o
     is_spacing = asked is not None and asked.is_spacing
-    if not is_spacing and not o.scale_bar and not shows_units(given.targets):
-        if grid is not None and grid.is_size and not grid.is_square and o.takes_spacing:
+    is_plain = not is_spacing and not o.scale_bar and not shows_units(given.targets)
+    if grid is not None and grid.is_size and o.takes_spacing and not is_spacing:
+        if "distance" in o.what if grid.is_square else is_plain:
             run.note(_note_of_size(given, grid, o, "distances"))
+    if is_plain:
         return o
     if grid is not None and grid.transform is not None:
         size = _on_map(run, given, grid, o)
@@ -88,9 +90,11 @@ def spacing_of(grid: PixelGrid | VoxelGrid, sides: tuple[Fraction, ...], what: s
 
 
 def _note_of_size(given: JobInput, grid: PixelGrid, o: Options, what: str = "results") -> str:
+    measure = "; --spacing auto measures with these sides" if o.takes_spacing else ""
+    if grid.is_square and what == "distances":
+        return f"{given.name} states a pixel size of {grid.size_text()}: {what} are in pixels{measure}"
     if grid.is_square:
         return f"{given.name} states a pixel size of {grid.size_text()}: --pixel-size auto uses it"
-    measure = "; --spacing auto measures with these sides" if o.takes_spacing else ""
     return f"{given.name} has pixels of {grid.size_text()}, which are not squares: {what} are in pixels{measure}"
 
 

@@ -221,9 +221,10 @@ def check_units(o: Options, targets: Sequence[Target]) -> None:
     """Refuse a size of pixels that nothing shows, and no length is measured by."""
     if o.unit is None or o.unit.is_spacing or o.measured:
         return
-    of_map = o.is_laid_out and any(each.what.startswith("distance") for each in targets)
-    if not shows_units(targets) and not o.scale_bar and not of_map:
-        raise UsageError("--pixel-size applies to tables and vectors: use --what table, or leave it out")
+    is_distance = any(each.what.startswith("distance") for each in targets)
+    if not shows_units(targets) and not o.scale_bar and not (is_distance and o.is_laid_out):
+        instead = "--spacing, by which distances are measured" if is_distance else "--what table"
+        raise UsageError(f"--pixel-size applies to tables and vectors: use {instead}, or leave it out")
 
 
 def in_units(size: PixelSize | None, value: Value) -> Value:

@@ -270,3 +270,17 @@ def test_many_images_of_maps(run, tmp_path):
     assert about(tmp_path / "out" / "b.tif")[:2] == about(tmp_path / "in" / "b.tif")[:2]
     write_map(tmp_path / "in" / "c.tif", MASK, crs="EPSG:3857")
     run("tessellate in --table all.csv -q", code=3, says=["EPSG:2056", "in/a.tif", "EPSG:3857", "in/c.tif"])
+
+
+def test_distances_in_pixels_are_said_to_be(run, tmp_path):
+    write_map(tmp_path / "map.tif", MASK, NORTH_UP, "EPSG:2056")
+    made = run(f"tessellate {tmp_path}/map.tif --what distance -o {tmp_path}/a.tif")
+    assert "25 m: distances are in pixels; --spacing auto" in made.err
+    run(
+        f"tessellate {tmp_path}/map.tif --what distance --pixel-size auto -o {tmp_path}/a.tif",
+        code=2,
+        says="--spacing,",
+    )
+    assert not run(f"tessellate {tmp_path}/map.tif --what distance --spacing auto -o {tmp_path}/b.tif").err
+    pixels, meters = (tifffile.imread(tmp_path / name) for name in ("a.tif", "b.tif"))
+    np.testing.assert_allclose(meters, 25 * pixels, rtol=1e-6)
