@@ -41,9 +41,9 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
         return o
     is_spacing = asked is not None and asked.is_spacing
     is_plain = not is_spacing and not o.scale_bar and not shows_units(given.targets)
-    if grid is not None and grid.is_size and o.takes_spacing and not is_spacing:
-        if "distance" in o.what if grid.is_square else is_plain:
-            run.note(_note_of_size(given, grid, o, "distances"))
+    measured = grid if o.takes_spacing and not is_spacing else None
+    if measured is not None and measured.is_size and ("distance" in o.what if measured.is_square else is_plain):
+        run.note(_note_of_size(given, measured, o, "distances"))
     if is_plain:
         return o
     if grid is not None and grid.transform is not None:

@@ -68,7 +68,8 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
         values = gray > whole_threshold(gray, number)
     elif raster.is_color:
         made = mask_options(gray_values(raster))
-        raise InputError(f"a color image is neither a mask nor a label image: use {_THRESHOLD} or {made}")
+        channels = f"({raster.values.shape[2]} channels)"
+        raise InputError(f"a color image {channels} is neither a mask nor a label image: use {_THRESHOLD} or {made}")
     elif raster.is_lossy and not is_flat(values[values != values.min()]):
         raise InputError(
             f"the file has lossy compression, such as JPEG, so its values are not labels; use {_THRESHOLD} or "
