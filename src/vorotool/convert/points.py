@@ -51,6 +51,8 @@ def as_place(source: Any, name: str) -> tuple[float, float]:
 
 
 def _points_of(source: Any, name: str, shapes: str) -> PointSet:
+    if isinstance(source, np.ndarray) and source.dtype.names is None and source.dtype.kind not in "OU":
+        return PointSet(_checked(source, name, shapes))
     if is_of(source, "SeedSet"):
         labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
         frame = None if source.frame is None else source.frame.box
@@ -61,8 +63,6 @@ def _points_of(source: Any, name: str, shapes: str) -> PointSet:
         raise unexpected(source, f"points; for an image use vorotool.seeds_from_raster({name})")
     refuse_paths(source)
     source = items_of(source)
-    if isinstance(source, np.ndarray) and source.dtype.names is None and source.dtype.kind not in "OU":
-        return PointSet(_checked(source, name, shapes))
     held = held_features(source)
     if held is not None:
         points = _points_of_features(held)
@@ -76,6 +76,8 @@ def _points_of(source: Any, name: str, shapes: str) -> PointSet:
 # ---- arrays ----------------------------------------------------------------------------------------
 def _checked(source: Any, name: str, shapes: str) -> NDArray[Any]:
     """Give an array of numbers whose shape is that of points, or say what to give."""
+    if type(source) is np.ndarray and source.dtype.kind in "iuf" and source.ndim == 2 and source.shape[1] == 2:
+        return source
     others = "a data frame with columns x, y, or points of shapely, geopandas, GeoJSON or WKT"
     expected = f"an {shapes} array of numbers, {others}"
     if isinstance(source, Mapping | str | bytes) or not (isinstance(source, Iterable) or hasattr(source, "__array__")):

@@ -32,6 +32,8 @@ Flatten: TypeAlias = float | Literal["auto"] | None
 
 def real_number(value: Any, name: str) -> float | Fraction:
     """Return a number exactly: as a double where that is what it is or where it equals one, else as a fraction."""
+    if type(value) is float and not isnan(value):
+        return value
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
     if isinstance(value, np.generic):

@@ -52,13 +52,15 @@ class Declared(NamedTuple):
         """Check a field and return it as it is kept; lengths that its axes name are noted in `sizes`."""
         if given is None and self.is_optional:
             return None
+        if self.shape and self.dtype is not None:
+            return self._settle_array(given, name, sizes)
         if self.meaning is Meaning.AXIS:
             return given if isinstance(given, str) and given in AXES else checked_y_axis(given, name)
-        if self.meaning is Meaning.VALUE:
-            self._measure(self.shape, (len(given),) if self.shape else (), name, sizes)
-            return given
-        if not self.shape:
-            return given
+        if self.shape:
+            self._measure(self.shape, (len(given),), name, sizes)
+        return given
+
+    def _settle_array(self, given: Any, name: str, sizes: dict[Axis, int]) -> NDArray[Any]:
         array = np.ascontiguousarray(given, dtype=self.dtype)
         widths = self.shape[1:]
         if array.size == 0 and self.rows_of is None and all(isinstance(width, int) for width in widths):
@@ -75,12 +77,14 @@ class Declared(NamedTuple):
 
     def _measure(self, shape: tuple[Axis, ...], found: tuple[int, ...], name: str, sizes: dict[Axis, int]) -> None:
         """Compare a shape with the declared one; the first field that has a named axis says how long it is."""
-        pairs = zip(shape, found, strict=False)
-        known = [axis if isinstance(axis, int) else sizes.get(axis, size) for axis, size in pairs]
-        if len(shape) != len(found) or known != list(found):
+        fits = len(shape) == len(found)
+        for axis, size in zip(shape, found, strict=False):
+            fits = fits and size == (axis if axis.__class__ is int else sizes.get(axis, size))
+        if not fits:
             wanted = tuple(axis if isinstance(axis, int) else sizes.get(axis, axis) for axis in shape)
             raise InputError(f"{name} must have shape {_text(wanted)}, but has shape {_text(found)}")
-        sizes.update(zip(shape, found, strict=True))
+        for axis, size in zip(shape, found, strict=True):
+            sizes[axis] = size
 
     def _check_starts(self, starts: NDArray[Any], name: str, sizes: dict[Axis, int]) -> None:
         """Check starts of rows: 0 first, the number of items last."""

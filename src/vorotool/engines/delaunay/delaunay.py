@@ -128,6 +128,8 @@ def _point_set(points: Any) -> PointSet:
 
 def is_of_space(points: Any) -> bool:
     """Tell whether points have three coordinates: by their type, or as arrays and lists of triples."""
+    if type(points) is np.ndarray:
+        return points.ndim == 2 and points.shape[1] == 3 and points.dtype.kind in "iuf"
     if is_of(points, "PointSet", "SeedSet", "Triangulation", "AlphaComplex"):
         return False
     if is_of(points, "VolumePoints", "VolumeSeeds", "Tetrahedralization", "SpaceAlphaComplex"):
