@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranks_of, starts_of, within
+from vorotool.types.polygons.planar_graph import off_lattice
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
 from vorotool.types.skeleton.segment_voronoi import SiteTable
@@ -133,7 +134,7 @@ def _all_polygons(whole: FeatureShapes, parts: Sequence[BatchShapes], source: In
     if not any(whole.repairs.values()):
         if not placement.largest_move:
             return used
-        return used.moved(np.asarray(placement.origin) + whole.scale * placement.vertices.astype(np.float64))
+        return used.moved(off_lattice(placement.vertices.astype(np.float64), placement.origin, whole.scale))
     placed = [shapes.placed.polygons for shapes in parts]
     arrays, _, vertices = RingArrays.joined([RingArrays.of(polygons) for polygons in placed]).taken(order)
     made = arrays.polygons(used, source)

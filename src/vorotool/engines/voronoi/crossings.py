@@ -55,8 +55,9 @@ def crossings_between(
 ) -> Crossings:
     """Find where pieces of borders meet cut edges, given pairs of these: rows of the pieces, and edges."""
     count = len(borders.places)
-    stops, anchors = _stops_at_corners(borders.ends[pieces], curves, edges, pairs, (drawn, count))
-    row, at, t = _roots(curves, edges, pairs, anchors)
+    own = curves[pairs[0]]
+    stops, anchors = _stops_at_corners(borders.ends[pieces], own, edges, pairs, (drawn, count))
+    row, at, t = _roots(own, edges, pairs, anchors)
     place = curves[row].place(t)
     inner = edges.along(at, place)
     beyond = edges.at_ends(at, inner)
@@ -154,44 +155,46 @@ def _boxes(edges: CutEdges, region: Indices) -> tuple[Floats, Floats]:
 
 def _stops_at_corners(
     ends: Indices,
-    curves: CutCurves,
+    curves: CutCurves,  # of the pairs
     edges: CutEdges,
     pairs: Pairs,
     known: tuple[Drawn, int],
 ) -> tuple[tuple[Indices, Indices, Floats], tuple[Indices, Floats]]:
     """Where pieces pass through ends of cut edges, and for pairs where they are known to meet: number, parameter."""
     (row, cut), (drawn, count) = pairs, known
-    own = np.where(ends >= 0, drawn.node[ends], -1)
+    own = np.where(ends >= 0, drawn.node[ends], -1)[row]
     low, high = np.minimum(curves.first, curves.last), np.maximum(curves.first, curves.last)
     anchors: list[tuple[Indices, Floats]] = []
     stops: list[tuple[Indices, Indices, Floats]] = []
     for end, t in ((0, curves.first), (1, curves.last)):
-        at = own[row, end]
+        at = own[:, end]
         on_edge = (at >= 0) & (drawn.edge[at] == cut)
         is_corner = (at[:, None] == count + edges.ends[cut]).any(axis=1)
         hit = np.flatnonzero(on_edge | is_corner)
-        anchors.append((hit, t[row[hit]]))
+        anchors.append((hit, t[hit]))
     for end in (0, 1):
-        t, miss = curves[row].nearest(edges.lines[cut, end])
+        t, miss = curves.nearest(edges.lines[cut, end])
         at = count + edges.ends[cut, end]
-        is_own = (own[row] == at[:, None]).any(axis=1)
-        hit = np.flatnonzero((miss <= edges.end_slack[cut, end]) & (t > low[row]) & (t < high[row]) & ~is_own)
+        is_own = (own == at[:, None]).any(axis=1)
+        hit = np.flatnonzero((miss <= edges.end_slack[cut, end]) & (t > low) & (t < high) & ~is_own)
         anchors.append((hit, t[hit]))
         stops.append((row[hit], at[hit], t[hit]))
     found = tuple(np.concatenate(each) for each in zip(*stops, strict=True))
-    _, first = np.unique(np.stack(found[:2], axis=1), axis=0, return_index=True)
+    order = np.lexsort((found[1], found[0]))
+    is_new = np.ones(len(order), dtype=bool)
+    is_new[1:] = (found[0][order[1:]] != found[0][order[:-1]]) | (found[1][order[1:]] != found[1][order[:-1]])
+    first = order[is_new]
     joined = tuple(np.concatenate(each) for each in zip(*anchors, strict=True))
     return tuple(each[first] for each in found), joined  # type: ignore[return-value]
 
 
 def _roots(
-    curves: CutCurves, edges: CutEdges, pairs: Pairs, anchors: tuple[Indices, Floats]
+    own: CutCurves, edges: CutEdges, pairs: Pairs, anchors: tuple[Indices, Floats]
 ) -> tuple[Indices, Indices, Floats]:
-    """Where else pieces meet edges: rows, edges and parameters."""
+    """Where else pieces meet edges, given the curves of the pairs: rows, edges and parameters."""
     row, cut = pairs
     if not len(row):
         return row, cut, np.empty(0)
-    own = curves[row]
     roots = own.meets(edges.lines[cut, 0], edges.normal[cut], edges.slack[cut])
     order = np.argsort(anchors[0], kind="stable")
     pair, t = anchors[0][order], anchors[1][order]

@@ -334,22 +334,24 @@ class FrameBox:
 
     def is_inside(self, places: Floats) -> NDArray[np.bool_]:
         """(n,) whether places in input units are strictly inside."""
-        return _all_of(places > self.low) & _all_of(places < self.high)
+        return _are_within(places, self.low, self.high)
 
     def side_of(self, places: Floats, rounded: Floats, is_site: NDArray[np.bool_], slack: Floats) -> Indices:
         """(n,) the side that places are at: nearly on the lattice, sites exactly in input units; -1 of others."""
-        hits = []
-        for number in range(SIDES):
+        hits = np.empty((SIDES, len(places)), dtype=bool)
+        is_free = ~is_site
+        for number, hit in enumerate(hits):
             axis = 1 - number % 2
             near = np.abs(rounded[:, axis] - self.on_lattice[number, axis]) <= slack[number]
-            hits.append((near & ~is_site) | (places[:, axis] == self.corners[number, axis]))
-        bottom, right, top, left = hits
+            np.logical_or(near & is_free, places[:, axis] == self.corners[number, axis], out=hit)
         side = np.full(len(places), -1, dtype=np.int64)
+        at = np.flatnonzero(hits.any(axis=0))
+        bottom, right, top, left = hits[:, at]
         for number, hit in enumerate((bottom & ~right, right & ~top, top & ~left, left & ~bottom)):
-            side[hit] = number
-        (x, y), (low_x, low_y), (high_x, high_y) = places.T, self.low, self.high
+            side[at[hit]] = number
+        (x, y), (low_x, low_y), (high_x, high_y) = places[at].T, self.low, self.high
         is_out = ((x < low_x) & ~left) | ((x > high_x) & ~right) | ((y < low_y) & ~bottom) | ((y > high_y) & ~top)
-        side[is_out] = -1
+        side[at[is_out]] = -1
         return side
 
 
@@ -450,8 +452,10 @@ def _states(borders: Borders, places: Floats, graph: PlanarGraph, control: Float
         a, b, c = corners
         low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
         _extend_to_circles(low, high, graph.coordinates(borders.center[some]), borders.level * graph.scale)
-        is_within = is_finite & _all_of(low >= box.low) & _all_of(high <= box.high)
-        is_off = is_finite & ~(_all_of(low < box.high) & _all_of(high > box.low))
+        (low_x, low_y), (high_x, high_y) = low.T, high.T
+        (left, bottom), (right, top) = box.low, box.high
+        is_within = is_finite & (low_x >= left) & (low_y >= bottom) & (high_x <= right) & (high_y <= top)
+        is_off = is_finite & ~((low_x < right) & (low_y < top) & (high_x > left) & (high_y > bottom))
         state[some] = np.where(is_off, _OFF, np.where(is_within, _WITHIN, _CROSSING))
     return state
 
@@ -460,6 +464,13 @@ def _extend_to_circles(low: Floats, high: Floats, center: Floats, radius: float)
     """Add what circular arcs, counter-clockwise and of at most half a circle, reach beyond their ends."""
     arc = np.flatnonzero(~np.isnan(center[:, 0]))
     low[arc], high[arc] = np.minimum(low[arc], center[arc] - radius), np.maximum(high[arc], center[arc] + radius)
+
+
+def _are_within(places: Floats, low: Floats, high: Floats) -> NDArray[np.bool_]:
+    """(n,) whether places are between two corners, and not on a side: NumPy is slow along short rows."""
+    x, y = places.T
+    is_within: NDArray[np.bool_] = (x > low[0]) & (y > low[1]) & (x < high[0]) & (y < high[1])
+    return is_within
 
 
 def _all_of(pairs: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -95,7 +95,8 @@ def graph_of_sites(given: PolygonSet, placement: Placement, *, progress: Progres
     is_empty = ~given.is_line
     is_empty[made.graph.face_polygon] = False
     found["idle_segments"] = _with_hidden_spikes(found["idle_segments"], made.graph, is_empty)
-    report_repairs(given, found, is_empty | _lacking(made.graph), made.graph.scale, strict=False)
+    if any(count for count, _, _ in found.values()):
+        report_repairs(given, found, is_empty | _lacking(made.graph), made.graph.scale, strict=False)
     report_small(given, placement, strict=False)
     if is_empty.any():
         given, taken = _as_lines(given, is_empty)
@@ -107,7 +108,7 @@ def _with_hidden_spikes(
     found: tuple[int, int, int], graph: PlanarGraph, is_empty: NDArray[np.bool_]
 ) -> tuple[int, int, int]:
     """Count segments that bound nothing of their polygon among those that are there, since others lie on them, too."""
-    if not len(graph):
+    if _are_of_single_edges(graph):
         return found
     is_part, polygon = _bounding_sources(graph)
     hidden = np.flatnonzero(~is_part & ~is_empty[polygon])
@@ -178,9 +179,8 @@ def _bounding_sources(graph: PlanarGraph) -> tuple[NDArray[np.bool_], NDArray[np
     ring = owners(np.diff(given.ring_starts))[graph.source_edge]
     polygon = given.ring_polygon[ring]
     is_part = np.ones(len(ring), dtype=bool)
-    several = graph.source_count > 1
-    doubtful = np.flatnonzero(np.repeat(several, graph.source_count))
-    if doubtful.size:
+    if not _are_of_single_edges(graph):
+        doubtful = np.flatnonzero(np.repeat(graph.source_count > 1, graph.source_count))
         is_thin = np.equal(given.ring_kind, LINE) | flat_holes(given, vertices)
         doubtful = doubtful[~is_thin[ring[doubtful]]]
         segment = np.repeat(np.arange(len(graph)), graph.source_count)[doubtful]
@@ -189,6 +189,11 @@ def _bounding_sources(graph: PlanarGraph) -> tuple[NDArray[np.bool_], NDArray[np
         left, right = (face.astype(np.int64) * polygons + polygon[doubtful] for face in graph.segment_faces[segment].T)
         is_part[doubtful] = np.isin(left, inside) | np.isin(right, inside)
     return is_part, polygon
+
+
+def _are_of_single_edges(graph: PlanarGraph) -> bool:
+    """Whether no segment is a part of two edges: each then bounds the polygon of its edge."""
+    return len(graph.source_edge) == len(graph)
 
 
 def _lone_places(graph: PlanarGraph) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
@@ -203,9 +208,11 @@ def _lone_places(graph: PlanarGraph) -> tuple[NDArray[np.int64], NDArray[np.int3
 def rings_at_one_place(graph: PlanarGraph) -> Indices:
     """Find the rings of which all vertices are at one place of the lattice."""
     given, vertices = given_shapes(graph)
-    sizes = np.diff(given.ring_starts)
-    is_other = (vertices != np.repeat(vertices[given.ring_starts[:-1]], sizes, axis=0)).any(axis=1)
-    return np.flatnonzero(np.bincount(owners(sizes)[is_other], minlength=len(sizes)) == 0)
+    first, sizes = given.ring_starts[:-1], np.diff(given.ring_starts)
+    ring = np.flatnonzero((vertices[first] == vertices[first + sizes // 2]).all(axis=1))
+    first, sizes = first[ring], sizes[ring]
+    is_other = (vertices[ranges(first, sizes)] != np.repeat(vertices[first], sizes, axis=0)).any(axis=1)
+    return ring[np.bincount(owners(sizes)[is_other], minlength=len(sizes)) == 0]
 
 
 def diagram_of(owned: OwnedGraph, *, is_whole: bool = False, **run: Unpack[Run]) -> SegmentVoronoiDiagram:

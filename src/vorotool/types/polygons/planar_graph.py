@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vorotool import _core
 from vorotool.errors import InputError
 from vorotool.numeric.arrays import Floats, owners
-from vorotool.numeric.numbers import rows_of
 from vorotool.types import fields as f
 from vorotool.types.features import Corners, Rows
 from vorotool.types.fields import record
@@ -160,7 +160,7 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
             Lattice coordinates, which need not be whole.
         """
         lattice = np.asarray(self.points if points is None else points, dtype=np.float64)
-        return np.asarray(self.origin) + self.scale * lattice
+        return off_lattice(lattice, self.origin, self.scale)
 
     @cached_property
     def coordinates_as_given(self) -> NDArray[np.float64]:
@@ -176,14 +176,19 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
         made = self.coordinates(places)
         if not self.largest_move:
             return made
-        whole = np.flatnonzero((np.abs(places) < _FAR).all(axis=1) & (places == np.rint(places)).all(axis=1))
+        x, y = places.T
+        whole = np.flatnonzero((np.abs(x) < _FAR) & (np.abs(y) < _FAR) & (x == np.rint(x)) & (y == np.rint(y)))
         point = self.points_at(places[whole])
         made[whole[point >= 0]] = self.coordinates_as_given[point[point >= 0]]
         return made
 
     def points_at(self, places: NDArray[Any]) -> NDArray[np.int64]:
         """(k,) the point at each place of the lattice; -1 where there is none."""
-        return rows_of(packed(self.points), packed(places))
+        if not len(places):
+            return np.empty(0, dtype=np.int64)
+        count, both = len(self.points), np.concatenate([self.points, places.astype(np.int32)])
+        first = _core.arrangement.first_at_place(both, None)[count:].astype(np.int64)
+        return np.where(first < count, first, -1)
 
     def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
         (a, b), (left, right) = np.ascontiguousarray(self.segments.T), np.ascontiguousarray(self.segment_faces.T)
@@ -193,6 +198,14 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "point"), counted(len(self), "segment"), counted(self.faces, "face"))
         return ", ".join(sizes)
+
+
+def off_lattice(places: Floats, origin: tuple[float, float], scale: float) -> Floats:
+    """(..., 2) coordinates of places on a lattice, each rounded once."""
+    made = scale * places
+    for axis, start in enumerate(origin):  # NumPy goes down a column much faster than over many short rows
+        made[..., axis] += start
+    return made
 
 
 def packed(places: NDArray[Any]) -> NDArray[np.int64]:
