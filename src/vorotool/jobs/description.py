@@ -252,18 +252,13 @@ def _of_image(value: Raster, note: Callable[[str], None]) -> Description:
         objects = foreground_values(value, None, invert=False)
         told["kind"] = {"components": "mask", "labels": "label image"}[default_objects(objects, note=note)]
         told["foreground_pixels"] = int(np.count_nonzero(objects))
-        told["objects"] = _count_of_objects(objects, told["kind"])
+        is_mask = told["kind"] == "mask"
+        told["objects"] = int(numbered_components(objects).max() if is_mask else np.count_nonzero(np.unique(objects)))
     except InputError as error:  # what it says is what there is to know of a picture
         note(error.typed)
         told["kind"] = "picture"
         commands.remove("draw")
     return {**told, "commands": commands}
-
-
-def _count_of_objects(values: NDArray[Any], kind: str) -> int:
-    if kind == "mask":
-        return int(numbered_components(values).max())
-    return int(np.count_nonzero(np.unique(values)))
 
 
 def _of_pixels(width: int, height: int, kind: Any, grid: PixelGrid | None) -> Description:

@@ -12,7 +12,7 @@ from vorotool.errors import InputError
 from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
-from vorotool.jobs.picture_world import world_of_polygons
+from vorotool.jobs.picture_world import bounds_of, world_of_polygons
 from vorotool.jobs.pixel_sizes import unit_of_vectors
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import in_first_unit
@@ -37,7 +37,8 @@ class DistanceProducts(Results):
                 b = self._read(other)
             a, b = self._in_one_system((given, a), (other, b))
         self.found = self._measured(a, b)
-        self.world = world_of_polygons(run, options, _both(a, b), is_cut=False)
+        bounds = bounds_of(np.concatenate([a.xy, b.xy]))
+        self.world = world_of_polygons(run, options, replace(a, frame=None), bounds=bounds, is_cut=False)
 
     def _read(self, given: JobInput) -> PolygonSet:
         with opened_input(self.options, given, "sites") as source:
@@ -118,13 +119,3 @@ class DistanceProducts(Results):
             "smallest": rows[SMALLEST].distance if SMALLEST in rows else None,
             "threads": self.options.threads,
         }
-
-
-def _both(a: PolygonSet, b: PolygonSet) -> PolygonSet:
-    """The vertices of both, for where they lie."""
-    from vorotool.types.polygons.polygon_set import LINE, PolygonSet
-
-    xy = np.concatenate([a.xy, b.xy])
-    count = int(len(xy) > 0)
-    rings = (np.array([0, len(xy)][: count + 1]), np.full(count, LINE, np.int8), np.zeros(count, np.int32))
-    return PolygonSet(xy, *rings, y_axis=a.y_axis, crs=a.crs, unit=a.unit, page=a.page, is_drawing=a.is_drawing)

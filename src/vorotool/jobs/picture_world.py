@@ -66,7 +66,7 @@ def world_of_sites(run: Run, o: Options, mesh: AnyTriangulation, sites: PointSet
     box = None if frame is None else frame.box
     if box is not None and o.pixel_size is not None and o.pixel_size.sides is not None:
         box = box.stretched(o.pixel_size.sides.x, o.pixel_size.sides.y)
-    made = world_of(run, o, crs=mesh.crs, bounds=_bounds_of(mesh.points), frame=box, size=o.pixel_size)
+    made = world_of(run, o, crs=mesh.crs, bounds=bounds_of(mesh.points), frame=box, size=o.pixel_size)
     asked = _asked(o)
     return made if asked is None else made._replace(frame=asked, page=asked)
 
@@ -86,7 +86,7 @@ def world_of_polygons(
         o,
         crs=polygons.crs,
         unit=polygons.unit,
-        bounds=bounds or _bounds_of(polygons.xy),
+        bounds=bounds or bounds_of(polygons.xy),
         frame=polygons.frame,
         size=size,
         is_paper=o.width is None and polygons.is_drawing,
@@ -118,7 +118,7 @@ def world_of_value(run: Run, o: Options, value: Any) -> World:
         bounds = extent_sides(value.frame) if is_map else None
         return world_of_polygons(run, o, inner.polygons if is_map else inner, bounds=bounds)._replace(frame=None)
     points = inner.sites if is_of(inner, "CellSet") else inner.points
-    return world_of(run, o, crs=inner.crs, bounds=_bounds_of(points))
+    return world_of(run, o, crs=inner.crs, bounds=bounds_of(points))
 
 
 def _size_of(image: LabelImage) -> PixelSize | None:
@@ -132,7 +132,8 @@ def _size_of(image: LabelImage) -> PixelSize | None:
     return PixelSize(grid.width, grid.unit) if grid is not None and grid.is_size and grid.is_square else None
 
 
-def _bounds_of(points: NDArray[np.float64]) -> Sides:
+def bounds_of(points: NDArray[np.float64]) -> Sides:
+    """Give the bounds of places, of none those of the origin."""
     from vorotool.types.box import bounds
 
     if not len(points):

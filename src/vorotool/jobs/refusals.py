@@ -64,7 +64,9 @@ def check_options(o: Options, targets: Sequence[Target]) -> None:
                 first, second = _words(o, these[0]), _words(o, others[0])
                 raise UsageError(f"{second} cannot be combined with {first}: {rule.why}; {rule.instead}")
             if these and not others and rules is NEEDING:
-                needed = " or ".join(_needed(o, each) for each in rule.others.split() if not each.startswith("?"))
+                possible = [each for each in rule.others.split() if not each.startswith("?")]
+                words = [f"{_words(o, each)} {rows[each].metavar if each in rows else ''}" for each in possible]
+                needed = " or ".join(each.rstrip() for each in words)
                 what = o.command if these[0] == "inputs" else _words(o, these[0])
                 raise UsageError(f"{what} needs {needed}" + (f": {rule.why}" if rule.why else ""))
     for name, row in given.items():
@@ -78,12 +80,6 @@ def check_options(o: Options, targets: Sequence[Target]) -> None:
         _check_layers(o, targets)
     if COMMANDS[o.command].check:
         resolved(COMMANDS[o.command].check)(o, targets)
-
-
-def _needed(o: Options, condition: str) -> str:
-    """Write a condition that is to be met, with what stands for the value."""
-    row = options_of(o.command).get(condition)
-    return f"{_words(o, condition)} {'' if row is None else row.metavar}".rstrip()
 
 
 def _kinds_of(o: Options, target: Target) -> set[str]:
