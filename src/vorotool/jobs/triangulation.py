@@ -181,9 +181,9 @@ class MeshProducts(Results):
 
     def drawing(self, what: str, fmt: str) -> Drawing:
         """Prepare a picture: of the frame of cells, where it has any."""
+        from vorotool.render.canvas.layers import page_of
         from vorotool.render.drawing import drawing_of
         from vorotool.render.layers.mesh import OF_CELLS
-        from vorotool.render.layers.pages import page_of
 
         product, wanted, cells, page = self.products[what], self.wanted, None, None
         if set(OF_CELLS) & set(wanted.shown(product.usual_layers)):

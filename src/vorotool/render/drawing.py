@@ -146,14 +146,14 @@ def drawing_of(
     **more: Any,
 ) -> Drawing:
     """Prepare the picture of a value: on its own page, with more that its layers show."""
-    from vorotool.render.canvas.layers import ImagePage
+    from vorotool.render.canvas.layers import ImagePage, page_of
 
     is_own = not product.types or is_of(value, *product.types)
     place = product.drawn_by if is_own else next(each.drawn_by for each in parts_of(value).values() if each.drawn_by)
     if page is None and wanted.backdrop is not None:
         page = ImagePage(wanted.backdrop)
     elif page is None:
-        page = resolved("render.layers.pages:page_of")(value, width=wanted.width)
+        page = page_of(value, width=wanted.width)
     page = styled_page(page, wanted.looks, wanted.world, fmt)
     layers_of = partial(resolved(f"{place}_layers"), page=page, layers=wanted.shown(product.usual_layers), **more)
     return Drawing(page, value, layers_of, wanted.threads)

@@ -29,7 +29,7 @@ from vorotool import (
     voronoi_cells,
 )
 from vorotool.formats.images.png_writer import write_png
-from vorotool.render.canvas.layers import Arcs, Curves, Lines, Page, Polygons
+from vorotool.render.canvas.layers import Arcs, Curves, Lines, Page, Polygons, page_of
 from vorotool.render.canvas.png import layer_bands
 from vorotool.render.canvas.svg import write_layers_svg
 from vorotool.render.layers.mesh import (
@@ -38,7 +38,6 @@ from vorotool.render.layers.mesh import (
     cell_polygons,
     mesh_layers,
 )
-from vorotool.render.layers.pages import page_of
 from vorotool.render.layers.skeleton import diagram_layers, skeleton_layers
 from vorotool.render.pages.plots import CURVES, write_curves_svg
 from vorotool.types.fields import with_y_axis

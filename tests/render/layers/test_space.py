@@ -8,7 +8,7 @@ import shapely
 
 import vorotool
 from support.documents import ROOT
-from vorotool.render.layers.pages import page_of
+from vorotool.render.canvas.layers import page_of
 from vorotool.render.layers.space import seen, space_layers, surface_layers
 
 RNG = np.random.default_rng(3)

@@ -17,10 +17,9 @@ from support.oracles.voronoi_oracle import quietly
 from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool import UsageError, voronoi
-from vorotool.render.canvas.layers import CurvedPolygons, Curves, Texts
+from vorotool.render.canvas.layers import CurvedPolygons, Curves, Texts, page_of
 from vorotool.render.canvas.styles import cell_color
 from vorotool.render.canvas.svg import write_layers_svg
-from vorotool.render.layers.pages import page_of
 from vorotool.render.layers.voronoi import map_colors, voronoi_layers
 
 SVG = "{http://www.w3.org/2000/svg}"

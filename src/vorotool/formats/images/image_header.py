@@ -53,7 +53,6 @@ def image_header(name: str) -> ImageHeader:
 
 
 def _of_tiff(name: str) -> ImageHeader:
-
     with opened_tiff(name, str(Path(name).absolute())) as file:
         page = page_of(file, name, 0)
         with decoding(name, "TIFF"):

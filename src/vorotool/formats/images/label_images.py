@@ -58,7 +58,7 @@ def write_label_image(
     elif fmt == "npy":
         resolved("formats.io.arrays:write_npy")(out, bands, shape, dtype=kind)
     elif fmt == "text":
-        resolved("formats.images.label_images:write_label_text")(out, bands, shape, largest_label=largest_label)
+        write_label_text(out, bands, shape, largest_label=largest_label)
     else:
         raise UsageError(f"invalid fmt {fmt!r}: expected png, tiff, npy or text")
 

@@ -14,7 +14,7 @@ from vorotool.errors import AS_VOLUME, InputError, option
 from vorotool.formats.io.arrays import npy_header, npy_values, npz_columns, present_values
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, shortened
-from vorotool.formats.points.columns import Chosen, PointRows, chosen_columns, note_no_label
+from vorotool.formats.points.columns import PointRows, chosen_columns, note_no_label
 from vorotool.numeric.coordinates import INEXACT, first_inexact
 from vorotool.numeric.numbers import shown_number
 from vorotool.types.points.point_set import PointSet, labels_of
@@ -63,9 +63,12 @@ def rows_of_columns(name: str, columns: Mapping[str, list[Any]], options: ReadOp
     chosen = chosen_columns(name, names, options)
     coordinates = [names[column] for column in chosen.coordinates]
     found = np.stack([_numbers(name, each, columns[each]) for each in coordinates], axis=1)
-    labels = _labels_of(name, columns[names[chosen.label]], chosen) if chosen.label is not None else None
-    if labels is None and chosen.label is not None:
-        note_no_label(name, options)
+    labels = None
+    if chosen.label is not None:
+        values = columns[names[chosen.label]]
+        labels = _labels(name, values) if chosen.is_named else labels_of(values)
+        if labels is None:
+            note_no_label(name, options)
     used = {names[column] for column in (chosen.used if labels is not None else chosen.coordinates)}
     properties = {each: columns[each] for each in names if each not in used} if options.properties else {}
     return PointRows(found, labels, properties, placed_by(*coordinates[:2], has_crs=options.crs is not None))
@@ -81,11 +84,6 @@ def _numbers(name: str, column: str, values: list[Any]) -> NDArray[np.float64]:
     if inexact is not None:
         raise InputError(f"{name}, row {inexact + 1}: {column} is {shown_number(values[inexact])}: {INEXACT}")
     return np.array(values, dtype=np.float64)
-
-
-def _labels_of(name: str, values: list[Any], chosen: Chosen) -> NDArray[np.int64] | None:
-    """Return labels; None where a column of that name holds something else, and the user has not named it."""
-    return _labels(name, values) if chosen.is_named else labels_of(values)
 
 
 def _labels(name: str, values: list[Any]) -> NDArray[np.int64]:

@@ -37,18 +37,17 @@ def written_rings(
     decimals: int | None = None,
     is_coverage: bool = False,
     in_box: bool = False,
-    threads: int = 0,
 ) -> WrittenRings:
     """Round the vertices of rings, and repair features that are invalid then."""
     given = points if decimals is None else rounded(points, decimals), nesting
     if is_coverage or decimals is not None:
         given = _compact(*given)
     made, repaired = given, 0
-    bad = _invalid(*given, is_coverage=is_coverage, in_box=in_box, threads=threads)
+    bad = _invalid(*given, is_coverage=is_coverage, in_box=in_box)
     if bad.any():
         grid = Grid.of(points, decimals)
         repair = _repair_coverage if is_coverage else _repair_each
-        made, repaired = repair(given, bad, grid, threads)
+        made, repaired = repair(given, bad, grid)
     if current_written().how.is_verified:
         verify_written(geometry(*made), geometry(points, nesting), decimals, is_coverage=is_coverage)
     had, has = np.diff(nesting.cells) > 0, np.diff(made[1].cells) > 0
@@ -80,13 +79,11 @@ def _compact(points: Floats, nesting: Nesting) -> Rings:
 
 
 # ---- what is invalid -----------------------------------------------------------------------------
-def _invalid(
-    points: Floats, nesting: Nesting, *, is_coverage: bool, in_box: bool = False, threads: int = 0
-) -> NDArray[np.bool_]:
+def _invalid(points: Floats, nesting: Nesting, *, is_coverage: bool, in_box: bool = False) -> NDArray[np.bool_]:
     """(f,) whether each feature is invalid, or overlaps or misses the vertices of others of its coverage."""
     rings, polygons, cells = nesting
     faults = _core.arrangement.polygon_faults(
-        np.ascontiguousarray(points), rings, polygons, is_coverage and not in_box, threads, None
+        np.ascontiguousarray(points), rings, polygons, is_coverage and not in_box, 0, None
     )
     feature = owners(np.diff(cells))
     bad = np.zeros(len(cells) - 1, dtype=bool)
@@ -101,7 +98,7 @@ def _invalid(
         own = select(points, nesting, chosen)
         bad[chosen] = ~shapely.is_valid(geometry(*own)) | (_is_turned_over(*own) if is_coverage else False)
     if in_box and bad.any():
-        return _invalid(points, nesting, is_coverage=is_coverage, threads=threads)
+        return _invalid(points, nesting, is_coverage=is_coverage)
     return bad
 
 
@@ -148,7 +145,7 @@ def geometry(points: Floats, nesting: Nesting) -> NDArray[Any]:
 
 
 # ---- repairs -------------------------------------------------------------------------------------
-def _repair_each(given: Rings, bad: NDArray[np.bool_], grid: Grid, _threads: int) -> tuple[Rings, int]:
+def _repair_each(given: Rings, bad: NDArray[np.bool_], grid: Grid) -> tuple[Rings, int]:
     """Repair features one by one: others may overlap them."""
     import shapely
 
@@ -165,7 +162,7 @@ def _repair_each(given: Rings, bad: NDArray[np.bool_], grid: Grid, _threads: int
     return _replaced(given, chosen, _joined(pieces)), len(chosen)
 
 
-def _repair_coverage(given: Rings, bad: NDArray[np.bool_], grid: Grid, threads: int) -> tuple[Rings, int]:
+def _repair_coverage(given: Rings, bad: NDArray[np.bool_], grid: Grid) -> tuple[Rings, int]:
     """Repair features along with those that share vertices with them, more of them until all fit together."""
     from vorotool.formats.text.snapping import snapped
 
@@ -178,7 +175,7 @@ def _repair_coverage(given: Rings, bad: NDArray[np.bool_], grid: Grid, threads: 
         repaired = snapped(*select(*given, chosen), grid, is_coverage=True, keeps_vertices=tries == 0)
         tries += 1
         made = _replaced(repaired.applied_to(*given, ~touched), chosen, repaired.rings)
-        bad = _invalid(*made, is_coverage=True, threads=threads)
+        bad = _invalid(*made, is_coverage=True)
     return made, int(np.count_nonzero(touched))
 
 

@@ -384,10 +384,8 @@ class Shard:
     """A chunk that is made of smaller ones, with an index of where they are."""
 
     counts: tuple[int, ...]  # how many along each axis
-    # of a smaller chunk, and of the index: offset and size of each, both 2^64 - 1 where it is left out
-    inner: Pipeline
-    # of a smaller chunk, and of the index: offset and size of each, both 2^64 - 1 where it is left out
-    index: Pipeline
+    inner: Pipeline  # of a smaller chunk
+    index: Pipeline  # of the index: offset and size of each, both 2^64 - 1 where it is left out
     is_first: bool  # the index comes before the chunks
 
     def decoded(self, data: bytes, region: tuple[slice, ...], whole: Pipeline) -> NDArray[Any]:

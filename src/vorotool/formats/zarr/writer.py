@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from vorotool.errors import UsageError, option
+from vorotool.errors import UsageError
 from vorotool.formats.zarr.reader import OME_ENDING, StoredArray, add_scales, has_long_name, write_image
 from vorotool.formats.zarr.store import open_store
 from vorotool.numeric.parallel import in_order, start
@@ -133,18 +133,15 @@ def write_zarr(
     *,
     grid: PixelGrid | VoxelGrid | None = None,
     is_labels: bool = True,
-    levels: int = 0,
     threads: int = 0,
 ) -> None:
     """Write an image or a volume that is held to a store, which replaces an older one when all is written."""
     chunks = chunks_of(values.shape, values.dtype)
-    check_levels(path, levels)
     zarr_module()
     with open_store(path) as store:
         folder = array_folder(store, path, values.ndim, grid=grid, is_labels=is_labels)
         array = create_array(folder, values.shape, dtype=values.dtype, chunks=chunks)
         write_chunks(array, 0, values, threads=threads)
-        add_levels(store, levels, threads=threads)
 
 
 def array_folder(
@@ -164,15 +161,6 @@ def array_folder(
     return store / "0"
 
 
-def check_levels(path: str | os.PathLike[str], levels: int) -> None:
-    """Refuse coarser copies in what is not named as OME-Zarr, or fewer than none of them."""
-    if levels < 0:
-        raise UsageError(f"invalid number of coarser copies {levels}: expected 0 or more")
-    if levels and not Path(path).name.lower().endswith(OME_ENDING):
-        end = option(f"-o NAME{OME_ENDING}", f"a path that ends in {OME_ENDING}")
-        raise UsageError(f"coarser copies apply to OME-Zarr only: use {end}, or leave them out")
-
-
 def usual_levels(shape: Shape) -> int:
     """Give the number of coarser copies after which one is small enough to be shown as a whole."""
     levels = 0
@@ -181,23 +169,21 @@ def usual_levels(shape: Shape) -> int:
     return levels
 
 
-def add_levels(store: Path, levels: int, *, threads: int = 0, check: Callable[[], object] | None = None) -> None:
+def add_levels(store: Path, levels: int, *, threads: int = 0) -> None:
     """Make coarser copies of the array ``0`` of a group, each of every second voxel of the one before."""
     factors: list[Shape] = []
     product_of_steps: Shape = (1, 1, 1)
     for level in range(1, levels + 1):
         finer = StoredArray(store.name, store / str(level - 1))
         steps = _steps(finer.shape)
-        _write_coarser(store / str(level), finer, steps, threads, check)
+        _write_coarser(store / str(level), finer, steps, threads)
         product_of_steps = tuple(step * by for step, by in zip(product_of_steps, steps, strict=True))
         factors.append(product_of_steps)
     if factors:
         add_scales(store, factors)
 
 
-def _write_coarser(
-    folder: Path, finer: StoredArray, steps: Shape, threads: int, check: Callable[[], object] | None
-) -> None:
+def _write_coarser(folder: Path, finer: StoredArray, steps: Shape, threads: int) -> None:
     """Make a copy of every so manieth voxel."""
     shape = _coarser(finer.shape)
     chunks = tuple(map(min, finer.metadata.chunks, shape))
@@ -210,7 +196,7 @@ def _write_coarser(
         )
         array[place] = finer.read(region, threads=1)[tuple(slice(None, None, step) for step in steps)]
 
-    _write_parts(write, _parts(shape, chunks), threads, check)
+    _write_parts(write, _parts(shape, chunks), threads)
 
 
 def _steps(shape: Shape) -> Shape:
@@ -235,7 +221,7 @@ def _write_parts(
     write: Callable[[tuple[slice, ...]], None],
     parts: Sequence[tuple[slice, ...]],
     threads: int,
-    check: Callable[[], object] | None,
+    check: Callable[[], object] | None = None,
 ) -> None:
     """Write chunks in threads of our own, to the end of each."""
     stopped = threading.Event()

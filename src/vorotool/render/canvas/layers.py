@@ -16,8 +16,11 @@ from vorotool.numeric.arrays import following, owners, starts_of, within
 from vorotool.numeric.curves.flatten import chords_of, cubic_polylines, polylines
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.numbers import shown_number
+from vorotool.products.formats import resolved
+from vorotool.products.registry import is_of
 from vorotool.render.canvas.styles import INK, SEED, PictureStyle, edge_color
 from vorotool.types.box import bounds
+from vorotool.types.fields import is_up
 from vorotool.types.identity import column_of
 from vorotool.types.pixels import PixelGrid
 
@@ -427,3 +430,12 @@ def without_empty(texts: Texts) -> Texts:
     if len(kept) == len(texts.texts):
         return texts
     return replace(texts, points=texts.points[kept], texts=[texts.texts[k] for k in kept])
+
+
+def page_of(value: Any, *, width: int = 1000, bounds: tuple[float, float, float, float] | None = None) -> Page:
+    """Make the page of a picture: with all that is drawn of a value, or with other bounds."""
+    is_in_space = is_of(value, "Tetrahedralization", "SpaceAlphaShape")
+    if bounds is None:
+        places = [resolved("render.layers.space:seen")(value.points)] if is_in_space else value._shown_places()
+        bounds = bounds_of(*places)
+    return Page(bounds, width=width, y_up=is_up(value) or is_in_space)

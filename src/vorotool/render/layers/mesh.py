@@ -30,6 +30,7 @@ from vorotool.render.canvas.styles import BOUNDARY, CELLS, EDGE, FAINT, INK, PAL
 from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.alpha.shape import AlphaHull, AlphaShape
 from vorotool.types.mesh.cells import CellSet, ProximityGraph
+from vorotool.types.mesh.tetrahedralization import Tetrahedralization
 from vorotool.types.mesh.triangulation import AnyTriangulation
 
 OF_CELLS = ("cells", "diagram")
@@ -78,7 +79,9 @@ def _site_layers(sites: AnyTriangulation | ProximityGraph | CellSet, places: NDA
     }
 
 
-def site_names(sites: AnyTriangulation | ProximityGraph | CellSet, points: NDArray[np.float64], page: Page) -> Texts:
+def site_names(
+    sites: AnyTriangulation | Tetrahedralization | ProximityGraph | CellSet, points: NDArray[np.float64], page: Page
+) -> Texts:
     """Ids of the sites beside these, or what the column says that the page is to have."""
     texts = column_texts(sites.properties, page.style.label_by, sites.label_array.tolist())
     size = min(max(page.spacing(len(points)) / 4, 2.0), 16.0)

@@ -16,12 +16,10 @@ from vorotool.render.canvas.layers import (
     Page,
     Points,
     Polygons,
-    Texts,
-    column_texts,
     made_layers,
-    without_empty,
 )
-from vorotool.render.canvas.styles import CELLS, INK, WHITE
+from vorotool.render.canvas.styles import CELLS, INK
+from vorotool.render.layers.mesh import site_names
 from vorotool.types.alpha.space import SpaceAlphaShape
 from vorotool.types.mesh.tetrahedralization import Tetrahedralization
 
@@ -60,13 +58,11 @@ def _layers(
     """Make layers; lines and discs get finer where points are crowded."""
     places = seen(mesh.points)
     crowd = page.spacing(len(places))
-    texts = column_texts(mesh.properties, page.style.label_by, mesh.label_array.tolist())
-    size = min(max(crowd / 4, 2.0), 16.0)
     make: Makers = {
         faces: lambda: [_shaded(faces, mesh.points, value, is_sheer=len(names) > 1)],
         "edges": lambda: [Lines("edges", places, value.edges, INK, min(max(crowd / 48, 0.1), 1.0))],
         "points": lambda: [Points("points", places, radius=min(max(crowd / 16, 0.3), 3.0))],
-        "labels": lambda: [without_empty(Texts("labels", places, texts, size=size, halo=WHITE))],
+        "labels": lambda: [site_names(mesh, places, page)],
     }
     return made_layers(names, make)
 
