@@ -3,7 +3,7 @@
 import pytest
 
 from support.readers.point_reading import error_of, notes_of, read, rows
-from vorotool.errors import LimitError, UsageError
+from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.sources import STANDARD_INPUT
 
 
@@ -179,3 +179,12 @@ def test_the_limit_of_text():
     message = error_of(text, kind=LimitError, max_sites=2)
     assert message.startswith("seeds.csv ")
     assert "max_sites" in message
+
+
+def test_names_of_columns_are_shown_as_a_shell_takes_them():
+    with pytest.raises(InputError) as caught:
+        read("x (µm),y (µm)\n1,2\n")
+    assert "for example --columns 'x (µm),y (µm)'" in caught.value.typed
+    assert 'for example columns="x (µm),y (µm)"' in str(caught.value)
+    message = error_of("x,y,x\n1,2,3\n")
+    assert 'columns="1,2"' in message  # by name, x would be two columns

@@ -149,18 +149,22 @@ def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
             f"{name}: {what}; give the points that the table was computed from, or name the columns of x and y with "
             f"{_X_Y} ({_listing(fields)})"
         )
-    chosen = option(f"--columns {example}", f'columns="{example}"')
+    from shlex import quote
+
+    chosen = option(f"--columns {quote(example)}", f'columns="{example}"')
     return InputError(f"{name}: {what}; name the columns of x and y, for example {chosen} ({_listing(fields)})")
 
 
 def _example(fields: list[str]) -> str | None:
     """Two columns that may be x and y, as their names begin alike and go on the same; None where no two do."""
-    names = {plain_name(field): field for field in fields}
+    names = [plain_name(field) for field in fields]
     for first, second in _BEGINNINGS:
-        for key, field in names.items():
-            other = names.get(second + key.removeprefix(first))
-            if key.startswith(first) and other is not None and "," not in field + other:
-                return f"{field},{other}"
+        for key in dict.fromkeys(names):
+            other = second + key.removeprefix(first)
+            if key.startswith(first) and other in names:
+                x, y = names.index(key), names.index(other)
+                is_clear = names.count(key) == names.count(other) == 1 and "," not in fields[x] + fields[y]
+                return f"{fields[x]},{fields[y]}" if is_clear else f"{x + 1},{y + 1}"
     return None
 
 
