@@ -33,7 +33,7 @@ POINTS = {
     "a.json": [
         ("[[1, 2],\n [3, ]]", "line 2"),
         ("[[1, 2], [3, NaN]]", "line 1"),
-        ('[[1, 2], ["3", 4]]', "point 2: ['3', 4]"),
+        ('[[1, 2], ["3", 4]]', 'point 2: ["3", 4]'),
         ("[[1, 2], [true, 4]]", "point 2"),
         ("[[1, 2], [null, 4]]", "point 2"),
         ("[[1, 2], [3]]", "point 2: [3]"),
@@ -48,7 +48,7 @@ POINTS = {
             collection(feature([1, 2]), feature([SHELL], "Polygon")),
             "feature 2: 'Polygon' is not a point; replace it by",
         ),
-        (collection(feature([1, 2]), feature([1, "2"])), "feature 2: [1, '2']"),
+        (collection(feature([1, 2]), feature([1, "2"])), 'feature 2: [1, "2"]'),
         (collection(feature(None)), "feature 1"),
         (collection(5), "feature 1"),
         (collection(feature([1, 2], properties=[])), "feature 1"),

@@ -116,8 +116,12 @@ def _position_error(place: str, value: Any, axes: int) -> InputError:
 
 
 def shortened(value: Any, size: int = 40) -> str:
-    """Give a value as a message shows it: its beginning, when it is long."""
+    """Give a value as a message shows it: lists and objects as JSON has them, and what is long by its beginning."""
     text = repr(value)
+    if isinstance(value, list | dict):
+        from json import dumps
+
+        text = dumps(value, ensure_ascii=False, default=repr, skipkeys=True)
     return text if len(text) <= size else text[: size - 1] + "…"
 
 
