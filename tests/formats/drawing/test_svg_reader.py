@@ -212,6 +212,9 @@ def test_units(attributes, scale, unit):
         ('fill="url(#gradient)"', "polygon"),
         ('style="display:none"', None),
         ('visibility="hidden"', None),
+        ('opacity="0"', None),
+        ('style="opacity:0.0"', None),
+        ('opacity="0.01"', "polygon"),
         ('class="hidden"', None),
     ],
 )

@@ -169,7 +169,8 @@ def _asks(element: Element) -> bool:
 # ---- styles --------------------------------------------------------------------------------------
 _COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)", re.DOTALL)  # one without an end goes on to that of the text
 _SELECTOR = re.compile(r"(\*|[A-Za-z][\w-]*)?(?:([.#])([\w-]+))?")
-_HAVE_STYLE = ("fill", "stroke", "fill-rule", "display", "visibility", "clip-path", "mask", "transform")
+_HAVE_STYLE = ("fill", "stroke", "fill-rule", "display", "visibility", "opacity", "clip-path", "mask", "transform")
+_NO_OPACITY = r"[+-]?(0+\.?0*|\.0+)%?"
 Ranked = dict[str, tuple[tuple[int, int], str]]
 """Properties, each with a value and its rank: how specific its rule is, then how late."""
 
@@ -196,6 +197,14 @@ class Style(NamedTuple):
         """Give the style of an element in one of this style that says something of its own."""
         given = [own.get(name, "inherit") for name in ("fill", "stroke", "fill-rule", "visibility")]
         return Style(*(old if new == "inherit" else new for old, new in zip(self, given, strict=True)))
+
+
+def is_hidden(own: dict[str, str]) -> bool:
+    """Whether an element of this style shows nothing, nor do those within it."""
+    return (
+        own.get("display", "").lower() == "none"
+        or re.fullmatch(_NO_OPACITY, own.get("opacity", "").strip()) is not None
+    )
 
 
 def referred(value: str) -> str | None:

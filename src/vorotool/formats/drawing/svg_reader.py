@@ -9,7 +9,7 @@ from typing import NamedTuple
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.drawing.curves import Affine, Curve
 from vorotool.formats.drawing.polygons import Shape, shapes_to_polygons
-from vorotool.formats.drawing.svg_document import GROUPS, MOST_REPEATED, NO_SHAPES, Document, Element, Style
+from vorotool.formats.drawing.svg_document import GROUPS, MOST_REPEATED, NO_SHAPES, Document, Element, Style, is_hidden
 from vorotool.formats.drawing.svg_shapes import (
     MM,
     PX,
@@ -148,7 +148,7 @@ class _Reader:
         style = state.style.inherited_by(own)
         document.check_own(root, own, style)
         by = state.map.after(self._transform(root, own))
-        if own.get("display", "").lower() == "none":
+        if is_hidden(own):
             document.hidden += 1
         else:
             self.walk_in(root, state._replace(map=by, style=style))
@@ -163,7 +163,7 @@ class _Reader:
         if not is_shown:  # definitions, titles, what other programs keep for themselves
             return
         own = document.styles.of_element(element)
-        if own.get("display", "").lower() == "none":
+        if is_hidden(own):
             document.hidden += 1
             return
         style = state.style.inherited_by(own)
@@ -203,7 +203,7 @@ class _Reader:
             return
         own = self.document.styles.of_element(target)
         self.document.check_own(target, own, state.style)
-        if own.get("display", "").lower() == "none":
+        if is_hidden(own):
             return
         inner = self._viewport(target, use, state._replace(style=state.style.inherited_by(own)))
         if inner is not None:
