@@ -258,12 +258,11 @@ def _in_json(source: Source, said: str | None) -> tuple[Holds, Source]:
     """Tell whether JSON holds polygons or lines."""
     if _is_flat(source.data):
         return "points", source
-    from vorotool.formats.parsing.json import holds_shapes, parse_json
+    from vorotool.formats.parsing.json import holds_shapes, is_table, parse_json
 
     document = parse_json(source)
     if isinstance(document, list):
-        is_table = resolved("formats.points.tables:is_table")(document)
-        has_shapes = not is_table and resolved("formats.polygons.json:is_list_of_shells")(document)
+        has_shapes = not is_table(document) and resolved("formats.polygons.json:is_list_of_shells")(document)
     else:
         has_shapes = isinstance(document, dict) and ("polygons" in document or holds_shapes(document))
     source = replace(source, document=document)

@@ -12,8 +12,8 @@ from vorotool.formats.images.band_reader import read_rows
 from vorotool.formats.images.label_images import label_image_of
 from vorotool.formats.io.sources import NPY, Source, read_source, reading
 from vorotool.formats.opening import image_source, open_zarr, read_recognized
+from vorotool.formats.parsing.json import is_table
 from vorotool.formats.parsing.reader_options import ReadOptions, with_stated_axis
-from vorotool.formats.points.tables import is_table
 from vorotool.formats.recognition import has_no_rows, image_format, recognized
 from vorotool.jobs.inputs import JobInput, check_column, note_other_size
 from vorotool.jobs.job import Results

@@ -7,7 +7,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from math import prod
-from typing import TYPE_CHECKING, Any, BinaryIO, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -15,6 +15,7 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.errors import InputError, LimitError, option
 from vorotool.formats.io.sources import Source, decoding
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.products.inputs import Holds
 
 if TYPE_CHECKING:
     import zipfile
@@ -74,14 +75,6 @@ def plain_values(values: NDArray[Any]) -> NDArray[Any]:
     if values.dtype == np.bool_:
         return values.astype(np.uint8)
     return values.astype(values.dtype.newbyteorder("="), copy=False)
-
-
-def write_array(out: BinaryIO, values: NDArray[Any]) -> None:
-    """Write an array of numbers: the same bytes for the same values, little-endian."""
-    stored = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))
-    header = {"descr": np.lib.format.dtype_to_descr(stored.dtype), "fortran_order": False, "shape": values.shape}
-    np.lib.format.write_array_header_1_0(out, header)
-    out.write(stored.data)
 
 
 _WIDER = option("-o labels.tif or .npy", "the path labels.tif or labels.npy")
@@ -145,7 +138,7 @@ def blocks(
 
 
 def write_npy(out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, ...], *, dtype: DTypeLike) -> None:
-    """Write an array from bands of rows, or slabs of slices: the header first, then each as it comes."""
+    """Write an array, little-endian, from bands of rows or slabs of slices: the header first, then each as it comes."""
     kind = np.dtype(dtype).newbyteorder("<")
     header = {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": tuple(map(int, shape))}
     np.lib.format.write_array_header_1_0(out, header)
@@ -160,13 +153,16 @@ def stored(band: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
     return np.ascontiguousarray(band, dtype=dtype)
 
 
-_SKELETON = frozenset({"arc_source", "vertex_r", "ring_starts"})
-_OFFSETS = frozenset({"piece_start_x", "shape_distance", "about"})
-_VORONOI = frozenset({"cell_ring_arcs", "cell_starts", "vertex_r", "about"})
-_CELLS = frozenset({"cell_starts", "polygon_starts", "ring_starts", "vertex_x", "vertex_y"})
+_HELD: dict[Holds, frozenset[str]] = {
+    "voronoi": frozenset({"cell_ring_arcs", "cell_starts", "vertex_r", "about"}),
+    "offsets": frozenset({"piece_start_x", "shape_distance", "about"}),
+    "skeleton": frozenset({"arc_source", "vertex_r", "ring_starts"}),
+    "polygons": frozenset({"cell_starts", "polygon_starts", "ring_starts", "vertex_x", "vertex_y"}),
+}
+"""Names of arrays that an archive of each has."""
 
 
-def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton", "offsets", "voronoi"]:
+def npz_holds(data: bytes) -> Holds:
     """Tell what an archive holds by the names of its arrays: all else is taken for points."""
     try:
         import zipfile
@@ -175,11 +171,7 @@ def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton", "offsets
             names = {name.removesuffix(".npy") for name in archive.namelist()}
     except Exception:  # who reads it says what is wrong: zipfile raises nearly everything on damaged bytes
         return "points"
-    if names >= _VORONOI:
-        return "voronoi"
-    if names >= _OFFSETS:
-        return "offsets"
-    return "skeleton" if names >= _SKELETON else "polygons" if names >= _CELLS else "points"
+    return next((held for held, own in _HELD.items() if names >= own), "points")
 
 
 def npz_columns(source: Source, options: ReadOptions) -> dict[str, NDArray[Any]]:

@@ -38,12 +38,10 @@ def parse_json(source: Source) -> Any:
         ) from None
 
 
-def refuse_table(name: str, document: Sequence[Any], advice: str) -> None:
-    """Refuse a list of objects that are rows of a table, such as ``--what table -f json`` writes."""
-    row = document[0] if document else None
-    if isinstance(row, dict) and row and not row.keys() & {"type", "shell", "line"}:
-        fields = ", ".join([*list(row)[:4], *["…"] * (len(row) > 4)])
-        raise InputError(f"{name} holds a table, whose rows have {fields}, not {advice}")
+def is_table(document: Any) -> bool:
+    """Whether parsed JSON is a list of rows of a table, such as ``--what table -f json`` writes."""
+    row = document[0] if isinstance(document, list) and document else None
+    return isinstance(row, dict) and bool(row) and not row.keys() & {"type", "shell", "line"}
 
 
 def read_y_axis(name: str, document: Mapping[str, Any], usual: YAxis) -> YAxis:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
 from vorotool.errors import AS_JSON, InputError, UsageError, option
@@ -12,6 +11,7 @@ from vorotool.formats.parsing.json import (
     feature_places,
     features_of,
     geometry_of,
+    is_table,
     list_of,
     not_a_point_advice,
     parse_json,
@@ -20,7 +20,7 @@ from vorotool.formats.parsing.json import (
 )
 from vorotool.formats.parsing.reader_options import ReadOptions, note_unnamed, position_array, shortened
 from vorotool.formats.points.columns import PointRows
-from vorotool.formats.points.tables import is_table, points_of_objects
+from vorotool.formats.points.tables import points_of_objects
 from vorotool.formats.text.tables import stated_unit
 from vorotool.types.fields import UP
 
@@ -69,16 +69,6 @@ def read_geojson(source: Source, options: ReadOptions) -> PointRows:
     return _read_document(source.name, document, options)
 
 
-@dataclass
-class _Collected:
-    """Positions in order, and for each the feature it comes from (0-based) and its part there (1-based)."""
-
-    positions: list[Any] = field(default_factory=list)
-    features: list[int] = field(default_factory=list)
-    parts: list[int] = field(default_factory=list)
-    without_geometry: int = 0
-
-
 def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions) -> PointRows:
     if "polygons" in document:
         raise InputError(
@@ -87,22 +77,21 @@ def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions)
         )
     features = features_of(name, document)
     place = feature_places(name, document)
-    collected = _Collected()
-    for index, feature in enumerate(features):
-        positions = _positions(geometry_of(feature, place(index)), place(index))
-        collected.without_geometry += not positions
-        collected.positions.extend(positions)
-        collected.features.extend([index] * len(positions))
-        collected.parts.extend(range(1, len(positions) + 1))
-    options.check_sites(name, len(collected.positions))
-    found = position_array(collected.positions, lambda i: place(collected.features[i]), options.axes)
-    options.note_left_out(name, collected.without_geometry)
-    if options.axes == 2 and any(len(position) > 2 for position in collected.positions):
+    of_features = [
+        _positions(geometry_of(feature, place(index)), place(index)) for index, feature in enumerate(features)
+    ]
+    positions = [position for each in of_features for position in each]
+    owners = [index for index, each in enumerate(of_features) for _ in each]  # the feature of each, from 0
+    options.check_sites(name, len(positions))
+    found = position_array(positions, lambda i: place(owners[i]), options.axes)
+    options.note_left_out(name, sum(not each for each in of_features))
+    if options.axes == 2 and any(len(position) > 2 for position in positions):
         options.note_heights(name)
     crs, unit = document.get("crs"), stated_unit(document)
     if crs is unit is None and options.crs is None:
         note_unnamed(name, found[:, :2], options.note)
-    properties = _properties(name, features, collected) if options.properties else {}
+    parts = [part for each in of_features for part in range(1, len(each) + 1)]
+    properties = _properties(name, features, owners, parts) if options.properties else {}
     return PointRows(found, None, properties, {"y_axis": read_y_axis(name, document, UP), "crs": crs, "unit": unit})
 
 
@@ -123,14 +112,16 @@ def _positions(geometry: Any, place: str) -> list[Any]:
     raise InputError(f"{place}: {shortened(kind)} is not a point; {not_a_point_advice(str(kind))}")
 
 
-def _properties(name: str, features: list[Mapping[str, Any]], collected: _Collected) -> dict[str, list[Any]]:
-    own = property_columns(name, features, collected.features, "points")
+def _properties(
+    name: str, features: list[Mapping[str, Any]], owners: list[int], parts: list[int]
+) -> dict[str, list[Any]]:
+    own = property_columns(name, features, owners, "points")
     columns: dict[str, list[Any]] = {}
     has_id = any("id" in feature for feature in features)
     if has_id:
-        columns["id"] = [features[i].get("id") for i in collected.features]
+        columns["id"] = [features[i].get("id") for i in owners]
     for key, values in own.items():
         columns["property_id" if has_id and key == "id" else key] = values
-    if max(collected.parts, default=1) > 1:
-        columns["voro_part" if "part" in columns else "part"] = collected.parts
+    if max(parts, default=1) > 1:
+        columns["voro_part" if "part" in columns else "part"] = parts
     return columns

@@ -23,12 +23,6 @@ from vorotool.types.values import counted
 _MISSING = "_missing"
 
 
-def is_table(document: Any) -> bool:
-    """Whether parsed JSON is a list of rows of a table, such as ``--what table -f json`` writes."""
-    row = document[0] if isinstance(document, list) and document else None
-    return isinstance(row, dict) and bool(row) and not row.keys() & {"type", "shell", "line"}
-
-
 def points_of_objects(name: str, rows: Sequence[Any], options: ReadOptions) -> PointRows:
     """Read points from the rows of a table."""
     options.check_sites(name, len(rows))

@@ -16,12 +16,12 @@ from vorotool.formats.parsing.json import (
     feature_places,
     features_of,
     geometry_of,
+    is_table,
     list_of,
     not_a_shape_advice,
     parse_json,
     property_columns,
     read_y_axis,
-    refuse_table,
 )
 from vorotool.formats.parsing.reader_options import ReadOptions, note_unnamed, position_array, shortened
 from vorotool.formats.text.row_writer import Column, RowShape
@@ -128,7 +128,12 @@ def _items(name: str, document: Any) -> list[Any]:
         return items
     if not isinstance(document, list):
         raise InputError(f"{name}: {shortened(document)} is not a polygon; write [[x, y], …], or {_FORM}")
-    refuse_table(name, document, f"polygons: give the file that it was computed from, or write {_FORM}")
+    if is_table(document):
+        fields = ", ".join([*list(document[0])[:4], *["…"] * (len(document[0]) > 4)])
+        raise InputError(
+            f"{name} holds a table, whose rows have {fields}, not polygons: give the file that it was computed from, "
+            f"or write {_FORM}"
+        )
     return document if is_list_of_shells(document) else [document] if document else []
 
 

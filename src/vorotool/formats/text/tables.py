@@ -348,7 +348,8 @@ def write_value(
 ) -> None:
     """Write a value; the bytes depend on nothing but the value and the options that concern numbers."""
     if fmt == "npy":
-        resolved("formats.io.arrays:write_array")(out, matrix_of(value, what))
+        matrix = matrix_of(value, what)
+        resolved("formats.io.arrays:write_npy")(out, [matrix], matrix.shape, dtype=matrix.dtype)
     elif fmt in TABLES:
         rows = rows_of(value, what, flatten=flatten)
         if isinstance(rows.geometry, Areas):
