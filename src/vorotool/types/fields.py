@@ -220,9 +220,9 @@ MEMBER = "y_axis"
 """The member of our JSON, GeoJSON and NPZ that says it."""
 
 
-def y_axis_of(y_up: bool | None, usual: YAxis = UNSTATED) -> YAxis:
-    """Return the axis that a caller states by a flag, or the usual one."""
-    return usual if y_up is None else UP if y_up else DOWN
+def y_axis_of(y_up: bool) -> YAxis:
+    """Return the axis that a caller states by a flag."""
+    return UP if y_up else DOWN
 
 
 def checked_y_axis(given: Any, name: str = MEMBER) -> YAxis:

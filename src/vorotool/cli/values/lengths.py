@@ -200,11 +200,11 @@ def holes(text: str) -> Measured | Fraction | bool:
     return True if text == ALL_HOLES else area(text)
 
 
-def with_hole_areas(arguments: list[str], name: str = "--fill-holes") -> list[str]:
+def with_hole_areas(arguments: list[str]) -> list[str]:
     """Return arguments in which the option of a hole's area has a value: the next argument, if it is an area."""
     made: list[str] = []
     for at, argument in enumerate(arguments):
-        if made and made[-1] == name:
+        if made and made[-1] == "--fill-holes":
             is_area = _LIKE_AREA.fullmatch(argument)  # a file whose name has an extension is none
             made[-1] += f"={argument if is_area else ALL_HOLES}"
             if is_area:
@@ -212,7 +212,7 @@ def with_hole_areas(arguments: list[str], name: str = "--fill-holes") -> list[st
         if argument == "--":
             return made + arguments[at:]
         made.append(argument)
-    if made and made[-1] == name:
+    if made and made[-1] == "--fill-holes":
         made[-1] += f"={ALL_HOLES}"
     return made
 
