@@ -125,3 +125,17 @@ def test_areas_over_each_other_mix_with_the_image_as_in_svg(run, folder, photo):
     made, image = (np.asarray(Image.open(folder / path)).astype(float) for path in ("a.png", "photo.png"))
     assert np.abs(made[cell[::-1]] - (image[cell[::-1]] + color) / 2).max() <= 1
     assert np.abs(made[inside[::-1]] - ((image[inside[::-1]] + color) / 2 + 255) / 2).max() <= 1
+
+
+def test_objects_over_regions_mix_with_the_image_as_in_svg(run, folder, photo):
+    labels = np.zeros((200, 300), np.uint8)
+    labels[50:90, 50:90], labels[50:90, 200:240] = 1, 2
+    Image.fromarray(labels).save(folder / "labels.png")
+    typed = "tessellate labels.png --what color --layers cells,objects --color objects=#204060 --overlay photo.png -o"
+    run(f"{typed} a.svg")
+    fills = re.findall(r'id="cell-1" fill="#(\w{6})"', (folder / "a.svg").read_text())
+    color = np.array(list(bytes.fromhex(fills[0])))
+    run(f"{typed} a.png")
+    made, image = (np.asarray(Image.open(folder / path)).astype(float) for path in ("a.png", "photo.png"))
+    assert np.abs(made[70, 30] - (image[70, 30] + color) / 2).max() <= 1
+    assert np.abs(made[70, 70] - ((image[70, 70] + color) / 2 + (0x20, 0x40, 0x60)) / 2).max() <= 1

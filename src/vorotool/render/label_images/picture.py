@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 BAND_ROWS = 256
 """Rows of a picture that are composed at a time."""
 
+_Below = list[tuple[int, NDArray[np.bool_]]]
+"""Entries of the palette, and the pixels that have each, beneath lines and letters."""
+
 LARGEST_TABLE = 1 << 20
 """Entries that a table of colors by label may have in any case; beyond, it must be mostly used."""
 
@@ -173,14 +176,14 @@ def _write_png(out: BinaryIO, picture: LabelPicture) -> None:
         write_png(out, [pixels.reshape(len(pixels), -1)], pixels.shape[:2], rgb=True, threads=threads)
         return
     palette, has_alpha = marks.palette, picture.style.ground is None
-    bands, depth = _indexed(picture, marks), palette.bit_depth
+    bands, depth = _indexed(picture, marks, picture.layers, marks.below), palette.bit_depth
     write_png(
         out, bands, picture.image.shape, bit_depth=depth, palette=palette.colors, has_alpha=has_alpha, threads=threads
     )
 
 
-def _indexed(picture: LabelPicture, marks: _Marks) -> Iterator[NDArray[np.uint8]]:
-    """Rows of palette indices, in bands from top to bottom."""
+def _indexed(picture: LabelPicture, marks: _Marks, layers: Sequence[str], below: _Below) -> Iterator[NDArray[np.uint8]]:
+    """Rows of palette indices of some layers, in bands from top to bottom."""
     image = picture.image
     number, color_of_number = _numbering(*picture.colors)
     starts = range(0, image.shape[0], BAND_ROWS)
@@ -190,22 +193,27 @@ def _indexed(picture: LabelPicture, marks: _Marks) -> Iterator[NDArray[np.uint8]
         palette=marks.palette,
         color_of_label=color_of_number,
         diagram=None if marks.diagram is None else (marks.diagram[row : row + BAND_ROWS] for row in starts),
-        marks=marks.below,
+        marks=below,
         seeds=image.seeds,
         outlines=marks.outlines,
         frame=image.frame,
         names=marks.names,
-        layers=picture.layers,
+        layers=layers,
     )
 
 
 def _pixels(picture: LabelPicture, marks: _Marks) -> NDArray[np.uint8]:
     """(H, W, 3) red, green and blue, with the image beneath, and a legend and a scale bar over them."""
-    bands, backdrop = _indexed(picture, marks), picture.backdrop
-    if backdrop is None:
-        pixels: NDArray[np.uint8] = marks.palette.colors[np.concatenate(list(bands))]
+    passes: list[tuple[Sequence[str], _Below]] = [(picture.layers, marks.below)]
+    if picture.backdrop is None:
+        pixels: NDArray[np.uint8] = marks.palette.colors[np.concatenate(list(_indexed(picture, marks, *passes[0])))]
     else:
-        pixels = over_image(bands, backdrop, marks.palette, picture.image.frame).reshape(backdrop.pixels.shape)
+        pixels = picture.backdrop.pixels
+        if {"cells", "objects"} <= set(picture.layers):  # cells are seen through objects, as the image is through both
+            others = [each for each in picture.layers if each != "cells"]
+            passes = [(["cells"], marks.borders), (others, marks.below[len(marks.borders) :])]
+        for each in passes:
+            pixels = over_image(_indexed(picture, marks, *each), pixels, marks.palette, picture.image.frame)
     if not picture.style.has_insets:
         return pixels
     page = ImagePage(Backdrop(pixels, bytes))
@@ -236,10 +244,12 @@ class _Marks:
             has_halos=over,
             chosen=chosen,
         )
-        below = [(self.palette.border, borders), (self.palette.object, None), (self.palette.halo, halo)]
+        self.borders = [] if borders is None else [(self.palette.border, borders)]
+        self.below = [*self.borders]
         if objects is not None and "objects" in layers:
-            below[1] = (self.palette.object, objects.labels != 0)
-        self.below = [(value, pixels) for value, pixels in below if pixels is not None]
+            self.below.append((self.palette.object, objects.labels != 0))
+        if halo is not None:
+            self.below.append((self.palette.halo, halo))
 
 
 def _borders(picture: LabelPicture) -> NDArray[np.bool_] | None:

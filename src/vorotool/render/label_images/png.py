@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.numeric.arrays import ranges
 from vorotool.render.canvas.glyphs import text_cells
-from vorotool.render.canvas.layers import Backdrop, checked_layers
+from vorotool.render.canvas.layers import checked_layers
 from vorotool.render.canvas.styles import PicturePalette
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
@@ -60,10 +60,10 @@ def picture_bands(
 
 
 def over_image(
-    bands: Iterable[NDArray[np.uint8]], backdrop: Backdrop, palette: PicturePalette, frame: Frame
+    bands: Iterable[NDArray[np.uint8]], pixels: NDArray[np.uint8], palette: PicturePalette, frame: Frame
 ) -> NDArray[np.uint8]:
-    """Draw a picture over an image: cells half see-through, lines and seeds not."""
-    made = backdrop.pixels.copy()
+    """Draw a picture over an image: areas half see-through, lines and seeds not."""
+    made = pixels.copy()
     height, width = made.shape[:2]
     left, right = (min(max(x, 0), width) for x in (frame.x, frame.x + frame.width))
     row = frame.y
@@ -76,7 +76,7 @@ def over_image(
         is_line = np.isin(index, palette.opaque)
         beneath[...] = np.where(is_line[..., None], color, np.where(index[..., None] > 0, mixed, beneath))
         row += len(band)
-    return made.reshape(height, -1)
+    return made
 
 
 def around(lines: NDArray[np.bool_]) -> NDArray[np.bool_]:
