@@ -159,7 +159,7 @@ DRAWINGS = tuple(name for each in _ALL if "curves" in each.has for name in each.
 """Names of formats that have curves, which become lines where they are read."""
 
 
-def known_input_format(name: str | None, names: Mapping[str, str] = NAMES_WITH[None]) -> str | None:
+def known_input_format(name: str | None, names: Mapping[str, str]) -> str | None:
     """Return the format that a name stands for, in any case; None stays None."""
     if name is None:
         return None

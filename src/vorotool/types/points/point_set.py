@@ -51,7 +51,16 @@ class Points(OfPoints):
     """One letter an axis."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, self._places, finite_rows(getattr(self, self._places), len(self._places)))
+        rows = coordinate_rows(getattr(self, self._places), "point", len(self._places))  # a copy
+        finite = np.isfinite(rows)
+        if not finite.all():
+            bad = np.flatnonzero(~finite.all(axis=1))
+            row = int(bad[0])
+            raise InputError(
+                f"point {row + 1} is ({', '.join(map(str, rows[row].tolist()))}): coordinates must be finite; "
+                f"remove or repair it ({counted(bad.size, 'such point')})"
+            )
+        object.__setattr__(self, self._places, rows)
         if self.labels is not None:
             object.__setattr__(self, "labels", checked_labels(self.labels, len(self)))
         super().__post_init__()
@@ -144,20 +153,6 @@ def labels_of(values: Any) -> NDArray[np.int64] | None:
         return None if is_flag else checked_labels(values, len(values))
     except (InputError, ValueError):
         return None
-
-
-def finite_rows(values: Any, axes: int) -> NDArray[np.float64]:
-    """Copy the coordinates of points, all of them finite."""
-    rows = coordinate_rows(values, "point", axes)
-    finite = np.isfinite(rows)
-    if not finite.all():
-        bad = np.flatnonzero(~finite.all(axis=1))
-        row = int(bad[0])
-        raise InputError(
-            f"point {row + 1} is ({', '.join(map(str, rows[row].tolist()))}): coordinates must be finite; "
-            f"remove or repair it ({counted(bad.size, 'such point')})"
-        )
-    return rows
 
 
 def checked_labels(labels: Any, count: int) -> NDArray[np.int64]:
