@@ -1,6 +1,8 @@
 """The peers' functions with their own signatures: called as theirs are, results are theirs but for ties."""
 
 import inspect
+import subprocess
+import sys
 
 import geopandas
 import numpy as np
@@ -125,3 +127,8 @@ def test_cells_of_buildings():
     assert compat.morphological_tessellation(houses.geometry, clip=None).area.sum() > 80
     with pytest.raises(vorotool.UsageError, match="'box'"):
         compat.morphological_tessellation(houses, clip="box")
+
+
+def test_the_module_needs_no_import_of_its_own():
+    text = "import vorotool; print(vorotool.compat.expand_labels([0, 0, 7], distance=1).tolist())"
+    assert subprocess.run([sys.executable, "-c", text], capture_output=True, check=True).stdout == b"[0, 7, 7]\n"

@@ -147,10 +147,12 @@ __all__ = ["__version__", *_HOME]  # noqa: PLE0604 - the keys are strings
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOME:
-        raise AttributeError(f"module 'vorotool' has no attribute {name!r}")
     from importlib import import_module
 
+    if name == "compat":  # a module, which is there without an import of its own, as those of scipy are
+        return import_module("vorotool.compat")
+    if name not in _HOME:
+        raise AttributeError(f"module 'vorotool' has no attribute {name!r}")
     return getattr(import_module(_HOME[name]), name)
 
 
