@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.features import HeldFeatures, held_features, is_shapely, joined_parts, report_missing
-from vorotool.convert.tables import is_table, points_of_table
+from vorotool.convert.tables import columns_of_features, is_table, points_of_table
 from vorotool.errors import InputError, warn
 from vorotool.numeric.checks import (
     described,
@@ -125,12 +125,8 @@ def _points_of_features(held: HeldFeatures) -> PointSet:
     if not held.is_map:  # what has an index says itself which are left out
         report_missing(held, owners)
     properties = {name: [values[k] for k in owners.tolist()] for name, values in held.properties.items()}
-    if held.ids is not None:
-        ids = {"id": [held.ids[k] for k in owners.tolist()]}
-        properties = {**ids, **{"property_id" if name == "id" else name: v for name, v in properties.items()}}
-    parts = part_numbers(owners)
-    if held.is_map and parts.max(initial=1) > 1:
-        properties["voro_part" if "part" in properties else "part"] = parts.tolist()
+    ids = None if held.ids is None else [held.ids[k] for k in owners.tolist()]
+    properties = columns_of_features(ids, properties, part_numbers(owners).tolist() if held.is_map else [])
     index = index_of_rows(held.index, owners)
     labels = labels_of(properties[LABEL]) if LABEL in properties else None
     if labels is not None:

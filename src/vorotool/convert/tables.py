@@ -85,6 +85,18 @@ def _taken(table: Any, texts: list[str], columns: list[Any], chosen: list[int], 
     }
 
 
+def columns_of_features(
+    ids: Sequence[Any] | None, columns: Mapping[str, Sequence[Any]], parts: Sequence[int]
+) -> dict[str, Any]:
+    """Give ids of features, their columns and, if any has several points, the number of each as columns of points."""
+    made: dict[str, Any] = {} if ids is None else {"id": ids}
+    for name, values in columns.items():
+        made["property_id" if ids is not None and name == "id" else name] = values
+    if max(parts, default=1) > 1:
+        made["voro_part" if "part" in made else "part"] = parts
+    return made
+
+
 def index_of(value: Any) -> Any:
     """Give the index of a data frame or a series; None of what has none."""
     index = getattr(value, "index", None)

@@ -12,9 +12,10 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.convert.sites import Sites
-from vorotool.errors import NO_PROPERTIES, InputError, LimitError, UsageError, option
+from vorotool.convert.tables import columns_of_features
+from vorotool.errors import InputError, UsageError, option
 from vorotool.formats.io.sources import STANDARD_INPUT, Source, check_nesting
-from vorotool.formats.parsing.json import MOST_CELLS, OF_SITES, not_a_point_advice, not_a_shape_advice
+from vorotool.formats.parsing.json import OF_SITES, check_cells, not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, crs_of_numbers, no_points, shortened
 from vorotool.formats.points.columns import PointRows
 from vorotool.formats.points.delimited import GEOMETRY_COLUMNS, DelimitedText, delimited_text, geometry_column
@@ -114,7 +115,7 @@ def _shapes_of(features: Features, kept: NDArray[np.int64], options: ReadOptions
         fields = {"feature": owners, "y_axis": UP, "crs": features.crs}
         if not options.properties:
             return fields
-        _check_attributes(features, len(owners), "polygons")
+        check_cells(features.name, len(features.columns), len(owners), "polygons")
         columns = {name: _taken(values, owners) for name, values in features.columns.items()}
         ids = None if features.ids is None else _taken(features.ids, owners)
         return {**fields, "ids": ids, "properties": columns}
@@ -150,16 +151,10 @@ def _points(features: Features, options: ReadOptions) -> PointRows:
 
 def _point_columns(features: Features, owners: NDArray[np.int64]) -> dict[str, list[Any]]:
     """The id, if there are any, the attributes, and the number of a point within its feature, if any has several."""
-    _check_attributes(features, len(owners), "points")
-    columns: dict[str, list[Any]] = {}
-    if features.ids is not None:
-        columns["id"] = _taken(features.ids, owners)
-    for name, values in features.columns.items():
-        columns["property_id" if name in columns else name] = _taken(values, owners)
-    part = part_numbers(owners)
-    if part.max(initial=1) > 1:
-        columns["voro_part" if "part" in columns else "part"] = part.tolist()
-    return columns
+    check_cells(features.name, len(features.columns), len(owners), "points")
+    ids = None if features.ids is None else _taken(features.ids, owners)
+    columns = {name: _taken(values, owners) for name, values in features.columns.items()}
+    return columns_of_features(ids, columns, part_numbers(owners).tolist())
 
 
 def _taken(values: Sequence[Any], index: NDArray[np.integer]) -> list[Any]:
@@ -203,14 +198,6 @@ def _check_finite(features: Features, geometry: NDArray[np.object_], kept: NDArr
         raise InputError(
             f"{features.shown(owner)}: vertex {vertex} is ({xy[at, 0]}, {xy[at, 1]}): coordinates must be finite; "
             "correct it"
-        )
-
-
-def _check_attributes(features: Features, count: int, noun: str) -> None:
-    if len(features.columns) * count > MOST_CELLS:
-        raise LimitError(
-            f"{features.name} has {len(features.columns)} different properties on {count} {noun}, more than "
-            f"{MOST_CELLS} fields in all: use {NO_PROPERTIES}"
         )
 
 

@@ -113,17 +113,22 @@ def holds_shapes(document: Any) -> bool:
     return False
 
 
+def check_cells(name: str, columns: int, rows: int, noun: str) -> None:
+    """Refuse properties that would need too much memory as a table."""
+    if columns * rows > MOST_CELLS:
+        raise LimitError(
+            f"{name} has {columns} different properties on {rows} {noun}, more than {MOST_CELLS} fields in all: use "
+            f"{NO_PROPERTIES}"
+        )
+
+
 def property_columns(
     name: str, features: Sequence[Mapping[str, Any]], owners: Sequence[int], noun: str
 ) -> dict[str, list[Any]]:
     """Give the properties as columns with one value an object; ``owners`` tells the feature of each."""
     rows = [feature.get("properties") or {} for feature in features]
     names = list(dict.fromkeys(key for row in rows for key in row))
-    if len(names) * len(owners) > MOST_CELLS:
-        raise LimitError(
-            f"{name} has {len(names)} different properties on {len(owners)} {noun}, more than "
-            f"{MOST_CELLS} fields in all: use {NO_PROPERTIES}"
-        )
+    check_cells(name, len(names), len(owners), noun)
     return {key: [rows[i].get(key) for i in owners] for key in names}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from vorotool.convert.tables import columns_of_features
 from vorotool.errors import AS_JSON, InputError, UsageError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.json import (
@@ -115,13 +116,6 @@ def _positions(geometry: Any, place: str) -> list[Any]:
 def _properties(
     name: str, features: list[Mapping[str, Any]], owners: list[int], parts: list[int]
 ) -> dict[str, list[Any]]:
-    own = property_columns(name, features, owners, "points")
-    columns: dict[str, list[Any]] = {}
+    columns = property_columns(name, features, owners, "points")
     has_id = any("id" in feature for feature in features)
-    if has_id:
-        columns["id"] = [features[i].get("id") for i in owners]
-    for key, values in own.items():
-        columns["property_id" if has_id and key == "id" else key] = values
-    if max(parts, default=1) > 1:
-        columns["voro_part" if "part" in columns else "part"] = parts
-    return columns
+    return columns_of_features([features[i].get("id") for i in owners] if has_id else None, columns, parts)
