@@ -29,7 +29,8 @@ constexpr std::size_t ranks_a_piece = std::size_t{1} << 16;  // items: about a m
 constexpr std::size_t items_a_bucket = std::size_t{1} << 13;
 constexpr std::size_t most_buckets = std::size_t{1} << 11;
 constexpr std::size_t most_samples = std::size_t{1} << 15;
-constexpr int sample_bits = 16, digit_bits = 22;
+constexpr std::size_t outer_part = 512;  // of the sample, less or greater than the range
+constexpr int sample_bits = 13, digit_bits = 18;
 constexpr int word_bits = 31;  // of positions; the key is above them
 constexpr std::uint16_t left_out = 0xffff;
 
@@ -46,11 +47,14 @@ class Buckets {
   explicit Buckets(std::vector<std::uint64_t> sample, std::size_t items)
       : count_(std::clamp<std::size_t>(items / items_a_bucket, 1, most_buckets)), bucket_(1) {
     if (sample.empty()) return;
-    const auto [least, most] = std::minmax_element(sample.begin(), sample.end());
-    least_ = *least, most_ = *most;
+    const auto few = static_cast<std::ptrdiff_t>(sample.size() / outer_part);
+    std::nth_element(sample.begin(), sample.begin() + few, sample.end());
+    least_ = sample[static_cast<std::size_t>(few)];
+    std::nth_element(sample.begin(), sample.end() - 1 - few, sample.end());
+    most_ = sample[sample.size() - 1 - static_cast<std::size_t>(few)];
     shift_ = excess_bits(least_, most_, sample_bits);
     std::vector<std::size_t> ends(place(most_) + 1);
-    for (const std::uint64_t bits : sample) ++ends[place(bits)];
+    for (const std::uint64_t bits : sample) ++ends[place(std::clamp(bits, least_, most_))];
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
     bucket_.resize(ends.size());
     for (std::size_t i = 1; i < ends.size(); ++i)
@@ -72,11 +76,12 @@ class Buckets {
 class Sorter {
  public:
   Sorter(std::span<const double> values, const CompareItems& compare, unsigned threads,
-         const Monitor& monitor, int open_bits, const RefineItem& refine)
+         const Monitor& monitor, int open_bits, const RefineItem& refine, double unit)
       : values_(values),
         open_bits_(open_bits),
         compare_(compare),
         refine_(refine),
+        unit_(unit),
         threads_(threads),
         passes_(monitor, 5),
         buckets_(sample(), values.size()),
@@ -88,11 +93,12 @@ class Sorter {
   RadiusRanks run(LargeArray<double>&& values) {
     count();
     fill();
-    values = {};
-    words_ = LargeArray<std::uint32_t>(start_.back());
+    const std::size_t size = 2 * values_.size();  // half of it for words
+    rank_ =
+        values.size() != 0 ? std::move(values).reused<std::int32_t>(size) : LargeArray<std::int32_t>(size);
+    words_ = {reinterpret_cast<std::uint32_t*>(rank_.data() + values_.size()), start_.back()};
     for_buckets([&](std::size_t b) { sort_bucket(b); });
     settle_long_runs();
-    for_buckets([&](std::size_t b) { gather(b); });
     return write();
   }
 
@@ -123,11 +129,12 @@ class Sorter {
     base::for_pieces(values_.size(), ranks_a_piece, threads_, passes_.next(),
                      [&](std::size_t piece, std::size_t begin, std::size_t end) {
                        counts_[piece].resize(buckets_.size());
+                       std::uint32_t* const counted = counts_[piece].data();
                        for (std::size_t i = begin; i < end; ++i) {  // without a branch
-                         const bool takes_part = !(values_[i] < 0);
+                         const unsigned is_left_out = values_[i] < 0 ? 1 : 0;
                          const std::uint16_t bucket = buckets_.of(key(values_[i]));
-                         bucket_[i] = takes_part ? bucket : left_out;
-                         counts_[piece][bucket] += takes_part;
+                         bucket_[i] = static_cast<std::uint16_t>(bucket | (0U - is_left_out));
+                         counted[bucket] += 1 - is_left_out;
                        }
                      });
     std::size_t sum = 0;
@@ -173,39 +180,42 @@ class Sorter {
                      });
   }
 
-  // Puts the places of a bucket in the order of their exact values, marked where a value begins; long runs of equal
-  // doubles are left for settle_long_runs.
+  // Puts the places of a bucket in the order of their exact values, marked where a value begins, and gathers them. Where
+  // there are long runs of equal doubles, these and the gathering are left for settle_long_runs.
   void sort_bucket(std::size_t bucket) {
     const std::size_t begin = start_[bucket], end = start_[bucket + 1];
+    if (begin == end) return;
+    std::vector<std::uint64_t> keyed(end - begin);
     std::uint64_t least = ~std::uint64_t{0}, most = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      least = std::min(least, key(sorted_[i]));
-      most = std::max(most, key(sorted_[i]));
+      const std::uint64_t bits = keyed[i - begin] = key(sorted_[i]);
+      least = std::min(least, bits), most = std::max(most, bits);
     }
-    if (begin == end) return;
     const int shift = excess_bits(least, most, 64 - word_bits);
-    std::vector<std::uint64_t> keyed(end - begin);
     for (std::size_t i = begin; i < end; ++i)
-      keyed[i - begin] = (key(sorted_[i]) - least) >> shift << word_bits | i;
+      keyed[i - begin] = (keyed[i - begin] - least) >> shift << word_bits | i;
     const int high = word_bits + static_cast<int>(std::bit_width((most - least) >> shift));
     const int low = std::max(word_bits, high - digit_bits);
     base::radix_sort(keyed, low, high);
     const Words words(words_.data() + begin, end - begin);
-    for (std::size_t i = 0; i < words.size(); ++i) words[i] = static_cast<std::uint32_t>(keyed[i]) & ~starts;
-    for (std::size_t i = 0; i < words.size();) {
-      std::size_t next = i + 1;
+    for (std::size_t i = 0; i < words.size(); ++i) words[i] = static_cast<std::uint32_t>(keyed[i]) | starts;
+    std::vector<Words> long_runs;
+    for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+      if ((keyed[i] ^ keyed[i + 1]) >> low != 0) continue;  // nearly always
+      std::size_t next = i + 2;
       while (next < words.size() && keyed[next] >> low == keyed[i] >> low) ++next;
-      settle_key(words.subspan(i, next - i));
-      i = next;
+      settle_key(words.subspan(i, next - i), long_runs);
+      i = next - 1;
     }
+    if (long_runs.empty()) return gather(bucket);
+    const std::lock_guard lock(mutex_);
+    open_buckets_.push_back(bucket);
+    long_runs_.insert(long_runs_.end(), long_runs.begin(), long_runs.end());
   }
 
   // Sorts words with one key by value, and runs of equal values exactly.
-  void settle_key(Words words) {
-    if (words.size() == 1) {  // nearly always
-      words[0] |= starts;
-      return;
-    }
+  void settle_key(Words words, std::vector<Words>& long_runs) {
+    for (std::uint32_t& word : words) word &= ~starts;
     const auto comes_before = [&](std::uint32_t a, std::uint32_t b) {
       return key(a) != key(b) ? key(a) < key(b) : a < b;
     };
@@ -214,19 +224,18 @@ class Sorter {
     for (std::size_t i = 0; i < words.size();) {
       std::size_t end = i + 1;
       while (end < words.size() && key(words[end]) == key(words[i])) ++end;
-      settle_equal(words.subspan(i, end - i));
+      settle_equal(words.subspan(i, end - i), long_runs);
       i = end;
     }
   }
 
-  void settle_equal(Words words) {
+  void settle_equal(Words words, std::vector<Words>& long_runs) {
     if (words.size() == 1) {
       words[0] |= starts;
     } else if (words.size() <= long_run) {
       settle_run(words, 1, {});
     } else {
-      const std::lock_guard lock(mutex_);
-      long_runs_.push_back(words);
+      long_runs.push_back(words);
     }
   }
 
@@ -234,6 +243,8 @@ class Sorter {
   void settle_long_runs() {
     const Monitor monitor = passes_.same();
     for (const Words words : long_runs_) settle_run(words, threads_, monitor);
+    const auto finish = [&](std::size_t k) { gather(open_buckets_[k]); };
+    parallel_for(open_buckets_.size(), threads_, finish, passes_.next());
   }
 
   // Sorts a run by the exact values, by fine estimates first if there are some, and marks where values begin.
@@ -329,10 +340,12 @@ class Sorter {
     const std::vector<double> values(sorted_.data() + begin, sorted_.data() + end);
     const std::vector<std::int32_t> items(item_.data() + begin, item_.data() + end);
     std::size_t next = begin;
+    double most = 0;  // estimates of exact values that round to the same need not increase
     for (const std::uint32_t word : words) {
       const std::size_t place = word & ~starts;
       if ((word & starts) != 0) {
-        sorted_[next] = values[place - begin];
+        most = std::max(most, values[place - begin]);
+        sorted_[next] = most * unit_;
         item_[next] = items[place - begin];
         ++next;
       }
@@ -356,7 +369,7 @@ class Sorter {
       });
       sorted_ = {}, item_ = {};
     }
-    out.rank = LargeArray<std::int32_t>(values_.size());
+    out.rank = std::move(rank_);
     base::for_pieces(values_.size(), ranks_a_piece, threads_, passes_.next(),
                      [&](std::size_t, std::size_t begin, std::size_t end) {
                        std::fill(out.rank.data() + begin, out.rank.data() + end,
@@ -376,6 +389,7 @@ class Sorter {
   int open_bits_;
   const CompareItems& compare_;
   const RefineItem& refine_;
+  double unit_;
   unsigned threads_;
   base::Passes passes_;
   Buckets buckets_;
@@ -385,22 +399,24 @@ class Sorter {
   LargeArray<std::uint16_t> bucket_;                // [items]
   LargeArray<double> sorted_;                       // by buckets; of each, in the end, its values
   LargeArray<std::int32_t> item_;                   // of these
-  LargeArray<std::uint32_t> words_;                 // places of sorted_
+  LargeArray<std::int32_t> rank_;                   // [2 items]
+  Words words_;                                     // of it, the second half: places of sorted_
   std::vector<Words> long_runs_;                    // in any order
-  std::mutex mutex_;                                // guards them
+  std::vector<std::size_t> open_buckets_;           // which have them
+  std::mutex mutex_;                                // guards both
 };
 
 }  // namespace
 
 RadiusRanks rank_radii(std::span<const double> values, const CompareItems& compare, unsigned threads,
-                       const Monitor& monitor, int open_bits, const RefineItem& refine) {
-  return Sorter(values, compare, threads, monitor, open_bits, refine).run({});
+                       const Monitor& monitor, int open_bits, const RefineItem& refine, double unit) {
+  return Sorter(values, compare, threads, monitor, open_bits, refine, unit).run({});
 }
 
 RadiusRanks rank_radii(LargeArray<double>&& values, const CompareItems& compare, unsigned threads,
-                       const Monitor& monitor, int open_bits, const RefineItem& refine) {
+                       const Monitor& monitor, int open_bits, const RefineItem& refine, double unit) {
   const std::span<const double> all(values.data(), values.size());
-  return Sorter(all, compare, threads, monitor, open_bits, refine).run(std::move(values));
+  return Sorter(all, compare, threads, monitor, open_bits, refine, unit).run(std::move(values));
 }
 
 }  // namespace vorotool::core::alpha

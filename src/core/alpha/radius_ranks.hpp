@@ -13,9 +13,10 @@
 namespace vorotool::core::alpha {
 
 struct RadiusRanks {
-  base::LargeArray<double> value;          // [m] increasing; equal where two exact values have one double
+  base::LargeArray<double> value;          // [m] not decreasing; equal where two exact values have one double
   base::LargeArray<std::int32_t> witness;  // [m] an item with this value
-  base::LargeArray<std::int32_t> rank;     // [n] place of each item in the above; m of those left out
+  // [2 n] first the place of each item in the above, m of those left out; the second half is memory to be used.
+  base::LargeArray<std::int32_t> rank;
 };
 
 // Sign of the difference of the exact values of two items whose doubles, as far as they count, are equal.
@@ -36,13 +37,14 @@ inline double rounded_by(int bits, double value) {
 
 // The items are 0 ... n - 1, n < 2^31, and values[i] is the double nearest to the exact value of item i, not
 // a NaN; items with negative values are left out. Time is linear for values spread like radii, n log n at
-// worst. Where `open_bits` is more than 0, a value need only be such that rounded by these it is what the exact one is,
-// and the values given back may not increase. With `refine` fewer are compared exactly.
+// worst. Where `open_bits` is more than 0, a value need only be such that rounded by these it is what the exact one is.
+// With `refine` fewer are compared exactly. The values given back are in the unit: times this power of two.
 RadiusRanks rank_radii(std::span<const double> values, const CompareItems& compare, unsigned threads,
-                       const base::Monitor& monitor, int open_bits = 0, const RefineItem& refine = {});
+                       const base::Monitor& monitor, int open_bits = 0, const RefineItem& refine = {},
+                       double unit = 1);
 
-// The same, and the values are gone as soon as they are no longer needed.
+// The same in the memory of the values, which are gone.
 RadiusRanks rank_radii(base::LargeArray<double>&& values, const CompareItems& compare, unsigned threads,
-                       const base::Monitor& monitor, int open_bits, const RefineItem& refine);
+                       const base::Monitor& monitor, int open_bits, const RefineItem& refine, double unit);
 
 }  // namespace vorotool::core::alpha

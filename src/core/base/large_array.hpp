@@ -28,11 +28,22 @@ class LargeArray {
   const T* data() const { return data_.get(); }
   T& operator[](std::size_t i) { return data_[i]; }
   const T& operator[](std::size_t i) const { return data_[i]; }
+  // The same memory for items of another kind, which are indeterminate, and of no more bytes.
+  template <class Other>
+  LargeArray<Other> reused(std::size_t size) && {
+    LargeArray<Other> other;
+    other.size_ = size, size_ = 0;
+    other.data_.reset(reinterpret_cast<Other*>(data_.release()));
+    return other;
+  }
   // Gives the memory away; it is to be freed by LargeArray<T>::free.
   T* release() { return data_.release(); }
   static void free(T* data) { ::operator delete(data, alignment); }
 
  private:
+  template <class Other>
+  friend class LargeArray;
+
   static constexpr std::size_t page = 4096;
   static constexpr std::size_t large_page = std::size_t{1} << 21;
   static constexpr std::align_val_t alignment{page};  // madvise wants whole pages

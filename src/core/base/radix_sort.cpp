@@ -11,7 +11,7 @@ namespace vorotool::core::base {
 
 namespace {
 
-// 11 bits a digit: 2048 counters stay in the first-level cache, and 33 bits take three passes.
+// 11 bits a digit at most: 2048 counters stay in the first-level cache, and 33 bits take three passes.
 constexpr int digit_bits = 11;
 constexpr std::size_t digits = std::size_t{1} << digit_bits;
 
@@ -29,15 +29,17 @@ void sort_by(std::vector<Item>& items, int low, int high, unsigned threads, KeyO
   const auto other = std::make_unique_for_overwrite<Item[]>(count);
   Item* from = items.data();
   Item* to = other.get();
-  for (int shift = low; shift < high; shift += digit_bits) {
-    const std::uint64_t mask = (std::uint64_t{1} << std::min(digit_bits, high - shift)) - 1;
+  const int passes = (high - low + digit_bits - 1) / digit_bits;
+  const int step = passes == 0 ? 0 : (high - low + passes - 1) / passes;  // digits of about the same size
+  for (int shift = low; shift < high; shift += step) {
+    const std::uint64_t mask = (std::uint64_t{1} << std::min(step, high - shift)) - 1;
     in_parts([&](std::size_t piece, std::size_t begin, std::size_t end) {
       auto& start = starts[piece];
-      start.fill(0);
+      std::fill_n(start.begin(), mask + 1, std::size_t{0});
       for (std::size_t i = begin; i < end; ++i) ++start[key_of(from[i]) >> shift & mask];
     });
     std::size_t sum = 0;
-    for (std::size_t digit = 0; digit < digits; ++digit) {
+    for (std::size_t digit = 0; digit <= mask; ++digit) {
       for (auto& start : starts) sum += std::exchange(start[digit], sum);
     }
     in_parts([&](std::size_t piece, std::size_t begin, std::size_t end) {

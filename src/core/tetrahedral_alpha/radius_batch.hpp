@@ -1,4 +1,4 @@
-// Radii of several tetrahedra or triangles at once, by the estimates of simplex_radius.cpp; what they leave in doubt is
+// Radii of several tetrahedra, triangles or edges at once, by the estimates of simplex_radius.cpp; what they leave in doubt is
 // said.
 //
 // The files of the kernels are compiled for wider instruction sets than the rest. They take raw pointers and call
@@ -21,8 +21,9 @@ struct RadiusBatch {
   void (*tetrahedra)(const Point3* points, const int (*corners)[4], bool are_integers, double* radius,
                      unsigned short* known);
 
-  // Of `group` triangles: radii, and whether they are certain in bit k for that of triangle k.
+  // Of `group` triangles or edges: radii, and whether they are certain in bit k for that of simplex k.
   unsigned (*triangles)(const Point3* points, const int (*corners)[3], double* radius);
+  unsigned (*edges)(const Point3* points, const int (*corners)[2], double* radius);
 };
 
 // That for the widest vectors of this machine.

@@ -146,23 +146,31 @@ struct RadiusKernel {
            is_settled(value, bounds::normal_error * spread + 2 * bounds::few_roundings);
   }
 
+  static Bits edges(const Point3* points, const int (*rows)[2], double* radius) {
+    const Points way = from_to(corner(points, rows, 0), corner(points, rows, 1));
+    const Vector value = Level::root(dot(way, way)) / 2;
+    __builtin_memcpy(radius, &value, sizeof(value));
+    return is_in_range(extent(absolute(way))) & is_settled(value, Vector{} + bounds::few_roundings);
+  }
+
   static void all_tetrahedra(const Point3* points, const int (*rows)[4], bool are_integers, double* radius,
                              unsigned short* known) {
     for (int k = 0; k < RadiusBatch::group; k += width)
       tetrahedra(points, rows + k, are_integers, radius + k, known + k);
   }
 
-  static unsigned all_triangles(const Point3* points, const int (*rows)[3], double* radius) {
+  template <int corners, Bits (*some)(const Point3*, const int (*)[corners], double*)>
+  static unsigned all(const Point3* points, const int (*rows)[corners], double* radius) {
     unsigned result = 0;
     for (int k = 0; k < RadiusBatch::group; k += width) {
-      const Lanes certain(triangles(points, rows + k, radius + k));
+      const Lanes certain(some(points, rows + k, radius + k));
       for (int lane = 0; lane < width; ++lane)
         result |= static_cast<unsigned>(certain.of[lane] & 1) << (k + lane);
     }
     return result;
   }
 
-  static constexpr RadiusBatch batch{all_tetrahedra, all_triangles};
+  static constexpr RadiusBatch batch{all_tetrahedra, all<3, triangles>, all<2, edges>};
 };
 
 }  // namespace

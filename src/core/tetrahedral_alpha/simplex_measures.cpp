@@ -1,7 +1,6 @@
 #include "core/tetrahedral_alpha/simplex_measures.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include "core/base/indices.hpp"
 #include "core/tetrahedral_alpha/radius_batch.hpp"
@@ -13,7 +12,7 @@ namespace {
 constexpr std::size_t group = RadiusBatch::group;
 
 template <std::size_t size>
-Simplex simplex_of(const std::vector<Point3>& points, const std::array<std::int32_t, size>& corners) {
+Simplex simplex_of(const base::LargeArray<Point3>& points, const std::array<std::int32_t, size>& corners) {
   Simplex s;
   for (const std::int32_t v : corners) s.corner[s.size++] = &points[base::at(v)];
   return s;
@@ -42,15 +41,20 @@ void measure_tetrahedra(const ScaledPoints& points, std::span<const std::array<s
   }
 }
 
-void measure_triangles(const ScaledPoints& points, std::span<const std::array<std::int32_t, 3>> corners,
+template <std::size_t size>
+void measure_simplices(const ScaledPoints& points, std::span<const std::array<std::int32_t, size>> corners,
                        double* radius) {
   const RadiusBatch batch = radius_batch();
   for (std::size_t first = 0; first < corners.size(); first += group) {
-    std::array<std::array<std::int32_t, 3>, group> rows;
+    std::array<std::array<std::int32_t, size>, group> rows;
     std::array<double, group> found;
     for (std::size_t k = 0; k < group; ++k) rows[k] = corners[std::min(first + k, corners.size() - 1)];
-    const unsigned certain =
-        batch.triangles(points.points.data(), reinterpret_cast<const int (*)[3]>(rows.data()), found.data());
+    const auto* const numbers = reinterpret_cast<const int (*)[size]>(rows.data());
+    unsigned certain;
+    if constexpr (size == 3)
+      certain = batch.triangles(points.points.data(), numbers, found.data());
+    else
+      certain = batch.edges(points.points.data(), numbers, found.data());
     for (std::size_t k = 0; k < std::min(group, corners.size() - first); ++k) {
       radius[first + k] = (certain >> k & 1U) != 0
                               ? found[k]
@@ -58,5 +62,10 @@ void measure_triangles(const ScaledPoints& points, std::span<const std::array<st
     }
   }
 }
+
+template void measure_simplices<3>(const ScaledPoints&, std::span<const std::array<std::int32_t, 3>>,
+                                   double*);
+template void measure_simplices<2>(const ScaledPoints&, std::span<const std::array<std::int32_t, 2>>,
+                                   double*);
 
 }  // namespace vorotool::core::tetrahedral_alpha

@@ -1,7 +1,8 @@
-// Radii of many tetrahedra or triangles.
+// Radii of many tetrahedra, triangles or edges.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -17,8 +18,9 @@ struct TetrahedronMeasures {
 void measure_tetrahedra(const ScaledPoints& points, std::span<const std::array<std::int32_t, 4>> corners,
                         const TetrahedronMeasures& out);
 
-// A number for each triangle: ranked_radius.
-void measure_triangles(const ScaledPoints& points, std::span<const std::array<std::int32_t, 3>> corners,
+// A number for each triangle (3) or edge (2): ranked_radius.
+template <std::size_t size>
+void measure_simplices(const ScaledPoints& points, std::span<const std::array<std::int32_t, size>> corners,
                        double* radius);
 
 }  // namespace vorotool::core::tetrahedral_alpha

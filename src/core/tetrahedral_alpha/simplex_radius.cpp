@@ -1,15 +1,18 @@
 #include "core/tetrahedral_alpha/simplex_radius.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/alpha/exact_radius.hpp"
 #include "core/alpha/radius_ranks.hpp"
 #include "core/base/indices.hpp"
+#include "core/base/parallel.hpp"
 #include "core/numbers/big_integer.hpp"
 #include "core/numbers/double_double.hpp"
 #include "core/numbers/dyadic_grid.hpp"
@@ -323,39 +326,39 @@ std::array<int, 4> exact_heights(const Simplex& s) {
 }
 
 // ---- points ----
-bool move_to_integers(ScaledPoints& out) {
-  Point3 least = out.points[0], most = out.points[0];
+constexpr std::size_t points_a_piece = std::size_t{1} << 14;
+
+// The least and the greatest of all coordinates by axes, and the exponent of the last bit of any.
+struct Extent {
+  Point3 least{infinity, infinity, infinity}, most{-infinity, -infinity, -infinity};
   int exponent = 1024;
-  const auto look = [&](double value, double& lowest, double& highest) {
-    lowest = std::min(lowest, value), highest = std::max(highest, value);
-    const numbers::OddMantissa parts(value);
-    if (parts.mantissa != 0) exponent = std::min(exponent, parts.exponent);
-  };
-  for (const Point3& p : out.points) {
-    look(p.x, least.x, most.x), look(p.y, least.y, most.y), look(p.z, least.z, most.z);
+
+  void add(const Point3& low, const Point3& high, int last) {
+    least = {std::min(least.x, low.x), std::min(least.y, low.y), std::min(least.z, low.z)};
+    most = {std::max(most.x, high.x), std::max(most.y, high.y), std::max(most.z, high.z)};
+    exponent = std::min(exponent, last);
   }
-  if (exponent == 1024) return false;  // all are 0
-  const double size = std::max({most.x - least.x, most.y - least.y, most.z - least.z});
-  if (!(size < std::ldexp(1.0, exponent + 52))) return false;
-  // Differences of multiples of 2^exponent below 2^(exponent + 53) are doubles, and so is the scaling.
-  const auto moved = [&](double value, double from) { return std::ldexp(value - from, -exponent); };
-  for (Point3& p : out.points) p = {moved(p.x, least.x), moved(p.y, least.y), moved(p.z, least.z)};
-  out.exponent = exponent;
-  return true;
+
+  double size() const { return std::max({most.x - least.x, most.y - least.y, most.z - least.z}); }
+  double largest() const {
+    return std::max({std::abs(least.x), std::abs(least.y), std::abs(least.z), std::abs(most.x),
+                     std::abs(most.y), std::abs(most.z)});
+  }
+};
+
+int last_exponent(double value) {
+  const numbers::OddMantissa parts(value);
+  return parts.mantissa == 0 ? 1024 : parts.exponent;
 }
 
-void scale(ScaledPoints& out) {
-  double most = 0;
-  for (const Point3& p : out.points) most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  const int exponent = most == 0 ? 0 : std::ilogb(most);
-  const auto scaled = [&](double value) { return std::ldexp(value, -exponent); };
-  const auto is_same = [&](double value) { return std::ldexp(scaled(value), exponent) == value; };
-  if (!std::all_of(out.points.begin(), out.points.end(),
-                   [&](const Point3& p) { return is_same(p.x) && is_same(p.y) && is_same(p.z); }))
-    return;
-  for (Point3& p : out.points) p = {scaled(p.x), scaled(p.y), scaled(p.z)};
-  out.exponent = exponent;
-}
+// Multiplies by a power of two as two doubles, since it may be none itself.
+struct Scaling {
+  explicit Scaling(int exponent)
+      : first(std::ldexp(1.0, exponent / 2)), second(std::ldexp(1.0, exponent - exponent / 2)) {}
+  double operator()(double value) const { return value * first * second; }
+
+  double first, second;
+};
 
 // The square of a radius in twice as many digits. The formulas are those of its estimate, with exact differences, and
 // operations that err by 15 u^2 where those err by u; and of squares errors are twice as large.
@@ -418,12 +421,45 @@ std::uint8_t sides_cut(const Simplex& simplex, bool are_integers) {
 
 }  // namespace
 
-ScaledPoints::ScaledPoints(std::span<const Point3> given, std::span<const std::int32_t> chosen) {
-  if (chosen.empty()) return;
-  points.reserve(chosen.size());
-  for (const std::int32_t v : chosen) points.push_back(given[base::at(v)]);
-  are_integers = move_to_integers(*this);
-  if (!are_integers) scale(*this);
+ScaledPoints::ScaledPoints(std::span<const Point3> given, std::span<const std::int32_t> chosen,
+                           unsigned threads, const base::Monitor& monitor)
+    : points(chosen.size()) {
+  const auto for_pieces = [&](const auto& body) {
+    base::for_pieces(chosen.size(), points_a_piece, threads, monitor, body);
+  };
+  std::vector<Extent> extents(base::piece_count(chosen.size(), points_a_piece));
+  for_pieces([&](std::size_t piece, std::size_t begin, std::size_t end) {
+    Extent extent;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Point3& p = points[i] = given[base::at(chosen[i])];
+      extent.add(p, p, std::min({last_exponent(p.x), last_exponent(p.y), last_exponent(p.z)}));
+    }
+    extents[piece] = extent;
+  });
+  Extent all;
+  for (const Extent& each : extents) all.add(each.least, each.most, each.exponent);
+  const double largest = all.largest();
+  if (chosen.empty() || largest == 0) return;
+  // Differences of multiples of 2^exponent below 2^(exponent + 53) are doubles, and so is the scaling.
+  are_integers = all.size() < std::ldexp(1.0, all.exponent + 52);
+  exponent = are_integers ? all.exponent : std::ilogb(largest);
+  const Point3 origin = are_integers ? all.least : Point3{};
+  const Scaling scaled(-exponent), back(exponent);
+  std::atomic<bool> is_lost = false;
+  for_pieces([&](std::size_t, std::size_t begin, std::size_t end) {
+    bool is_same = true;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Point3 moved{points[i].x - origin.x, points[i].y - origin.y, points[i].z - origin.z};
+      const Point3 p = points[i] = {scaled(moved.x), scaled(moved.y), scaled(moved.z)};
+      is_same &= back(p.x) == moved.x && back(p.y) == moved.y && back(p.z) == moved.z;
+    }
+    if (!is_same) is_lost = true;
+  });
+  if (!is_lost) return;
+  exponent = 0;
+  for_pieces([&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) points[i] = given[base::at(chosen[i])];
+  });
 }
 
 double ranked_radius(const Simplex& simplex, bool are_integers) {

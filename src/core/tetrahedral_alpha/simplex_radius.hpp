@@ -7,9 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/alpha/radius_ranks.hpp"
+#include "core/base/large_array.hpp"
+#include "core/base/monitor.hpp"
 #include "core/tetrahedra/point3.hpp"
 
 namespace vorotool::core::tetrahedral_alpha {
@@ -25,12 +26,13 @@ struct Simplex {
 // Points moved and scaled, which changes radii by a power of two: to integers below 2^53 where all are on a common
 // lattice that is fine enough, else, if nothing is lost by that, to coordinates below 2.
 struct ScaledPoints {
-  std::vector<Point3> points;
+  base::LargeArray<Point3> points;
   int exponent = 0;  // a radius is that of these points times 2^exponent
   bool are_integers = false;
 
   // The points of these numbers.
-  ScaledPoints(std::span<const Point3> given, std::span<const std::int32_t> chosen);
+  ScaledPoints(std::span<const Point3> given, std::span<const std::int32_t> chosen, unsigned threads,
+               const base::Monitor& monitor);
 };
 
 // Radii, with a relative error of less than 2^-40: doubles that have the same bits but `open_bits` if rounded by these

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,7 @@ using tetrahedra::Point3;
 namespace {
 
 constexpr std::size_t simplices_a_piece = std::size_t{1} << 12;  // about a millisecond of work
+constexpr std::size_t values_a_piece = std::size_t{1} << 16;     // which are but copied
 constexpr double left_out = -1;
 constexpr int passes = 12;  // over all simplices of a kind; over all of them, for the ranks
 
@@ -47,7 +49,7 @@ class Builder {
         cells_(cells.size()),
         order_(number_vertices(cells, points.size())),
         stars_(std::span<const Cell>(cells_.data(), cells_.size()), order_.size(), threads, passes_),
-        scaled_(points, order_),
+        scaled_(points, order_, threads, passes_.same()),
         given_(cells) {
     if constexpr (width == 4) facets_.emplace(cells, neighbors, threads, passes_.next());
   }
@@ -61,11 +63,13 @@ class Builder {
     cut_sides = {};
     edges_ = std::move(ends);
     value_ = LargeArray<double>(count_ + facet_.size() + edges_.size());
-    std::copy(radius.data(), radius.data() + count_, value_.data());
+    copy(radius.data(), value_.data());
     radius = {};
-    measure_facets(cut);
+    if constexpr (width == 4) measure_facets(cut);
     cut = {};
-    measure_edges(is_cut);
+    measure<2>(
+        count_ + facet_.size(), edges_.size(), [&](std::size_t e) { return edges_[e]; },
+        [&](std::size_t e) { return std::size_t{is_cut[e]}; });
     is_cut = {}, cells_ = {};
     const auto compare = [&](std::uint32_t p, std::uint32_t q) {
       return compare_radii(simplex_of(p), simplex_of(q), scaled_.are_integers);
@@ -74,7 +78,8 @@ class Builder {
     if (!scaled_.are_integers) refine = [&](std::uint32_t item) { return refine_radius(simplex_of(item)); };
     const Monitor monitor = passes_.next();
     alpha::RadiusRanks ranks =
-        alpha::rank_radii(std::move(value_), compare, threads_, monitor, bounds::open_bits, refine);
+        alpha::rank_radii(std::move(value_), compare, threads_, monitor, bounds::open_bits, refine,
+                          std::ldexp(1.0, scaled_.exponent));
     scaled_.points = {};
     return write(std::move(ranks));
   }
@@ -128,7 +133,7 @@ class Builder {
                    measure_tetrahedra(scaled_, {cells_.data() + begin, end - begin},
                                       {radius.data() + begin, cut.data() + begin, cut_sides.data() + begin});
                  } else if constexpr (width == 3) {
-                   measure_triangles(scaled_, {cells_.data() + begin, end - begin}, radius.data() + begin);
+                   measure_simplices<3>(scaled_, {cells_.data() + begin, end - begin}, radius.data() + begin);
                    for (std::size_t t = begin; t < end; ++t) cut_sides[t] = sides_cut(cells_[t]);
                  } else {
                    std::fill(cut_sides.data() + begin, cut_sides.data() + end, std::uint8_t{0});
@@ -152,36 +157,44 @@ class Builder {
     const auto is_cut = [&](std::int32_t facet) {
       return facet >= 0 && (cut[at(facet) / 4] >> (facet % 4) & 1) != 0;
     };
-    for_pieces(facet_.size(), simplices_a_piece, threads_, passes_.next(),
-               [&](std::size_t, std::size_t begin, std::size_t end) {
-                 std::vector<Corners> gabriel(end - begin + 1);
-                 std::vector<std::size_t> item(gabriel.size());
-                 std::size_t count = 0;
-                 for (std::size_t m = begin; m < end; ++m) {
-                   const std::size_t t = at(facet_[m]) / 4;
-                   for (std::size_t k = 0; k < 3; ++k)
-                     gabriel[count][k] = cells_[t][facets[at(facet_[m]) % 4][k]];
-                   value_[count_ + m] = left_out;
-                   item[count] = count_ + m;
-                   count +=
-                       std::size_t{!is_cut(facet_[m])} & std::size_t{!is_cut(facets_->across(facet_[m]))};
-                 }
-                 std::vector<double> radius(count);
-                 measure_triangles(scaled_, {gabriel.data(), count}, radius.data());
-                 for (std::size_t i = 0; i < count; ++i) value_[item[i]] = radius[i];
-               });
+    measure<3>(
+        count_, facet_.size(),
+        [&](std::size_t m) {
+          const Cell& cell = cells_[at(facet_[m]) / 4];
+          const auto& [a, b, c] = facets[at(facet_[m]) % 4];
+          return Corners{cell[a], cell[b], cell[c]};
+        },
+        [&](std::size_t m) {
+          return std::size_t{is_cut(facet_[m])} | std::size_t{is_cut(facets_->across(facet_[m]))};
+        });
   }
 
-  void measure_edges(const LargeArray<std::uint8_t>& is_cut) {
-    for_items(edges_.size(), simplices_a_piece, threads_, passes_.next(), [&](std::size_t e) {
-      const std::size_t item = count_ + facet_.size() + e;
-      value_[item] = is_cut[e] != 0 ? left_out : ranked_radius(simplex_of(item), scaled_.are_integers);
-    });
+  // The values of those simplices of a kind that nothing cuts.
+  template <std::size_t size, class CornersOf, class IsCut>
+  void measure(std::size_t first_item, std::size_t count, const CornersOf& corners_of, const IsCut& is_cut) {
+    for_pieces(count, simplices_a_piece, threads_, passes_.next(),
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 std::vector<std::array<std::int32_t, size>> gabriel(end - begin + 1);
+                 std::vector<std::size_t> item(gabriel.size());
+                 std::size_t found = 0;
+                 for (std::size_t m = begin; m < end; ++m) {  // without a branch
+                   gabriel[found] = corners_of(m);
+                   item[found] = first_item + m;
+                   value_[first_item + m] = left_out;
+                   found += 1 - is_cut(m);
+                 }
+                 std::vector<double> radius(found);
+                 measure_simplices<size>(scaled_, {gabriel.data(), found}, radius.data());
+                 for (std::size_t i = 0; i < found; ++i) value_[item[i]] = radius[i];
+               });
   }
 
   SpaceArrays write(alpha::RadiusRanks&& ranks) {
     SpaceArrays out;
-    LargeArray<std::int32_t> facet_min(4 * count_);  // the complement where nothing is across
+    // In the memory that ranks leave, if there is enough; the complement where nothing is across.
+    const std::size_t items = count_ + facet_.size() + edges_.size();
+    LargeArray<std::int32_t> more(4 * count_ <= items ? 0 : 4 * count_);
+    std::int32_t* const facet_min = 4 * count_ <= items ? ranks.rank.data() + items : more.data();
     out.triangle_min = LargeArray<std::int32_t>(facet_.size());
     for_items(facet_.size(), simplices_a_piece, threads_, passes_.next(), [&](std::size_t m) {
       const std::int32_t own = ranks.rank[count_ + m], facet = facet_[m], other = facets_->across(facet);
@@ -196,26 +209,27 @@ class Builder {
     const auto number = [&](std::size_t t, std::size_t k) { return place_[at(given_[t][k])]; };
     stars_.visit(edges_, number, [&] { return EdgeRanks(*this, edges_, out, ranks, facet_min); });
     out.edges = std::move(edges_);
-    facet_min = {}, (width == 4 ? out.tetrahedron_rank : out.triangle_min) = LargeArray<std::int32_t>(count_);
-    std::copy(ranks.rank.data(), ranks.rank.data() + count_,
-              (width == 4 ? out.tetrahedron_rank : out.triangle_min).data());
+    (width == 4 ? out.tetrahedron_rank : out.triangle_min) = LargeArray<std::int32_t>(count_);
+    copy(ranks.rank.data(), (width == 4 ? out.tetrahedron_rank : out.triangle_min).data());
     out.facet = std::move(facet_);
-    const double scale = std::ldexp(1.0, scaled_.exponent);
-    double so_far = 0;
-    for (std::size_t i = 0; i < ranks.value.size(); ++i) {
-      so_far = std::max(so_far, ranks.value[i]);
-      ranks.value[i] = so_far * scale;
-    }
     out.spectrum = std::move(ranks.value);
     out.witness = std::move(ranks.witness);
     return out;
+  }
+
+  template <class Item>
+  void copy(const Item* from, Item* to) const {
+    for_pieces(count_, values_a_piece, threads_, passes_.same(),
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 std::copy(from + begin, from + end, to + begin);
+               });
   }
 
   // The ranks of the edges from a vertex to later ones, from those of the cells around them.
   class EdgeRanks {
    public:
     EdgeRanks(const Builder& builder, LargeArray<Ends>& edges, SpaceArrays& out,
-              const alpha::RadiusRanks& ranks, const LargeArray<std::int32_t>& facet_min)
+              const alpha::RadiusRanks& ranks, const std::int32_t* facet_min)
         : builder_(builder),
           edges_(edges),
           out_(out),
@@ -224,7 +238,7 @@ class Builder {
           last_rank_(static_cast<std::int32_t>(ranks.value.size())) {}
 
     void start(std::size_t first, std::size_t last) {
-      found_.assign(last - first + 1, {last_rank_, last_rank_, width == 4 ? 0 : last_rank_});
+      found_.assign(last - first, Ranks{last_rank_, last_rank_, width == 4 ? -1 : ~last_rank_, 0});
     }
 
     void prefetch(std::size_t t) const {
@@ -232,32 +246,33 @@ class Builder {
       if constexpr (width > 2) __builtin_prefetch(&rank_[t]);
     }
 
-    void visit(std::size_t t, std::size_t k, const std::array<std::size_t, width - 1>& edges) {
+    template <std::size_t place>
+    void visit(std::integral_constant<std::size_t, place>, std::size_t t, const CornerOrder<width>& order,
+               const std::array<std::size_t, width - 1 - place>& edges) {
+      const std::int32_t own = rank_[t];
       if constexpr (width == 4) {
-        const std::int32_t own = rank_[t];
-        std::array<std::int32_t, 3> least, most{own, own, own};
-        for (std::size_t j = 0; j < 3; ++j) least[j] = facet_min_[4 * t + (k + 1 + j) % 4];
-        if ((least[0] | least[1] | least[2]) < 0) mark_outside(least, most);
-        for (std::size_t j = 0; j < 3; ++j) {  // the facets opposite to the two other corners are at the edge
-          auto& [min, mid, max] = found_[edges[j]];
-          min = std::min({min, least[(j + 1) % 3], least[(j + 2) % 3]});
-          mid = std::min(mid, own);
-          max = std::max(max, most[j]);
+        const std::int32_t* const facet = facet_min_ + 4 * t;
+        std::array<std::int32_t, 4> least{facet[order[0]], facet[order[1]], facet[order[2]], facet[order[3]]};
+        std::array<std::int32_t, 4> most{own, own, own, own};
+        if ((least[0] | least[1] | least[2] | least[3]) < 0) mark_outside(least, most);
+        Ranks ranks{0, own, 0, 0};
+        for (std::size_t j = 0; j < edges.size();
+             ++j) {  // the facets opposite to the other corners are at the edge
+          const auto& [p, q] = besides[place][place + 1 + j];
+          ranks[0] = std::min(least[p], least[q]), ranks[2] = ~std::max(most[p], most[q]);
+          add(edges[j], ranks);
         }
       } else if constexpr (width == 3) {
-        for (const std::size_t e : edges) {
-          std::int32_t& min = found_[e][0];
-          min = std::min(min, rank_[t]);
-        }
+        for (const std::size_t e : edges) add(e, Ranks{own, last_rank_, ~last_rank_, 0});
       }
     }
 
     void end(std::size_t first, std::size_t last) {
       const std::size_t items = builder_.count_ + builder_.facet_.size();
       for (std::size_t e = first; e < last; ++e) {
-        const auto& [min, mid, max] = found_[e - first];
-        out_.edge_min[e] = std::min(min, rank_[items + e]);
-        out_.edge_mid[e] = mid, out_.edge_max[e] = max;
+        const Ranks& found = found_[e - first];
+        out_.edge_min[e] = std::min(found[0], rank_[items + e]);
+        out_.edge_mid[e] = found[1], out_.edge_max[e] = ~found[2];
         const auto [a, b] = edges_[e];
         const auto [p, q] = std::minmax(builder_.order_[at(a)], builder_.order_[at(b)]);
         edges_[e] = {p, q};
@@ -265,21 +280,32 @@ class Builder {
     }
 
    private:
+    // Of an edge the least and the middle rank, and the complement of the greatest: what is found makes them less.
+    typedef std::int32_t Ranks __attribute__((vector_size(16)));
+
+    // The two other corners than two.
+    static constexpr std::array<std::array<std::array<std::size_t, 2>, 4>, 3> besides{
+        {{{{}, {2, 3}, {1, 3}, {1, 2}}}, {{{}, {}, {0, 3}, {0, 2}}}, {{{}, {}, {}, {0, 1}}}}};
+
     // Complements belong to facets that nothing is across.
-    void mark_outside(std::array<std::int32_t, 3>& least, std::array<std::int32_t, 3>& most) const {
-      for (std::size_t j = 0; j < 3; ++j) {
-        if (least[j] >= 0) continue;
-        least[j] = ~least[j];
-        most[(j + 1) % 3] = most[(j + 2) % 3] = last_rank_;
+    void mark_outside(std::array<std::int32_t, 4>& least, std::array<std::int32_t, 4>& most) const {
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (least[k] < 0) least[k] = ~least[k], most[k] = last_rank_;
       }
+    }
+
+    void add(std::size_t edge, const Ranks& ranks) {
+      Ranks& found = found_[edge];
+      found = ranks < found ? ranks : found;
     }
 
     const Builder& builder_;
     LargeArray<Ends>& edges_;  // which get the old numbers
     SpaceArrays& out_;
-    const LargeArray<std::int32_t>&rank_, &facet_min_;
+    const LargeArray<std::int32_t>& rank_;
+    const std::int32_t* facet_min_;
     std::int32_t last_rank_;
-    std::vector<std::array<std::int32_t, 3>> found_;  // the least, middle and greatest one of each edge
+    std::vector<Ranks> found_;  // of the edges
   };
 
   std::size_t count_;  // of cells that are ranked

@@ -83,6 +83,27 @@ void is_right(const Lanes& lanes, std::size_t k, const Point3* corner, bool are_
   equal(unsigned{lanes.known[k]} & ~((1U << first_side_bit) - 1), sides | certain_bit);
 }
 
+// How many lanes are certain of triangles or edges of these corners, which have the radii of single ones.
+template <std::size_t size>
+int right_lanes(unsigned (*radii)(const Point3*, const int (*)[size], double*),
+                const std::vector<Point3>& points) {
+  std::array<double, group> radius;
+  const unsigned known = radii(points.data(), rows<size>().data(), radius.data());
+  int certain = 0;
+  for (std::size_t k = 0; k < group; ++k) {
+    if ((known >> k & 1U) == 0) continue;
+    Simplex simplex;
+    while (simplex.size < size) {
+      simplex.corner[simplex.size] = &points[4 * k + simplex.size];
+      ++simplex.size;
+    }
+    equal(std::bit_cast<std::uint64_t>(radius[k]),
+          std::bit_cast<std::uint64_t>(ranked_radius(simplex, false)));
+    ++certain;
+  }
+  return certain;
+}
+
 }  // namespace
 
 TEST(lanes_of_tetrahedra_agree_with_each_other_and_with_exact_radii) {
@@ -110,7 +131,7 @@ TEST(lanes_of_tetrahedra_agree_with_each_other_and_with_exact_radii) {
   CHECK(certain > 5000);
 }
 
-TEST(lanes_of_triangles_have_the_radii_of_single_ones) {
+TEST(lanes_of_triangles_and_edges_have_the_radii_of_single_ones) {
   Random random(12);
   int certain = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -118,16 +139,8 @@ TEST(lanes_of_triangles_have_the_radii_of_single_ones) {
     const std::vector<Point3> points =
         corners_of_lanes(random, most, static_cast<int>(random.whole(-70, 70)), i % 3 == 1);
     for (const RadiusBatch& batch : batches()) {
-      std::array<double, group> radius;
-      const unsigned known = batch.triangles(points.data(), rows<3>().data(), radius.data());
-      for (std::size_t k = 0; k < group; ++k) {
-        if ((known >> k & 1U) == 0) continue;
-        const Simplex simplex{{&points[4 * k], &points[4 * k + 1], &points[4 * k + 2], nullptr}, 3};
-        equal(std::bit_cast<std::uint64_t>(radius[k]),
-              std::bit_cast<std::uint64_t>(ranked_radius(simplex, false)));
-        ++certain;
-      }
+      certain += right_lanes<3>(batch.triangles, points) + right_lanes<2>(batch.edges, points);
     }
   }
-  CHECK(certain > 5000);
+  CHECK(certain > 10000);
 }
