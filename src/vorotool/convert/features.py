@@ -23,6 +23,7 @@ _WELL_KNOWN = "numeric.curves.well_known"
 SIMPLE_TYPES = ("Point", "LineString", "Polygon")
 GEOMETRY_TYPES = frozenset({*SIMPLE_TYPES, *(f"Multi{kind}" for kind in SIMPLE_TYPES), "GeometryCollection"})
 FEATURE_TYPES = frozenset({"Feature", "FeatureCollection"})
+_TYPES = GEOMETRY_TYPES | FEATURE_TYPES
 
 MOST_LEVELS = 100
 """Of brackets in well-known text, as in files."""
@@ -111,7 +112,7 @@ def is_shapely(value: Any) -> bool:
 
 def is_geojson(value: Any) -> bool:
     """Tell whether a value is an object of GeoJSON, by its type."""
-    return isinstance(value, Mapping) and value.get("type") in GEOMETRY_TYPES | FEATURE_TYPES
+    return isinstance(value, Mapping) and value.get("type") in _TYPES
 
 
 def _dtype_name(value: Any) -> str:

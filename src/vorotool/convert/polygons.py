@@ -111,6 +111,8 @@ def _set_of_items(items: Any, name: str, held: HeldFeatures | None = None) -> Po
 
 def _polygons_of(item: Any, place: str, name: str) -> list[list[Part]]:
     """Rings of each polygon of one item; none of what is empty."""
+    if _are_vertices(item):
+        return [[(SHELL, item)]] if len(item) else []
     if item is None:
         return []
     if is_shapely(item):
@@ -166,7 +168,14 @@ def _flat_ring(positions: Any, place: str) -> NDArray[np.float64]:
     return _ring(array, place, "polygons")
 
 
+def _are_vertices(item: Any) -> bool:
+    """Whether this is an array of doubles as rings are kept; what it holds is copied when all rings are joined."""
+    return type(item) is np.ndarray and item.dtype == np.float64 and item.ndim == 2 and item.shape[1] == 2
+
+
 def _ring(vertices: Any, place: str, name: str) -> NDArray[np.float64]:
+    if _are_vertices(vertices):
+        return vertices
     if isinstance(vertices, str | bytes) or not (isinstance(vertices, Iterable) or hasattr(vertices, "__array__")):
         raise InputError(f"{place} is {described(vertices)}; expected {EXPECTED}")
     array = number_array(vertices, "vertex", f"{place} is not an (n, 2) array of numbers; expected {EXPECTED}")

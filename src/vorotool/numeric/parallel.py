@@ -70,12 +70,17 @@ def in_threads(tasks: Sequence[Callable[[Progress], Result]], threads: int, prog
 
         return poll
 
+    def work(k: int) -> Result:
+        result = tasks[k](progress_of(k))
+        done[k] = 1.0
+        return result
+
     def look() -> None:
-        shares = (1 if future.done() else share for future, share in zip(futures, done, strict=True))
-        report(progress, sum(shares) / len(tasks))
+        if progress is not None:  # there may be many tasks
+            progress(sum(done) / len(tasks))
 
     with ThreadPoolExecutor(threads) as pool:
-        futures = [pool.submit(task, progress_of(k)) for k, task in enumerate(tasks)]
+        futures = [pool.submit(work, k) for k in range(len(tasks))]
         try:
             for future in futures:
                 while wait([future], POLL_INTERVAL).not_done:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Indices, connected_roots, owners, ranges, starts_of
+from vorotool.numeric.arrays import Indices, connected_roots, mask_of, owners, ranges, starts_of
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
@@ -326,7 +326,9 @@ class RepairedPolygons:
 
 def flat_holes(polygons: PolygonSet, places: NDArray[Any] | None = None) -> NDArray[np.bool_]:
     """(r,) whether a ring is a hole with vertices at one or two places."""
-    return np.equal(polygons.ring_kind, HOLE) & _are_flat(polygons, polygons.xy if places is None else places)
+    hole = np.flatnonzero(polygons.ring_kind == HOLE)
+    flat = hole[_are_flat(polygons, polygons.xy if places is None else places, hole)]
+    return mask_of(flat, len(polygons.ring_kind))
 
 
 def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
@@ -334,7 +336,7 @@ def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
     shell = polygons.polygon_starts[:-1]
     is_alone = np.diff(polygons.polygon_starts) == 1
     flat = shell[is_alone & np.equal(polygons.ring_kind[shell], SHELL)]
-    flat = flat[_are_flat(polygons, polygons.xy)[flat]]
+    flat = flat[_are_flat(polygons, polygons.xy, flat)]
     if not flat.size:
         return polygons
     kind = polygons.ring_kind.copy()
@@ -342,9 +344,9 @@ def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
     return replace(polygons, ring_kind=kind)
 
 
-def _are_flat(polygons: PolygonSet, places: NDArray[Any]) -> NDArray[np.bool_]:
-    """(r,) whether a ring has vertices at one or two places."""
-    first, size = polygons.ring_starts[:-1], np.diff(polygons.ring_starts)
+def _are_flat(polygons: PolygonSet, places: NDArray[Any], ring: Indices) -> NDArray[np.bool_]:
+    """(k,) whether some rings have vertices at one or two places."""
+    first, size = polygons.ring_starts[ring], polygons.ring_starts[ring + 1] - polygons.ring_starts[ring]
     a, b, c = (places[first + size * third // 3] for third in range(3))
     is_flat = ~((a != b).any(axis=1) & (b != c).any(axis=1) & (c != a).any(axis=1))
     unknown = np.flatnonzero(is_flat)

@@ -289,7 +289,7 @@ def _batch(
     places = placement.vertices[vertices]
     x, y = places.T
     is_known = [bool(((x == corner_x) & (y == corner_y)).any()) for corner_x, corner_y in corners.tolist()]
-    beyond = np.unique(corners[np.logical_not(is_known)], axis=0)
+    beyond = corners[np.logical_not(is_known)]
     own = replace(placement, vertices=places)
     return FeatureBatch(polygons, rings, vertices, part, own, beyond, len(vertices) / len(used.xy))
 
@@ -415,7 +415,8 @@ class Features:
 
     def polygons_of(self, chosen: Indices) -> Indices:
         """Polygons of some features."""
-        return ranges(self.polygon_starts[chosen], np.diff(self.polygon_starts)[chosen])
+        first = self.polygon_starts[chosen]
+        return ranges(first, self.polygon_starts[chosen + 1] - first)
 
 
 def sheets_of_boxes(

@@ -451,7 +451,8 @@ def _states(borders: Borders, places: Floats, graph: PlanarGraph, control: Float
         corners[2] = np.where(np.isnan(corners[2]), corners[0], corners[2])
         a, b, c = corners
         low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-        _extend_to_circles(low, high, graph.coordinates(borders.center[some]), borders.level * graph.scale)
+        if np.isfinite(borders.level):
+            _extend_to_circles(low, high, graph.coordinates(borders.center[some]), borders.level * graph.scale)
         (low_x, low_y), (high_x, high_y) = low.T, high.T
         (left, bottom), (right, top) = box.low, box.high
         is_within = is_finite & (low_x >= left) & (low_y >= bottom) & (high_x <= right) & (high_y <= top)

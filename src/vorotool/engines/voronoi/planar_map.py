@@ -295,7 +295,8 @@ class CutMap:
         along = along[np.sort(np.unique(along, return_index=True)[1])]
         chosen = np.concatenate([np.flatnonzero(used & ~self.is_cut), along[used[along]]])
         number = ranks_of(chosen, len(self.places))
-        at = np.flatnonzero((self.given != self.places).any(axis=1))
+        (x, y), (given_x, given_y) = self.places.T, self.given.T
+        at = np.flatnonzero((given_x != x) | (given_y != y))
         at = at[number[at] >= 0]
         moves = number[at], self.given[at]
         straight = np.full((len(ends) - count, 2), np.nan)
@@ -307,7 +308,7 @@ class CutMap:
         ends, sites, parts, order = (each.take(pairs) for each in (ends, sites, parts, order))
         places, radius = self.places.take(chosen, axis=0), self.radius.take(chosen)
         control, center = control.take(sorting, axis=0), center.take(sorting, axis=0)
-        is_cut = (sorting >= count) | (sites == OUTSIDE).any(axis=1)
+        is_cut = (sorting >= count) | (sites[:, 0] == OUTSIDE) | (sites[:, 1] == OUTSIDE)
         center = without_lost(center, places, ends, sites[:, 0] != OUTSIDE)
         return Arcs(places, radius, ends, control, center, sites, parts, order, is_cut, moves)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -167,10 +168,18 @@ class RingArrays:
         ]
         return cls(*columns)
 
+    @cached_property
+    def _first_rings(self) -> Indices:
+        return starts_of(self.rings)
+
+    @cached_property
+    def _first_vertices(self) -> Indices:
+        return starts_of(self.sizes)
+
     def taken(self, chosen: NDArray[Any]) -> tuple[RingArrays, Indices, Indices]:
         """Choose polygons; gives the numbers of their rings and vertices, too."""
-        rings = ranges(starts_of(self.rings)[chosen], self.rings[chosen])
-        vertices = ranges(starts_of(self.sizes)[rings], self.sizes[rings])
+        rings = ranges(self._first_rings[chosen], self.rings[chosen])
+        vertices = ranges(self._first_vertices[rings], self.sizes[rings])
         made = RingArrays(self.xy[vertices], self.sizes[rings], self.kind[rings], self.rings[chosen])
         return made, rings, vertices
 
