@@ -69,6 +69,7 @@ def test_a_colon_that_names_no_layer(run, towns):
 def test_a_layer_whose_name_has_a_colon(run, towns):
     frame(LAYERS["lakes"]).to_file(towns / "m.gpkg", layer="roads:main:old", driver="GPKG")
     assert json.loads(run("info m.gpkg:roads:main:old --json").out)["features"] == 2
+    run("info -", data=(towns / "m.gpkg").read_bytes(), code=3, says="FILE:LAYER")
     run("info m.gpkg:roads:main", code=3, says="the layer 'roads:main' of m.gpkg does not exist")
 
 

@@ -242,7 +242,7 @@ def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> in
     if len(named) > 1:
         how = f"as {source.name}:{next(iter(named))}"
         if source.name == STANDARD_INPUT:
-            how = f"by {option('--input-layer', 'layer=...')}"
+            how = f"by {option('--input-layer', 'layer=...')}, or save it and name it as FILE:LAYER"
         raise InputError(f"{source.name} holds {len(named)} layers: choose one of {', '.join(named)}, {how}")
     return next(iter(named.values()))
 
