@@ -43,12 +43,13 @@ def opened(
     layer: str | None = None,
 ) -> Iterator[Opened]:
     """Open an input: errors that arise while it is open carry its name."""
-    said = known_input_format(input_format, NAMES_WITH[geometry])
+    said = None if input_format is None else known_input_format(input_format, NAMES_WITH[geometry])
     if not isinstance(path, str | PathLike):
         raise InputError(f"{path!r} is not a path: give the name of a file; pass arrays to functions as they are")
     name = fspath(path)
     with reading(name):
-        yield Opened(name, geometry, said, page, layer, open_zarr(name, said, page))
+        array = open_zarr(name, said, page) if is_folder(name) else None
+        yield Opened(name, geometry, said, page, layer, array)
 
 
 @frozen
@@ -149,8 +150,8 @@ def _begins_as_tiff(name: str) -> bool:
 
 
 def open_zarr(name: str, input_format: str | None = None, page: int | None = None) -> ZarrRows | None:
-    """Open what is, or should be, a Zarr array: a folder that holds one, or is named or said to; None if it is none."""
-    if not is_folder(name) or (not is_store(name) if input_format is None else input_format != "zarr"):
+    """Open a folder that is, or should be, a Zarr array: holds one, or is named or said to; None if it is none."""
+    if not is_store(name) if input_format is None else input_format != "zarr":
         return None
     if page not in (None, 0):
         raise InputError(f"{name} has a single page: {option(f'--page {page}')} does not exist")

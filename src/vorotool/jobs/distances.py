@@ -9,7 +9,8 @@ import numpy as np
 
 from vorotool.convert.sites import as_sites
 from vorotool.errors import InputError
-from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
+from vorotool.formats.opening import opened
+from vorotool.jobs.inputs import JobInput, naming, read_opened, report_no_geometry
 from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import bounds_of, world_of_polygons
@@ -41,7 +42,7 @@ class DistanceProducts(Results):
         self.world = world_of_polygons(run, options, replace(a, frame=None), bounds=bounds, is_cut=False)
 
     def _read(self, given: JobInput) -> PolygonSet:
-        with opened_input(self.options, given, "sites") as source:
+        with opened(given.path, geometry="sites", **self.options.opening) as source:
             o = self.options
             _, value = read_opened(self.run, o, given, source, columns=o.columns, wants_unit=True, properties=False)
         unit = None if self.run.coordinates is None else self.run.coordinates.unit

@@ -15,6 +15,7 @@ from vorotool.formats.opening import image_source, open_zarr, read_recognized
 from vorotool.formats.parsing.json import is_table
 from vorotool.formats.parsing.reader_options import ReadOptions, with_stated_axis
 from vorotool.formats.recognition import has_no_rows, image_format, recognized
+from vorotool.formats.zarr.store import is_folder
 from vorotool.jobs.inputs import JobInput, check_column, note_other_size
 from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options
@@ -142,8 +143,8 @@ class DrawnInput(Results):
 
 def _read(run: Run, o: Options, given: JobInput) -> LabelImage | Lined:
     """Read whatever is drawn: its content tells what it is, where the options do not."""
-    said = known_input_format(o.input_format, DRAWN_NAMES)
-    array = open_zarr(given.path, said, o.page)
+    said = None if o.input_format is None else known_input_format(o.input_format, DRAWN_NAMES)
+    array = open_zarr(given.path, said, o.page) if is_folder(given.path) else None
     if array is not None:
         return label_image_of(read_rows(array, max_pixels=o.max_pixels), given.path)
     source = read_source(given.path, o.input_layer)

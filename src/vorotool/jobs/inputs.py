@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import STANDARD, input_identity
 from vorotool.formats.io.sources import file_of
+from vorotool.formats.opening import opened
 from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.jobs.options import OF_FRAMES, OF_IMAGES, OF_SITES, Measured, Options, changed
 from vorotool.jobs.pixel_sizes import (
@@ -57,13 +58,6 @@ class JobInput(NamedTuple):
     def has_page(self) -> bool:
         """Whether an output is a page of HTML, which shows columns of the input."""
         return any(each.fmt == "html" for each in self.targets)
-
-
-def opened_input(o: Options, given: JobInput, geometry: str | None) -> AbstractContextManager[Opened]:
-    """Open points or polygons, or an image, as the options say; without a geometry any of these."""
-    from vorotool.formats.opening import opened
-
-    return opened(given.path, geometry=geometry, input_format=o.input_format, page=o.page, layer=o.input_layer)
 
 
 def read_opened(
@@ -188,7 +182,7 @@ def read_sites(
     run: Run, o: Options, given: JobInput, *, properties: bool, is_digital: bool
 ) -> tuple[Options, PointSet | SeedSet]:
     """Read points to triangulate, or find those of an image as they lie on its map, as the options say."""
-    with opened_input(o, given, "points") as source:
+    with opened(given.path, geometry="points", **o.opening) as source:
         o, value = read_opened(run, o, given, source, columns=o.columns, properties=properties)
     if is_of(value, "PointSet"):
         if not len(value):

@@ -156,6 +156,7 @@ def _following(o: Any) -> dict[str, Any]:
         "is_of_space": is_of_space,
         "files_of_inputs": beside,
         "files_read": {"B": o.other} if o.other else read,
+        "opening": {"input_format": o.input_format, "page": o.page, "layer": o.input_layer},
         "is_laid_out": o.cell_size is not None or o.like is not None,
         "names_columns": o.label_by is not None or o.with_columns is not None,
         "unit": None if o.command == "draw" else o.pixel_size,

@@ -6,7 +6,8 @@ from dataclasses import replace
 from math import ceil
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from vorotool.jobs.inputs import JobInput, opened_input, read_opened, report_no_geometry
+from vorotool.formats.opening import opened
+from vorotool.jobs.inputs import JobInput, read_opened, report_no_geometry
 from vorotool.jobs.options import OF_IMAGES, Options, changed
 from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
 from vorotool.jobs.refusals import refuse
@@ -41,7 +42,7 @@ class ReadPolygons(NamedTuple):
 def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons:
     """Read polygons, or the outlines of an image."""
     advice = "" if o.prune is not None or set(o.what) <= UNPRUNED else PRUNE_CURVES
-    with opened_input(o, given, "polygons") as source:
+    with opened(given.path, geometry="polygons", **o.opening) as source:
         o, value = read_opened(run, o, given, source, curves_advice=advice)
     if is_of(value, "Raster"):
         return outlined(run, o, given, value)

@@ -19,12 +19,12 @@ from vorotool.engines.tessellation.seeding import seeds_from_raster, seeds_in_fr
 from vorotool.engines.tessellation.tessellate import PropagatedRows
 from vorotool.engines.tessellation.tessellator import Band, Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, warn
+from vorotool.formats.opening import opened
 from vorotool.jobs.inputs import (
     JobInput,
     asked_frame,
     frame_of,
     no_seeds,
-    opened_input,
     read_opened,
     seeds_of_image,
     tell_outside,
@@ -74,7 +74,7 @@ DARK_LABELS = 1024
 def products(run: Run, o: Options, given: JobInput) -> Products:
     """Read points or an image, and prepare what labels any rows."""
     with run.phase("read"):
-        with opened_input(o, given, None if o.is_laid_out else "points") as source:
+        with opened(given.path, geometry=None if o.is_laid_out else "points", **o.opening) as source:
             large = rows_of_large(o, source)
             with_columns = "table" in o.what or o.names_columns or given.has_page
             if large is None:

@@ -11,10 +11,10 @@ import numpy as np
 
 from vorotool.convert.sites import as_sites
 from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning, silent
+from vorotool.formats.opening import opened
 from vorotool.jobs.inputs import (
     JobInput,
     check_columns,
-    opened_input,
     read_opened,
     report_no_geometry,
     tell_empty_cells,
@@ -72,7 +72,7 @@ class VoronoiProducts(Results):
 
     def _read(self, run: Run, o: Options, given: JobInput) -> tuple[Sites, ReadPolygons | None, Options]:
         """Read points, lines and polygons, each feature a site, or the objects of an image, whose outlines are kept."""
-        with opened_input(o, given, "sites") as source:
+        with opened(given.path, geometry="sites", **o.opening) as source:
             o, value = read_opened(run, o, given, source, columns=o.columns)
         if is_of(value, "Raster"):
             refuse(o, ["columns"], "applies to lists of points, but the input is an image")

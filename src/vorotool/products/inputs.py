@@ -159,10 +159,8 @@ DRAWINGS = tuple(name for each in _ALL if "curves" in each.has for name in each.
 """Names of formats that have curves, which become lines where they are read."""
 
 
-def known_input_format(name: str | None, names: Mapping[str, str]) -> str | None:
-    """Return the format that a name stands for, in any case; None stays None."""
-    if name is None:
-        return None
+def known_input_format(name: str, names: Mapping[str, str]) -> str:
+    """Return the format that a name stands for, in any case."""
     if not isinstance(name, str) or name.lower() not in names:
         raise UsageError(
             f"invalid {option('--input-format')} {name!r}: expected one of {', '.join(names)}{meant(str(name), names)}"

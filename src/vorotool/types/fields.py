@@ -53,27 +53,23 @@ class Declared(NamedTuple):
         if given is None and self.is_optional:
             return None
         if self.shape and self.dtype is not None:
-            return self._settle_array(given, name, sizes)
+            array: NDArray[Any] = np.ascontiguousarray(given, dtype=self.dtype)
+            widths = self.shape[1:]
+            if array.size == 0 and self.rows_of is None and all(isinstance(width, int) for width in widths):
+                array = array.reshape((0, *widths))  # type: ignore[arg-type]
+            if self.rows_of is None:
+                self._measure(self.shape, array.shape, name, sizes)
+            else:
+                self._check_starts(array, name, sizes)
+            if array.flags.writeable:
+                array = array.view()  # the caller's own array stays as it is
+                array.flags.writeable = False
+            return array
         if self.meaning is Meaning.AXIS:
             return given if isinstance(given, str) and given in AXES else checked_y_axis(given, name)
         if self.shape:
             self._measure(self.shape, (len(given),), name, sizes)
         return given
-
-    def _settle_array(self, given: Any, name: str, sizes: dict[Axis, int]) -> NDArray[Any]:
-        array = np.ascontiguousarray(given, dtype=self.dtype)
-        widths = self.shape[1:]
-        if array.size == 0 and self.rows_of is None and all(isinstance(width, int) for width in widths):
-            array = array.reshape((0, *widths))  # type: ignore[arg-type]
-        if self.rows_of is None:
-            self._measure(self.shape, array.shape, name, sizes)
-        else:
-            self._check_starts(array, name, sizes)
-        if not array.flags.writeable:
-            return array
-        view = array.view()  # the caller's own array stays as it is
-        view.flags.writeable = False
-        return view
 
     def _measure(self, shape: tuple[Axis, ...], found: tuple[int, ...], name: str, sizes: dict[Axis, int]) -> None:
         """Compare a shape with the declared one; the first field that has a named axis says how long it is."""
@@ -142,14 +138,8 @@ def starts(rows: Axis, items: Axis, *, least: int = 0) -> Any:
     return _declare(Meaning.NUMBER, np.int64, rows, rows_of=items, least=least)
 
 
-_DECLARED: dict[type[Any], dict[str, Declared]] = {}
-
-
-def declared(kind: type[Any]) -> dict[str, Declared]:
-    """Return the declarations of the fields of a class, which are collected with its first value."""
-    if kind not in _DECLARED:
-        _DECLARED[kind] = {each.name: each.metadata[_KEY] for each in fields(kind) if _KEY in each.metadata}
-    return _DECLARED[kind]
+DECLARED: dict[type[Any], dict[str, Declared]] = {}
+"""The declarations of the fields of each class."""
 
 
 def with_y_axis(value: T, axis: YAxis) -> T:
@@ -184,7 +174,7 @@ def with_fitting(value: T, **changes: Any) -> T:
 
 
 def _settled(kind: type[Any], named: dict[str, Any]) -> dict[str, Any]:
-    known = declared(kind)
+    known = DECLARED[kind]
     return {name: known[name].settle(given, name, {}) if name in known else given for name, given in named.items()}
 
 
@@ -195,7 +185,9 @@ def _settled(kind: type[Any], named: dict[str, Any]) -> dict[str, Any]:
 )
 def record(kind: type[T]) -> type[T]:
     """Make a frozen data class of one with declared fields."""
-    return frozen(eq=False, repr=False)(kind)
+    made = frozen(eq=False, repr=False)(kind)
+    DECLARED[made] = {each.name: each.metadata[_KEY] for each in fields(made) if _KEY in each.metadata}  # type: ignore[arg-type]
+    return made
 
 
 class Record:
@@ -203,7 +195,7 @@ class Record:
 
     def __post_init__(self) -> None:
         sizes: dict[Axis, int] = {}
-        for name, own in declared(type(self)).items():
+        for name, own in DECLARED[type(self)].items():
             object.__setattr__(self, name, own.settle(getattr(self, name), name, sizes))
 
 

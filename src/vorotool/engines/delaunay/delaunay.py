@@ -115,7 +115,8 @@ def triangulated(points: Any, *, strict: bool = False, threads: int = 0, progres
     core = _core.delaunay.DelaunayTriangulation(given.xy, threads, progress)
     arrays, known = core.arrays(threads, progress), known_of_points(given)
     mesh = Triangulation(given.xy, **arrays, **known, first_number=given.first_number, frame=given.frame)
-    report_duplicates(mesh, strict=strict)
+    if mesh.duplicates:
+        report_duplicates(mesh, strict=strict)
     return mesh
 
 
@@ -140,10 +141,7 @@ def is_of_space(points: Any) -> bool:
 
 def report_duplicates(mesh: Triangulation | Tetrahedralization, *, strict: bool) -> None:
     """Say how many points lie on an earlier one, or refuse them."""
-    count = mesh.duplicates
-    if not count:
-        return
-    what = f"{count} of {len(mesh.points)} points lie on an earlier point"
+    what = f"{mesh.duplicates} of {len(mesh.points)} points lie on an earlier point"
     if checked_flag(strict, "strict"):
         raise InputError(f"{what}: remove the duplicates, or leave out {STRICT}")
     warn(f"{what}: only the first point at each position is triangulated")
@@ -284,7 +282,8 @@ def insert_points(
         return delaunay(together, strict=strict, threads=threads, progress=progress)
     known = known_of_points(together)
     result = Triangulation(together.xy, **made, **known, first_number=together.first_number, frame=together.frame)
-    report_duplicates(result, strict=strict)
+    if result.duplicates:
+        report_duplicates(result, strict=strict)
     return result
 
 

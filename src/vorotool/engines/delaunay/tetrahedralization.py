@@ -34,7 +34,8 @@ def tetrahedralization(
     is_planar = found["dimension"] == PLANE
     planar = _planar_triangles(given.xyz, run) if is_planar else np.zeros((0, 3), dtype=np.int32)
     mesh = Tetrahedralization(given.xyz, found["tetrahedra"], found["neighbors"], planar, found["first"], **known)
-    report_duplicates(mesh, strict=strict)
+    if mesh.duplicates:
+        report_duplicates(mesh, strict=strict)
     return mesh
 
 

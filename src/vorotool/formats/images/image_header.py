@@ -16,6 +16,7 @@ from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import GZIP, NPY, Source, check_pixels, decoding, explained_reading, read_source
 from vorotool.formats.opening import open_zarr
 from vorotool.formats.recognition import PICTURES, TIFF_MAGIC, format_of, image_format
+from vorotool.formats.zarr.store import is_folder
 from vorotool.frozen import frozen
 from vorotool.types.pixels import PixelGrid
 
@@ -37,7 +38,7 @@ def image_header(name: str) -> ImageHeader:
     """Read the header of an image, of a TIFF that of its first page: the others are smaller copies of it, or masks."""
     if stream_kind(name) is not None:
         raise UsageError(f"{name} is a stream, whose header cannot be read by itself: name a file")
-    array = open_zarr(name)
+    array = open_zarr(name) if is_folder(name) else None
     if array is not None:
         height, width = array.shape
         return ImageHeader(width, height, array.grid)

@@ -25,14 +25,14 @@ _MOST_LISTED = 12
 class Chosen(NamedTuple):
     """Which columns are what, from 0."""
 
-    coordinates: list[int]  # those of x, y, and z if there is one
+    used: list[int]  # those of x, y, z if there is one, and of the label if there is one
     label: int | None = None
     is_named: bool = False  # by the user: then the label is no other column
 
     @property
-    def used(self) -> list[int]:
-        """All."""
-        return self.coordinates if self.label is None else [*self.coordinates, self.label]
+    def coordinates(self) -> list[int]:
+        """Those of x, y and z."""
+        return self.used if self.label is None else self.used[:-1]
 
 
 class Wanted(NamedTuple):
@@ -75,7 +75,7 @@ def choose(name: str, fields: list[str], wanted: Wanted | None, options: ReadOpt
         if [plain_name(each) for each in used] != meanings:  # plain x, y need no word
             options.note(f"{name}: columns {', '.join(used)} are read as {', '.join(meanings)}")
         label = chosen[options.axes] if len(chosen) > options.axes else None
-        return True, Chosen(chosen[: options.axes], label)
+        return True, Chosen(chosen, label)
     header = not any(_looks_numeric(field) for field in fields) and any(fields)
     if not header and len(fields) == options.axes:  # without names they are x, y, in space x, y, z
         return False, Chosen(list(range(options.axes)))
@@ -102,7 +102,8 @@ def _look_up(name: str, fields: list[str], wanted: Wanted, options: ReadOptions)
         if wanted.z is None and names.count("z") != 1:
             raise _no_z(name, fields)
         z = names.index("z") if wanted.z is None else _find_column(name, fields, wanted.z)
-    chosen = Chosen([*plane[:2], *([] if z is None else [z])], plane[2] if len(plane) > 2 else None, is_named=True)
+    used = [*plane[:2], *([] if z is None else [z]), *plane[2:]]
+    chosen = Chosen(used, plane[2] if len(plane) > 2 else None, is_named=True)
     if len(set(chosen.used)) < len(chosen.used):
         shown = _cut(",".join(wanted.all))
         raise InputError(f"{name}: {COLUMNS} {shown} names one column twice; {_listing(fields)}")

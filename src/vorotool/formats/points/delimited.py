@@ -153,12 +153,12 @@ def _read_rows(layout: DelimitedText, options: ReadOptions) -> PointRows:
     except _core.text.TextError as error:
         raise layout.explain(error, advice=advice) from None
     options.check_sites(layout.name, len(values))
-    axes = len(chosen.coordinates)
+    axes = len(chosen.used) - (chosen.label is not None)
     if axes == 2 and options.columns is None and layout.header and "z" in map(plain_name, layout.fields):
         options.note(f"{layout.name}: the column z is ignored: only x and y are used")
     labels = None if chosen.label is None else _labels(layout, values[:, axes])
     rest = [i for i in range(fields) if i not in chosen.used] if options.properties else []
-    x, y = (layout.fields[column] if layout.header else "" for column in chosen.coordinates[:2])
+    x, y = (layout.fields[column] if layout.header else "" for column in chosen.used[:2])
     properties = _properties(layout, rest, options.threads) if rest else {}
     return PointRows(values[:, :axes], labels, properties, placed_by(x, y, has_crs=options.crs is not None))
 

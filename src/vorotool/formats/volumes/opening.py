@@ -32,7 +32,7 @@ _LONGEST_HEAD = 8
 
 def open_volume(path: str | PathLike[str], *, input_format: str | None = None) -> VolumeSource:
     """Open a volume, to read it some slices at a time; its header is checked, and nothing is held."""
-    said = known_input_format(input_format, VOLUME_NAMES)
+    said = None if input_format is None else known_input_format(input_format, VOLUME_NAMES)
     if not isinstance(path, str | PathLike):
         raise InputError(f"{path!r} is not a path: give the name of a file; pass arrays to functions as they are")
     name = fspath(path)
@@ -117,7 +117,7 @@ def read_xyz(
     note: Callable[[str], None] | None = None,
 ) -> VolumePoints:
     """Read points with a z: a column of this name, the third number of a position, or the column that is named."""
-    said = known_input_format(input_format, NAMES_WITH["points"])
+    said = None if input_format is None else known_input_format(input_format, NAMES_WITH["points"])
     options = ReadOptions(
         columns=columns,
         properties=properties,
