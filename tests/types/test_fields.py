@@ -12,7 +12,7 @@ import vorotool
 from vorotool import InputError, UsageError
 from vorotool.numeric.checks import is_equal
 from vorotool.types import fields as f
-from vorotool.types.fields import DECLARED, Meaning, Record, record, with_y_axis
+from vorotool.types.fields import Meaning, Record, record, with_y_axis
 from vorotool.types.scaling import scaled, scaled_table, stretched
 from vorotool.types.table import Table
 from vorotool.types.values import Value
@@ -47,7 +47,7 @@ VALUES = {
 @pytest.mark.parametrize("value", VALUES)
 def test_arrays_of_values_are_read_only_and_of_their_types(value):
     value = VALUES[value]()
-    arrays = {name: each for name, each in DECLARED[type(value)].items() if each.dtype is not None and each.shape}
+    arrays = {name: each for name, each in value._declared.items() if each.dtype is not None and each.shape}
     arrays = {name: each for name, each in arrays.items() if getattr(value, name) is not None}
     assert arrays
     for name, each in arrays.items():
@@ -62,7 +62,7 @@ def test_every_array_of_a_value_is_declared():
     for make in VALUES.values():
         value = make()
         kept = {each.name for each in fields(value) if isinstance(getattr(value, each.name), np.ndarray)}
-        assert kept <= DECLARED[type(value)].keys() | {"vertices", "point_holes"}, type(value).__name__
+        assert kept <= value._declared.keys() | {"vertices", "point_holes"}, type(value).__name__
 
 
 def test_the_array_that_is_given_stays_the_callers():
@@ -118,7 +118,7 @@ def test_lengths_and_positions_scale_as_they_are_declared():
     made = scaled(Strip(**GOOD), 2, (10.0, 20.0))
     assert made.width.tolist() == [2, 4]
     assert made.xy.tolist() == [[10, 20], [12, 20], [14, 20]]
-    assert {each.meaning for each in DECLARED[type(made)].values()} == {
+    assert {each.meaning for each in made._declared.values()} == {
         Meaning.NUMBER,
         Meaning.POSITION,
         Meaning.LENGTH,

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, field, fields, replace
 from enum import Enum
 from functools import partial
-from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform
+from typing import Any, ClassVar, Literal, NamedTuple, TypeVar, dataclass_transform
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -138,10 +138,6 @@ def starts(rows: Axis, items: Axis, *, least: int = 0) -> Any:
     return _declare(Meaning.NUMBER, np.int64, rows, rows_of=items, least=least)
 
 
-DECLARED: dict[type[Any], dict[str, Declared]] = {}
-"""The declarations of the fields of each class."""
-
-
 def with_y_axis(value: T, axis: YAxis) -> T:
     """Return a value whose y, and that of all values in it, goes another way."""
     changes: dict[str, Any] = {}
@@ -174,7 +170,7 @@ def with_fitting(value: T, **changes: Any) -> T:
 
 
 def _settled(kind: type[Any], named: dict[str, Any]) -> dict[str, Any]:
-    known = DECLARED[kind]
+    known: dict[str, Declared] = kind._declared
     return {name: known[name].settle(given, name, {}) if name in known else given for name, given in named.items()}
 
 
@@ -185,17 +181,19 @@ def _settled(kind: type[Any], named: dict[str, Any]) -> dict[str, Any]:
 )
 def record(kind: type[T]) -> type[T]:
     """Make a frozen data class of one with declared fields."""
-    made = frozen(eq=False, repr=False)(kind)
-    DECLARED[made] = {each.name: each.metadata[_KEY] for each in fields(made) if _KEY in each.metadata}  # type: ignore[arg-type]
+    made: Any = frozen(eq=False, repr=False)(kind)
+    made._declared = {each.name: each.metadata[_KEY] for each in fields(made) if _KEY in each.metadata}
     return made
 
 
 class Record:
     """A frozen data class whose declared fields are checked when it is made."""
 
+    _declared: ClassVar[dict[str, Declared]] = {}
+
     def __post_init__(self) -> None:
         sizes: dict[Axis, int] = {}
-        for name, own in DECLARED[type(self)].items():
+        for name, own in self._declared.items():
             object.__setattr__(self, name, own.settle(getattr(self, name), name, sizes))
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.numeric.arrays import within
 from vorotool.types.box import Box
-from vorotool.types.fields import DECLARED, UP, Declared, Meaning, Record
+from vorotool.types.fields import UP, Declared, Meaning, Record
 from vorotool.types.pixels import Frame
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 from vorotool.types.table import Table
@@ -92,7 +92,7 @@ def _reversed_rings(polygons: PolygonSet) -> NDArray[np.integer]:
 
 
 def _declared(value: Any) -> dict[str, Declared]:
-    return DECLARED[type(value)] if isinstance(value, Record) else {}
+    return value._declared if isinstance(value, Record) else {}
 
 
 def _scale(factor: Fraction, *, of_steps: bool) -> tuple[float, float]:

@@ -10,12 +10,12 @@ from vorotool.products.inputs import IMAGE_NAMES, NAMES_WITH, known_input_format
 
 
 def read_as(source, geometry=None, *, input_format=None, columns=None, **options):
-    said = known_input_format(input_format, NAMES_WITH[geometry])
+    said = None if input_format is None else known_input_format(input_format, NAMES_WITH[geometry])
     return read_recognized(*recognized(source, geometry, said, columns), ReadOptions(columns=columns, **options))
 
 
 def image_of(source, *, input_format=None, **options):
-    said = known_input_format(input_format, IMAGE_NAMES)
+    said = None if input_format is None else known_input_format(input_format, IMAGE_NAMES)
     return read_image(image_source(source, said), ReadOptions(**options))
 
 
