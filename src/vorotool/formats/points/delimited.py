@@ -97,7 +97,7 @@ def read_text(source: Source, options: ReadOptions) -> PointRows:
     try:
         return _read_rows(layout, options)
     except InputError:  # what is called label need not be one: then it is a column as others are
-        numbered = _read_rows(replace(layout, chosen=chosen._replace(label=None)), options)
+        numbered = _read_rows(replace(layout, chosen=Chosen(chosen.coordinates)), options)
     note_no_label(source.name, options)
     return numbered
 
