@@ -69,11 +69,12 @@ class Options:
     __slots__ = (
         *("__dict__", "files_of_inputs", "files_read", "has_bands_on_cluster", "has_pixel_size", "has_several_results"),
         *("is_automatic", "is_digital", "is_laid_out", "is_of_space", "is_shared", "job", "measured", "names_columns"),
-        *("products", "scale_in_millimeters", "triangulated_by", "unit"),
+        *("opening", "products", "scale_in_millimeters", "triangulated_by", "unit"),
     )
     # ---- the input
     is_of_space: bool  # it has three axes: it says so itself, or its frame or its columns do
     files_of_inputs: dict[str, str]  # what is read beside each input, by the names of the options
+    opening: dict[str, Any]  # how an input is opened
     files_read: dict[str, str]  # what is read beside the inputs, and so is never replaced, as the user names it
     is_laid_out: bool  # pixels are laid over points, lines and polygons: cells, or the pixels of a raster
     names_columns: bool  # options name columns of the input
