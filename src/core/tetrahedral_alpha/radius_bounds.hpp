@@ -6,10 +6,13 @@
 // absolute terms are rounded themselves.
 #pragma once
 
+#include <limits>
+
 namespace vorotool::core::tetrahedral_alpha {
 namespace bounds {
 
 inline constexpr double u = 0x1p-53;
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double determinant_error = 10 * u, center_error = 16 * u, height_error = 32 * u;
 inline constexpr double normal_error = 6 * u, few_roundings = 16 * u;
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/tetrahedral_alpha/scaled_points.hpp"
 #include "core/tetrahedral_alpha/simplex_radius.hpp"
 
 namespace vorotool::core::tetrahedral_alpha {

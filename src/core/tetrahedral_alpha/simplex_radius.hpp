@@ -6,11 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "core/alpha/radius_ranks.hpp"
-#include "core/base/large_array.hpp"
-#include "core/base/monitor.hpp"
 #include "core/tetrahedra/point3.hpp"
 
 namespace vorotool::core::tetrahedral_alpha {
@@ -21,18 +18,6 @@ using tetrahedra::Point3;
 struct Simplex {
   std::array<const Point3*, 4> corner{};
   std::size_t size = 0;
-};
-
-// Points moved and scaled, which changes radii by a power of two: to integers below 2^53 where all are on a common
-// lattice that is fine enough, else, if nothing is lost by that, to coordinates below 2.
-struct ScaledPoints {
-  base::LargeArray<Point3> points;
-  int exponent = 0;  // a radius is that of these points times 2^exponent
-  bool are_integers = false;
-
-  // The points of these numbers.
-  ScaledPoints(std::span<const Point3> given, std::span<const std::int32_t> chosen, unsigned threads,
-               const base::Monitor& monitor);
 };
 
 // Radii, with a relative error of less than 2^-40: doubles that have the same bits but `open_bits` if rounded by these

@@ -13,6 +13,7 @@
 #include "core/tetrahedral_alpha/edge_stars.hpp"
 #include "core/tetrahedral_alpha/facets.hpp"
 #include "core/tetrahedral_alpha/radius_bounds.hpp"
+#include "core/tetrahedral_alpha/scaled_points.hpp"
 #include "core/tetrahedral_alpha/simplex_measures.hpp"
 #include "core/tetrahedral_alpha/simplex_radius.hpp"
 
