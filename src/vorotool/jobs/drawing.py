@@ -78,8 +78,7 @@ class DrawnInput(Results):
         from vorotool.render.label_images.picture import label_picture
 
         if isinstance(self._value, LabelImage):
-            product = PRODUCTS["tessellate"]["labels" if fmt == "svg" else "color"]
-            return label_picture(self._value, self._colors, product, self.wanted, y_up=bool(self.options.y_up))
+            return label_picture(self._value, self._colors, _label_product(fmt), self.wanted, y_up=bool(self.options.y_up))
         return drawing_of(self._value, _described(self._value)[1], self.wanted, fmt)
 
     def write_page(self, out: BinaryIO) -> None:
@@ -106,7 +105,7 @@ class DrawnInput(Results):
         refuse(o, of_lines, "applies to shapes, but the input is a label image")
         if fmt == "png":
             refuse(o, ["width"], "applies to SVG: the PNG of a label image has the size of the image")
-        check_drawn_layers(o, fmt, "a label image", LABEL_LAYERS.get(fmt, ()))
+        check_drawn_layers(o, fmt, "a label image", LABEL_LAYERS.get(fmt, ()), _label_product(fmt).usual_layers)
         check_column(o.label_by, {})
         note_other_size(run, o, self._given, image.shape)
         self.backdrop, self._value, size = self._given.backdrop, _objects(run, image), _size(o)
@@ -123,7 +122,7 @@ class DrawnInput(Results):
         kind, product, _ = _described(value)
         if fmt == "html":
             raise UsageError(f"a page shows cells or labels, but the input is {kind}: use -f svg or -f png")
-        check_drawn_layers(o, fmt, kind, product.layers[fmt])
+        check_drawn_layers(o, fmt, kind, product.layers[fmt], product.usual_layers)
         refuse(o, ["page"], f"applies to images, but the input is {kind}")
         if not len(value):
             run.warn(f"the picture is empty: the input ({kind}) has nothing to draw")
@@ -139,6 +138,10 @@ class DrawnInput(Results):
             size = None
         self.world = world_of_polygons(run, o, polygons, size=size, is_cut=False)
         self.backdrop = _placed(run, o, self._given, value)
+
+
+def _label_product(fmt: str) -> Product:
+    return PRODUCTS["tessellate"]["labels" if fmt == "svg" else "color"]
 
 
 def _read(run: Run, o: Options, given: JobInput) -> LabelImage | Lined:

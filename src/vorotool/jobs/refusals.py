@@ -179,20 +179,23 @@ def _check_frames(o: Options) -> None:
 
 
 def _check_layers(o: Options, targets: Sequence[Target]) -> None:
-    """Refuse layers, and colors and widths of layers, that a picture has not."""
+    """Refuse layers, and colors and widths of layers, that a picture has not, or does not show."""
     known: list[str] = []
+    drawn: list[str] = []
     for target in targets:
-        layers = o.products[target.what].layers.get(SHOWN_AS.get(target.fmt, target.fmt), ())
+        product = o.products[target.what]
+        layers = product.layers.get(SHOWN_AS.get(target.fmt, target.fmt), ())
         known += layers
         if layers:
+            drawn += product.usual_layers or layers
             _check_chosen(o, target.fmt, target.what, layers)
-    _check_styles(o, known)
+    _check_styles(o, known, drawn)
 
 
-def check_drawn_layers(o: Options, fmt: str, what: str, layers: Sequence[str]) -> None:
-    """Refuse layers that the picture of an input that is drawn again has not."""
+def check_drawn_layers(o: Options, fmt: str, what: str, layers: Sequence[str], usual: Sequence[str]) -> None:
+    """Refuse layers that the picture of an input that is drawn again has not, or does not show."""
     _check_chosen(o, fmt, what, layers)
-    _check_styles(o, layers)
+    _check_styles(o, layers, usual)
 
 
 def _check_chosen(o: Options, fmt: str, what: str, layers: Sequence[str]) -> None:
@@ -200,17 +203,25 @@ def _check_chosen(o: Options, fmt: str, what: str, layers: Sequence[str]) -> Non
         raise UsageError(f"--layers {layer}: a picture of {what} in {fmt.upper()} has {', '.join(layers)}")
 
 
-def _check_styles(o: Options, layers: Sequence[str]) -> None:
-    """Refuse colors and widths of layers that no picture has; the scale bar has a color, too."""
+def _check_styles(o: Options, layers: Sequence[str], usual: Sequence[str]) -> None:
+    """Refuse colors and widths of layers that no picture has or shows; the scale bar has a color, too."""
     if not o.colors and not o.line_widths:
         return
     from vorotool.render.looks import SCALE_BAR
 
+    shown = o.layers or [each for each in usual if each in layers]
+    drawn = list(dict.fromkeys([*shown, *(["labels"] if o.label_by is not None else [])]))
     for option, chosen in (("color", o.colors), ("line-width", o.line_widths)):
-        names = list(dict.fromkeys([*layers, *([SCALE_BAR] if o.scale_bar and option == "color" else [])]))
+        bar = [SCALE_BAR] if o.scale_bar and option == "color" else []
+        names = list(dict.fromkeys([*layers, *bar]))
         for layer in (layer for layer, _ in chosen if layer not in names):
             raise UsageError(
                 f"--{option} {layer}: there is no such layer; the picture has {', '.join(names)}{meant(layer, names)}"
+            )
+        for layer in (layer for layer, _ in chosen if layer not in (*drawn, *bar)):
+            raise UsageError(
+                f"--{option} {layer}: the picture shows only {', '.join(drawn)}; add the layer with "
+                f"--layers {','.join([*drawn, layer])}"
             )
 
 

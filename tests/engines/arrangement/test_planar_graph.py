@@ -78,11 +78,6 @@ def test_nothing():
     ("source", "counts", "place"),
     [
         ([[0, 0], [8, 0], [8, 0], [8, 8]], {"repeated_vertices": 1}, "polygon 1, shell, vertex 2 at (8.0, 0.0)"),
-        (
-            [SQUARE, [[8, 2], [12, 2], [12, 4]]],
-            {"touching_vertices": 1},
-            "polygon 1, shell, edge 2 from (8.0, 0.0) to (8.0, 8.0)",
-        ),
         ([SQUARE, [[4, 4], [12, 4], [12, 12], [4, 12]]], {"crossings": 2}, "polygon 1, shell, edge 2 from (8.0, 0.0)"),
         (BOW, {"crossings": 1, "moved_edges": 2}, "polygon 1, shell, edge 1 from (0.0, 0.0) to (5.0, 4.0)"),
         ([[0, 0], [8, 0], [8, 8], [0, 8], [0, 12], [0, 8]], {"idle_segments": 1}, "polygon 1, shell, edge 4"),
@@ -111,6 +106,22 @@ def test_strict_takes_what_needs_no_repair():
     verify_planar_graph(graph)
     assert graph.source_count.max() == 2
     assert 0 < graph.largest_move <= 0.71 * graph.scale
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        [SQUARE, [[8, 2], [12, 2], [12, 4]]],
+        {"shell": SQUARE, "holes": [[[0, 4], [2, 3], [2, 5]]]},
+        {"shell": [*SQUARE, [0, 4]], "holes": [[[0, 4], [2, 3], [2, 5]]]},
+    ],
+)
+def test_strict_takes_a_vertex_on_an_edge(source):
+    """Valid polygons may touch each other, and their holes the shell, with a vertex there or without."""
+    graph, said = quietly(source)
+    assert said == []
+    assert planar_graph(source, strict=True).repairs == graph.repairs
+    assert len(skeleton_exact(source, strict=True)) > 0
 
 
 def test_the_rule_of_insides():

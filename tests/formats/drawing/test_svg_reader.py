@@ -12,6 +12,7 @@ import svgelements
 from support.few import few
 from support.readers.svg_reading import read, shape_of, svg
 from support.refusals import refused
+from vorotool import skeleton_exact, write
 from vorotool.errors import InputError
 from vorotool.formats.drawing.fill_rules import filled_polygons
 from vorotool.types.polygons.shapely_geometry import to_shapely
@@ -259,3 +260,38 @@ def test_layers_of_inkscape():
     assert shapes.properties == {"layer": ["Cut out", "Cut out", "b", None]}
     assert svg(layers, name, properties=False)[0].properties == {}
     assert svg(box)[0].properties == {}
+
+
+@pytest.mark.parametrize(
+    ("ground", "page", "is_skipped"),
+    [
+        ('<rect width="100" height="80" fill="#ffffff"/>', 'width="100" height="80" viewBox="0 0 100 80"', True),
+        ('<rect width="100%" height="100%"/>', 'viewBox="0 0 100 80"', True),
+        ('<rect x="-5" y="3" width="100" height="80"/>', 'width="10mm" height="8mm" viewBox="-5 3 100 80"', True),
+        ('<rect width="100%" height="100%" id="sheet"/>', 'viewBox="0 0 100 80"', False),
+        ('<rect width="100%" height="100%" rx="9"/>', 'viewBox="0 0 100 80"', False),
+        ('<rect width="100%" height="100%" stroke="red"/>', 'viewBox="0 0 100 80"', False),
+        ('<rect width="100" height="79"/>', 'viewBox="0 0 100 80"', False),
+        ('<g><rect width="100" height="80"/></g>', 'viewBox="0 0 100 80"', False),
+    ],
+)
+def test_the_background_of_a_page_is_no_shape(ground, page, is_skipped):
+    """A bare rectangle that fills the page, below the shapes: as pictures of this program have it."""
+    body = '<path id="p" d="M10 10h4v3z"/>'
+    shapes, notes = svg(ground + body, page)
+    assert len(shapes) == (1 if is_skipped else 2)
+    assert shapes.ids[-1] == "p"
+    assert [note for note in notes if "background" in note] == (
+        ["a.svg, line 1, rect: the background of the page is skipped; give it an id to keep it as a shape"] * is_skipped
+    )
+    assert len(svg(ground, page)[0]) == 1  # alone it is all there is
+    assert len(svg(body + ground, page)[0]) == 2  # above others it is a shape
+
+
+def test_the_background_of_a_picture_of_ours(tmp_path):
+    square = skeleton_exact([[0, 0], [9, 0], [9, 9], [0, 9]])
+    write(square, tmp_path / "p.svg", layers=["polygons"])
+    shapes, notes = read((tmp_path / "p.svg").read_bytes())
+    assert (len(shapes), len(notes)) == (1, 1)
+    write(square, tmp_path / "p.svg", layers=["polygons"], background="none")
+    assert read((tmp_path / "p.svg").read_bytes()) == (shapes, [])

@@ -312,6 +312,8 @@ def _side_fault(
 
 Found = dict[str, tuple[int, int, int]]
 
+TOUCHING = "touching_vertices"
+
 SMALL = 1 << 10
 """Steps of the lattice: what is smaller has sizes and radii that are wrong by a part in a thousand, or more."""
 
@@ -322,9 +324,12 @@ NAMED = 10
 def report_repairs(
     given: PolygonSet, found: Found, is_repaired: NDArray[np.bool_], step: float, *, strict: bool
 ) -> None:
-    """Warn of repairs, if there are any; raise InputError instead if `strict`."""
+    """Warn of repairs, if there are any; raise InputError instead if `strict`.
+
+    A vertex on an edge alone is no repair: a hole of a valid polygon may touch its shell there.
+    """
     repairs = {name: count for name, (count, _, _) in found.items()}
-    if not any(repairs.values()):
+    if not any(count for name, count in repairs.items() if name != TOUCHING):
         return
     if strict:
         raise InputError(_first_repair(given, found))
@@ -409,7 +414,7 @@ def features_named(given: PolygonSet, chosen: NDArray[np.bool_]) -> str:
 
 _WORDS = {
     "repeated_vertices": ("repeated vertex dropped", "repeated vertices dropped"),
-    "touching_vertices": ("edge cut at a vertex on it", "edges cut at a vertex on them"),
+    TOUCHING: ("edge cut at a vertex on it", "edges cut at a vertex on them"),
     "crossings": ("crossing of edges cut", "crossings of edges cut"),
     "moved_edges": ("edge bent by less than {step:.2g}", "edges bent by less than {step:.2g}"),
     "idle_segments": ("dangling segment dropped", "dangling segments dropped"),
@@ -424,14 +429,13 @@ def _summary(repairs: dict[str, int], step: float) -> str:
 
 def _first_repair(polygons: PolygonSet, found: Found) -> str:
     """Name the place of the first repair along the input."""
-    names = [name for name in REPAIRS if found[name][0] and name != "moved_edges"]
+    names = [name for name in REPAIRS if found[name][0] and name not in (TOUCHING, "moved_edges")]
     name = min(names, key=lambda each: (found[each][1], REPAIRS.index(each)))
     count, edge, other = found[name]
     ends = " to ".join(_position(polygons, vertex) for vertex in (edge, int(polygons.following[edge])))
     where = f"{_edge(polygons, edge)} from {ends}"
     what = {
         "repeated_vertices": f"{polygons.place(edge)} at {_position(polygons, edge)} is repeated by the next one",
-        "touching_vertices": f"{where} passes through {polygons.place(other)} at {_position(polygons, other)}",
         "crossings": f"{where} crosses {_edge(polygons, other)}",
         "idle_segments": f"{where} is dangling, or a part of it is: a spike or an overlap",
         "empty_polygons": f"{polygons.place(edge).split(',')[0]} at {_position(polygons, edge)} has no area",

@@ -43,6 +43,10 @@ def read_svg(source: Source, options: ReadOptions) -> PolygonSet:
     document.note_skipped(options.note)
     if reader.unpainted:
         options.note(f"{source.name}: {counted(reader.unpainted, 'shape')} without fill and stroke skipped")
+    if reader.has_background and len(reader.shapes) > 1:
+        background = reader.shapes.pop(0)
+        del reader.layers[0]
+        options.note(f"{background.place}: the background of the page is skipped; give it an id to keep it as a shape")
     document.note_styles(options.note)
     layers = {"layer": reader.layers} if any(layer is not None for layer in reader.layers) else None
     return shapes_to_polygons(source.name, reader.shapes, options, unit=page.unit, page=page.box, properties=layers)
@@ -136,6 +140,7 @@ class _Reader:
     shapes: list[Shape] = field(default_factory=list)
     layers: list[str | None] = field(default_factory=list)
     unpainted: int = 0
+    has_background: bool = False  # as the first shape
     _maps: dict[str, Affine] = field(default_factory=dict)  # of the transforms of all elements
     _used: dict[Element, list[Curve]] = field(default_factory=dict)  # paths that may be used again
     _repeated: int = 0
@@ -239,8 +244,21 @@ class _Reader:
         self.options.check_vertices(self.document.name, self._places)  # of each curve one, before any is flattened
         identity = state.used_as or element.attributes.get("id")
         rule = style.rule if style.is_filled and not is_line else None
+        if not self.shapes and not style.is_stroked:
+            self.has_background = self._is_background(element, state)
         self.layers.append(state.layer)
         self.shapes.append(Shape(mapped, rule, identity, place, style.is_stroked))
+
+    def _is_background(self, element: Element, state: _State) -> bool:
+        """Whether it is a bare rectangle below everything that fills the page: drawing programs name theirs."""
+        document, root = self.document, self.document.root
+        first = next((each for each in document.shown(root) if each.tag in (*SHAPES, *GROUPS, "use")), None)
+        if element is not first or element.tag != "rect" or {"id", "transform", "rx", "ry"} & set(element.attributes):
+            return False
+        of, (width, height) = Geometry(element.attributes, document.place(element), state.viewport), state.viewport
+        x, y, *_ = viewbox_of(root.attributes, document.place(root)) or (0.0, 0.0)
+        own = (of.across("x"), of.down("y"), of.size("width", width), of.size("height", height))
+        return own == (x, y, width, height)
 
     def _curves(self, element: Element, state: _State) -> list[Curve]:
         """Give the curves of a shape; paths that are used are parsed once, and counted before they are repeated."""
