@@ -46,6 +46,23 @@ def option(typed: str, parameter: str | None = None) -> str:
     return f"{_TYPED}{typed}{_PARAMETER}{parameter}{_END}"
 
 
+def element(noun: str, *index: int) -> str:
+    """Name an element of an array by its index, which the command line, where it is a row of a file, counts from 1.
+
+    Examples
+    --------
+    >>> error = InputError(f"{element('point', 2)} is (0.0, nan)")
+    >>> print(error)
+    point [2] is (0.0, nan)
+    >>> error.typed
+    'point 3 is (0.0, nan)'
+    """
+    if not index:  # one number in place of an array
+        return noun
+    *place, noun = noun.rpartition(", ")  # where it is may be named in two forms, too
+    return "".join(place) + option(f"{noun} {index[0] + 1}", f"{noun} [{', '.join(map(str, index))}]")
+
+
 STRICT = option("--strict", "strict=True")
 NO_PROPERTIES = option("--no-properties", "properties=False")
 FORMAT = option("-f", "fmt=...")

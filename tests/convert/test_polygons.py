@@ -103,8 +103,8 @@ def test_extended_text_names_its_system():
 @pytest.mark.parametrize(
     ("source", "message"),
     [
-        (geopandas.GeoSeries.from_xy([1], [2]), "item 1"),
-        ({"type": "Point", "coordinates": [1, 2]}, "item 1"),
+        (geopandas.GeoSeries.from_xy([1], [2]), r"item \[0\]"),
+        ({"type": "Point", "coordinates": [1, 2]}, r"item \[0\]"),
         (pd.DataFrame({"x": [1], "y": [2]}), "DataFrame"),
         (np.ones((9, 9), int), r"vorotool.outlines\(shapes\)"),
         (vorotool.Raster(np.ones((9, 9), bool)), r"Raster"),

@@ -303,4 +303,4 @@ def test_places_of_centerlines():
     expected = v.centerline(skeleton, start=(2, 1), end=(11, 7)).length
     start, end = shapely.Point(2, 1), {"type": "Point", "coordinates": [11, 7]}
     assert v.centerline(skeleton, start=start, end=end).length == expected
-    refused(InputError, r"^invalid end: point 1 is a Polygon", v.centerline, skeleton, start=start, end=HOUSE)
+    refused(InputError, r"^invalid end: point \[0\] is a Polygon", v.centerline, skeleton, start=start, end=HOUSE)

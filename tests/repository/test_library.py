@@ -79,15 +79,15 @@ def test_arrays_are_taken_for_images():
 @pytest.mark.parametrize(
     ("x", "labels", "message"),
     [
-        ([1, 2], [0, 1], "label of seed 1 is 0: it must be an integer from 1 to 4294967295"),
-        ([1, 2], [1, -1], "label of seed 2 is -1"),
-        ([1, 2], [1, 2**32], "label of seed 2 is 4294967296"),
-        ([1, 2], [1, 2**70], "label of seed 2 is"),
-        ([1, 2], [1, 1.5], "label of seed 2 is 1.5"),
-        ([1, 2.5], [1, 2], "x of seed 2 is 2.5"),
-        ([1, np.nan], [1, 2], "x of seed 2 is nan"),
-        ([1, 2.0**63], [1, 2], "x of seed 2 is 9.2"),
-        ([-(2**70), 1], [1, 2], "x of seed 1 is -1180591620717411303424"),
+        ([1, 2], [0, 1], r"label of seed \[0\] is 0: it must be an integer from 1 to 4294967295"),
+        ([1, 2], [1, -1], r"label of seed \[1\] is -1"),
+        ([1, 2], [1, 2**32], r"label of seed \[1\] is 4294967296"),
+        ([1, 2], [1, 2**70], r"label of seed \[1\] is"),
+        ([1, 2], [1, 1.5], r"label of seed \[1\] is 1.5"),
+        ([1, 2.5], [1, 2], r"x of seed \[1\] is 2.5"),
+        ([1, np.nan], [1, 2], r"x of seed \[1\] is nan"),
+        ([1, 2.0**63], [1, 2], r"x of seed \[1\] is 9.2"),
+        ([-(2**70), 1], [1, 2], r"x of seed \[0\] is -1180591620717411303424"),
         (["a", "b"], [1, 2], "each x of seed must be an integer"),
         ([[1], [2, 3]], [1, 2], "each x of seed must be an integer"),
     ],
@@ -98,7 +98,7 @@ def test_seeds_that_are_no_integers(x, labels, message):
 
 def test_points_that_are_none():
     refused(InputError, "array of numbers", vorotool.PointSet, [["a", "b"]])
-    refused(InputError, r"label of point 1 is 1\.5", vorotool.PointSet, POINTS, labels=[1.5, 2])
+    refused(InputError, r"label of point \[0\] is 1\.5", vorotool.PointSet, POINTS, labels=[1.5, 2])
 
 
 @pytest.mark.parametrize("path", [5, None, b"data/dots.csv", [[0, 0], [1, 1]]])

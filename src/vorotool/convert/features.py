@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.tables import index_of, listed
-from vorotool.errors import InputError, warn
+from vorotool.errors import InputError, element, warn
 from vorotool.frozen import frozen
 from vorotool.numeric.checks import LONGEST, index_of_rows
 from vorotool.numeric.crs import crs_member, member_of_text, without_number
@@ -162,9 +162,9 @@ def _plain_item(item: Any) -> tuple[Any, int]:
 
 def _of_texts(texts: Sequence[Any], *, is_alone: bool = False) -> HeldFeatures:
     plain = [without_number(text.strip()) if isinstance(text, str) else (text, 0) for text in texts]
-    for number, text in enumerate(texts, 1):
+    for number, text in enumerate(texts):
         if _is_deep(text):  # shapely would take each level apart in a call of its own
-            place = "the text" if is_alone else f"item {number}"
+            place = "the text" if is_alone else element("item", number)
             raise InputError(f"brackets of {place} are nested more than {MOST_LEVELS} deep; check the brackets")
     geometry, curves = resolved(f"{_WELL_KNOWN}:geometry_of_texts")([text for text, _ in plain])
     wrong = [k for k, text in enumerate(texts) if text is not None and geometry[k] is None]
@@ -173,7 +173,7 @@ def _of_texts(texts: Sequence[Any], *, is_alone: bool = False) -> HeldFeatures:
         shown = repr(text if len(text) <= LONGEST else text[: LONGEST - 1] + "…")
         if is_alone and isinstance(text, str):
             raise InputError(f"{shown} is not well-known text (WKT); to read a file use vorotool.read(path)")
-        raise InputError(f"item {wrong[0] + 1} is {shown}, not well-known text (WKT) such as POINT (3 4)")
+        raise InputError(f"{element('item', wrong[0])} is {shown}, not well-known text (WKT) such as POINT (3 4)")
     numbers = sorted({number for _, number in plain if number})
     if len(numbers) > 1:
         raise InputError(f"geometry is in EPSG:{numbers[0]} and EPSG:{numbers[1]}: reproject it to one of them")

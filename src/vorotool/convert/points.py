@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.convert.features import HeldFeatures, held_features, is_shapely, joined_parts, report_missing
 from vorotool.convert.tables import columns_of_features, is_table, points_of_table
-from vorotool.errors import InputError, warn
+from vorotool.errors import InputError, element, warn
 from vorotool.numeric.checks import (
     described,
     index_of_rows,
@@ -103,7 +103,7 @@ def _pairs(source: Any) -> Any:
     """Give a list in which points of shapely are pairs of numbers, as the others are."""
     items = list(source) if isinstance(source, Iterable) else np.asarray(source)
     if isinstance(items, list) and any(map(is_shapely, items)):
-        return [_position(item, f"point {number}") for number, item in enumerate(items, 1)]
+        return [_position(item, element("point", number)) for number, item in enumerate(items)]
     return items
 
 
@@ -140,7 +140,7 @@ def _positions(held: HeldFeatures) -> tuple[NDArray[np.float64], NDArray[np.int6
         return _positions_of_geometry(held)
     positions, owners = [], []
     for number, item in enumerate(held.items):
-        place = f"point {number + 1}"
+        place = element("point", number)
         found = list(_positions_of(item, place))
         positions.extend(found)
         owners.extend([number] * len(found))
@@ -155,7 +155,7 @@ def _positions_of_geometry(held: HeldFeatures) -> tuple[NDArray[np.float64], NDA
     while len(parts):
         wrong = np.flatnonzero(~np.isin(shapely.get_type_id(parts), (0, 4, 7)))
         if wrong.size:
-            raise _no_point(f"a {parts[wrong[0]].geom_type}", f"point {items[wrong[0]] + 1}")
+            raise _no_point(f"a {parts[wrong[0]].geom_type}", element("point", items[wrong[0]]))
         nested = shapely.get_type_id(parts) == 7
         parts, index = shapely.get_parts(parts[nested], return_index=True)
         items = items[nested][index]

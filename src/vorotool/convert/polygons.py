@@ -16,7 +16,7 @@ from vorotool.convert.features import (
     joined_parts,
 )
 from vorotool.convert.tables import is_table
-from vorotool.errors import InputError, warn
+from vorotool.errors import InputError, element, warn
 from vorotool.numeric.checks import described, items_of, naming, refuse_paths, unexpected
 from vorotool.numeric.coordinates import coordinate_rows, number_array
 from vorotool.numeric.crs import note_degrees
@@ -98,7 +98,7 @@ def _set_of_items(items: Any, name: str, held: HeldFeatures | None = None) -> Po
     polygons: list[int] = []
     feature: list[int] = []
     for index, item in enumerate(items):
-        for parts in _polygons_of(item, f"item {index + 1}", name):
+        for parts in _polygons_of(item, element("item", index), name):
             for kind, ring in parts:
                 xy.append(ring)
                 kinds.append(kind)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, element
 from vorotool.numeric.checks import column_names, described, is_masked_array
 from vorotool.numeric.coordinates import INEXACT, first_inexact, number_array
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
@@ -132,9 +132,8 @@ def _numbers(column: Any, name: str) -> NDArray[Any]:
     numbers = number_array(array, "value", f"the column {name} must hold numbers")
     row = first_inexact(numbers.reshape(-1, 1))
     if row is not None:  # put beside a column of another type it would be rounded
-        raise InputError(
-            f"the column {name} has {shown_number(numbers[row : row + 1].tolist()[0])} in row {row + 1}: {INEXACT}"
-        )
+        shown = shown_number(numbers[row : row + 1].tolist()[0])
+        raise InputError(f"the column {name} has {shown} in {element('row', row)}: {INEXACT}")
     return numbers
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from vorotool.convert.features import HeldFeatures, held_features
 from vorotool.convert.tables import is_table, volume_points_of_table
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError, LimitError, element
 from vorotool.numeric.checks import (
     MAX_PIXELS,
     column_names,
@@ -152,6 +152,6 @@ def _of_features(held: HeldFeatures, source: Any) -> VolumePoints:
         what = (
             "None" if item is None else f"a {item.geom_type} without z" if item.geom_type == "Point" else item.geom_type
         )
-        raise InputError(f"{said}: point {wrong[0] + 1} is {what}")
+        raise InputError(f"{said}: {element('point', wrong[0])} is {what}")
     xyz = shapely.get_coordinates(held.geometry, include_z=True)
     return VolumePoints(xyz, None, held.properties, held.index)

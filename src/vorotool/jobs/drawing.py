@@ -78,7 +78,9 @@ class DrawnInput(Results):
         from vorotool.render.label_images.picture import label_picture
 
         if isinstance(self._value, LabelImage):
-            return label_picture(self._value, self._colors, _label_product(fmt), self.wanted, y_up=bool(self.options.y_up))
+            return label_picture(
+                self._value, self._colors, _label_product(fmt), self.wanted, y_up=bool(self.options.y_up)
+            )
         return drawing_of(self._value, _described(self._value)[1], self.wanted, fmt)
 
     def write_page(self, out: BinaryIO) -> None:

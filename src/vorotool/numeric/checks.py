@@ -15,7 +15,7 @@ from typing import Any, TypeGuard
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError, UsageError, element
 from vorotool.numeric.numbers import plain_text, shown_number
 
 MAX_PIXELS = 2**31
@@ -94,9 +94,9 @@ def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = 
     if array.dtype.kind == "f":
         bad |= (array != np.floor(array)) | (array >= 2.0 ** (limits.bits - (limits.min < 0)))
     if np.any(bad):
-        at = int(np.argmax(bad))
-        found = plain_text(array.flat[at])
-        raise InputError(f"{name} {at + 1} is {found}: it must be an integer from {low} to {limits.max}")
+        at = np.argwhere(bad)[0].tolist()
+        found = plain_text(array[tuple(at)])
+        raise InputError(f"{element(name, *at)} is {found}: it must be an integer from {low} to {limits.max}")
     return np.ascontiguousarray(array, dtype=kind)
 
 

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, UsageError, option
+from vorotool.errors import InputError, UsageError, element, option
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import is_masked_array
@@ -34,7 +34,8 @@ def coordinate_rows(values: Any, noun: str, axes: int = 2) -> NDArray[np.float64
         raise InputError(_wrong_shape(noun, array.shape, axes))
     row = first_inexact(array)
     if row is not None:
-        raise InputError(f"{noun} {row + 1} is ({', '.join(map(shown_number, array[row].tolist()))}): {INEXACT}")
+        shown = ", ".join(map(shown_number, array[row].tolist()))
+        raise InputError(f"{element(noun, row)} is ({shown}): {INEXACT}")
     if array.dtype.kind == "O":  # float() fails for fractions beyond all doubles
         array = np.array([[nearest_double(value) for value in row] for row in array.tolist()]).reshape(-1, axes)
     return np.array(array, dtype=np.float64, order="C")

@@ -210,7 +210,7 @@ def test_bad_options(options, error, message):
     [
         ([], "two distinct points, but got 0 points"),
         ([[1, 2]], "got 1 point"),
-        ([[1, 2], [np.nan, 0]], "point 2 is"),
+        ([[1, 2], [np.nan, 0]], r"point \[1\] is"),
     ],
 )
 def test_too_few_points(points, message):

@@ -118,7 +118,7 @@ def test_snapping_is_counted_warns_where_it_is_coarse_or_is_refused():
         far = vorotool.seeds_from_points(vorotool.PointSet([[0.1, 0], [2.0**22, 1]]))
     assert far.snapped == 1
     assert 2.0**-20 <= far.largest_move <= 2.0**-18
-    with pytest.raises(InputError, match=r"point 1 is \(0\.1, 0\.0\)"):
+    with pytest.raises(InputError, match=r"point \[0\] is \(0\.1, 0\.0\)"):
         vorotool.seeds_from_points(vorotool.PointSet([[0.1, 0], [2, 1]]), strict=True)
 
 
@@ -134,7 +134,7 @@ def test_duplicates_warn_or_are_refused():
     ("call", "error", "message"),
     [
         (lambda: vorotool.tessellate(np.empty((0, 2)), shape=(4, 4)), InputError, "no seeds"),
-        (lambda: vorotool.tessellate([[0, np.nan]], shape=(4, 4)), InputError, r"point 1 is \(0\.0, nan\)"),
+        (lambda: vorotool.tessellate([[0, np.nan]], shape=(4, 4)), InputError, r"point \[0\] is \(0\.0, nan\)"),
         (lambda: vorotool.tessellate([[0, 0, 0]], shape=(4, 4)), InputError, r"shape \(n, 2\)"),
         (lambda: vorotool.tessellate("abc", shape=(4, 4)), InputError, "invalid seeds: 'abc' is not"),
         (lambda: vorotool.tessellate([[1e300, 0]], shape=(4, 4)), InputError, r"at most 2\^44"),

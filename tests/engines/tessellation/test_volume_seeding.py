@@ -131,15 +131,18 @@ def test_points_that_move_are_told_of():
         seeds = seeds_from_xyz([[0.1, 0, 0], [1, 1, 1]])
     assert seeds.snapped == 1
     assert seeds.largest_move == pytest.approx(abs(0.1 - round(25.6) / 256))
-    with pytest.raises(InputError, match=r"point 1 is \(0.1, 0.0, 0.0\): seeds lie on multiples of 1/256 voxel"):
+    with pytest.raises(InputError, match=r"point \[0\] is \(0.1, 0.0, 0.0\): seeds lie on multiples of 1/256 voxel"):
         seeds_from_xyz([[0.1, 0, 0], [1, 1, 1]], strict=True)
 
 
 @pytest.mark.parametrize(
     ("points", "match"),
     [
-        ([[2.0**45, 0, 0]], r"point 1 is \(35184372088832, 0, 0\): coordinates of seeds must be at most 2\^44 voxels"),
-        ([[0, 0, np.nan]], "point 1 is .*: coordinates must be finite"),
+        (
+            [[2.0**45, 0, 0]],
+            r"point \[0\] is \(35184372088832, 0, 0\): coordinates of seeds must be at most 2\^44 voxels",
+        ),
+        ([[0, 0, np.nan]], r"point \[0\] is .*: coordinates must be finite"),
         ([[0, 0]], r"invalid points: expected points in space: an \(n, 3\) array of numbers"),
         (np.zeros((4, 2)), r"but got an array of float64 and shape \(4, 2\)"),
         ({"x": [1], "y": [2]}, "expected columns x, y, z, but got a dict with x, y"),
@@ -155,7 +158,7 @@ def test_what_are_no_points_of_space_is_refused(points, match):
 def test_points_of_shapely_need_a_z():
     shapely = pytest.importorskip("shapely")
     assert seeds_from_xyz([shapely.Point(1, 2, 3)]).places.tolist() == [[1, 2, 3]]
-    with pytest.raises(InputError, match="point 2 is a Point without z"):
+    with pytest.raises(InputError, match=r"point \[1\] is a Point without z"):
         seeds_from_xyz([shapely.Point(1, 2, 3), shapely.Point(1, 2)])
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool import _core
-from vorotool.errors import STRICT, InputError, LimitError, VerificationError, warn
+from vorotool.errors import STRICT, InputError, LimitError, VerificationError, element, warn
 from vorotool.numeric.checks import as_array, checked_flag, checked_threads, joined_index, whole_numbers
 from vorotool.numeric.parallel import Progress, Run, running
 from vorotool.products.formats import resolved
@@ -308,7 +308,7 @@ def _hints(hint: Any, count: int, further: int) -> NDArray[np.int32]:
     bad = np.flatnonzero((hints < 0) | (hints >= count))
     if bad.size:
         raise InputError(
-            f"hint {bad[0] + 1} is {hints[bad[0]]}: it must be a point of the triangulation, 0 to {count - 1}"
+            f"{element('hint', bad[0])} is {hints[bad[0]]}: it must be a point of the triangulation, 0 to {count - 1}"
         )
     return np.ascontiguousarray(hints, dtype=np.int32)
 

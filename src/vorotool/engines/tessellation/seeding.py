@@ -22,7 +22,7 @@ from vorotool.engines.tessellation.raster_objects import (
     numbered_components,
     report_no_foreground,
 )
-from vorotool.errors import STRICT, InputError, LimitError, option, warn
+from vorotool.errors import STRICT, InputError, LimitError, element, option, warn
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.numbers import whole_number
@@ -373,7 +373,7 @@ def snapped_places(places: NDArray[np.float64], finest: int = FINEST_SCALE) -> S
     far = np.flatnonzero((np.abs(places) > LARGEST_COORDINATE).any(axis=1))
     if far.size:
         raise InputError(
-            f"point {far[0] + 1} is ({', '.join(f'{each:.17g}' for each in places[far[0]].tolist())}): "
+            f"{element('point', far[0])} is ({', '.join(f'{each:.17g}' for each in places[far[0]].tolist())}): "
             f"coordinates of seeds must be at most 2^44 {CELL[places.shape[1]]}s; scale the points"
         )
     fine = places * finest
@@ -434,8 +434,8 @@ def report_snapped(places: NDArray[np.float64], snapped: SnappedPlaces, *, stric
     if strict:
         row = int(np.flatnonzero(snapped.moved)[0])
         raise InputError(
-            f"point {row + 1} is ({', '.join(map(str, places[row].tolist()))}): seeds lie on multiples of {step} "
-            f"{cell} ({counted(count, 'such point')}); round them or leave out {STRICT}"
+            f"{element('point', row)} is ({', '.join(map(str, places[row].tolist()))}): seeds lie on multiples of "
+            f"{step} {cell} ({counted(count, 'such point')}); round them or leave out {STRICT}"
         )
     if snapped.largest_move >= _LARGE_MOVE:
         warn(

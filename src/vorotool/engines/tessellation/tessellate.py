@@ -25,7 +25,7 @@ from vorotool.engines.tessellation.frames import (
     squared_limit,
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.errors import InputError, UsageError, VerificationError, option
+from vorotool.errors import InputError, UsageError, VerificationError, element, option
 from vorotool.numeric.checks import MAX_PIXELS, checked_threads, is_choice
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import Progress, report
@@ -316,8 +316,8 @@ def propagate(
     if outside.size:
         i = int(outside[0])
         raise InputError(
-            f"seed {i + 1} at ({seeds.x[i]}, {seeds.y[i]}) is outside the frame, and the paper's propagation starts "
-            f"from its pixels: use a larger {option('--size', 'shape')} or {option('--window')}, or {_EXACT}"
+            f"{element('seed', i)} at ({seeds.x[i]}, {seeds.y[i]}) is outside the frame, and the paper's propagation "
+            f"starts from its pixels: use a larger {option('--size', 'shape')} or {option('--window')}, or {_EXACT}"
         )
     labels = np.empty(frame.shape, np.uint32)
     _core.tessellation.propagate(x, y, seeds.labels, passes, labels, progress)

@@ -22,7 +22,7 @@ from vorotool.engines.tessellation.frames import (
 )
 from vorotool.engines.tessellation.raster_objects import refuse_distances
 from vorotool.engines.tessellation.seeding import on_coarser_lattice
-from vorotool.errors import InputError, LimitError, UsageError, option
+from vorotool.errors import InputError, LimitError, UsageError, element, option
 from vorotool.frozen import frozen
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import shown_number
@@ -113,8 +113,8 @@ class Tessellator:
         place = ", ".join(f"{int(values[index]) / scale:.17g}" for values in self.seeds.coordinates)
         sides = "" if self.axes == 2 else ", or round the sides of voxels to fewer digits"
         return InputError(
-            f"seed {index + 1} at ({place}) is too far from the frame, which begins at {self.frame.origin}, for exact "
-            "arithmetic: coordinates relative to the middle of the frame must be at most 2^40 lattice steps "
+            f"{element('seed', index)} at ({place}) is too far from the frame, which begins at {self.frame.origin}, "
+            "for exact arithmetic: coordinates relative to its middle must be at most 2^40 lattice steps "
             f"({2**40 // (scale * max(self.sides.units))} {cell}s for these seeds); use a nearer "
             f"{option('--window')}{sides}"
         )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, element
 from vorotool.numeric.checks import check_index, whole_numbers
 from vorotool.numeric.coordinates import coordinate_rows
 from vorotool.types import fields as f
@@ -57,7 +57,7 @@ class Points(OfPoints):
             bad = np.flatnonzero(~finite.all(axis=1))
             row = int(bad[0])
             raise InputError(
-                f"point {row + 1} is ({', '.join(map(str, rows[row].tolist()))}): coordinates must be finite; "
+                f"{element('point', row)} is ({', '.join(map(str, rows[row].tolist()))}): coordinates must be finite; "
                 f"remove or repair it ({counted(bad.size, 'such point')})"
             )
         object.__setattr__(self, self._places, rows)
@@ -157,14 +157,10 @@ def labels_of(values: Any) -> NDArray[np.int64] | None:
 
 def checked_labels(labels: Any, count: int) -> NDArray[np.int64]:
     """Return the labels of so many points, each from 1 to 4294967295."""
-    array = whole_numbers(labels, "label of point", np.int64)
+    array = whole_numbers(labels, "label of point", np.uint32, 1)
     if array.shape != (count,):
         raise InputError(f"labels must have shape ({count},), but have shape {array.shape}")
-    bad = np.flatnonzero((array < 1) | (array > 0xFFFFFFFF))
-    if bad.size:
-        row = int(bad[0])
-        raise InputError(f"point {row + 1} has label {array[row]}: labels must be from 1 to 4294967295")
-    return array
+    return array.astype(np.int64)
 
 
 @record

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, element
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of, within
 from vorotool.numeric.checks import index_of_rows
@@ -42,7 +42,7 @@ def polygons_of_geometry(
     bad = np.flatnonzero(~np.isin(kinds, taken))
     if bad.size:
         at = int(bad[0])
-        raise InputError(f"item {owners[at] + 1} is or holds a {parts[at].geom_type}: give polygons or lines")
+        raise InputError(f"{element('item', owners[at])} is or holds a {parts[at].geom_type}: give polygons or lines")
     rings, polygons = shapely.get_rings(parts, return_index=True)
     lines = np.flatnonzero(kinds != _POLYGON)
     order = np.argsort(np.concatenate([polygons, lines]), kind="stable")
