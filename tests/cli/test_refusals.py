@@ -71,8 +71,8 @@ USAGE = {
     "delaunay dots.csv -f jsn": "did you mean json",
     "delaunay dots.csv -o a.geojsn": "did you mean .geojson",
     "delaunay dots.csv -o a.svg --color edge=red": "did you mean edges?",
-    "delaunay dots.csv -o a.svg --color diagram=red": "shows only edges, points; add the layer with --layers edges,points,",
-    "delaunay dots.csv -o a.svg --layers cells --line-width edges=2": "--line-width edges: the picture shows only cells;",
+    "delaunay dots.csv -o a.svg --color diagram=red": "add the layer with --layers edges,points,diagram",
+    "delaunay dots.csv -o a.svg --layers cells --line-width edges=2": "the picture shows only cells;",
     "delaunay dots.csv --input-format cvs": "did you mean csv?",
     # ---- what another kind of input has
     "tessellate mask.pbm -o a.png --columns 1,2": "but the input is an image",
