@@ -59,10 +59,11 @@ class _Plan(NamedTuple):
     """What making a value of a class looks up."""
 
     by_place: list[str]
-    by_name: set[str]
+    by_name: frozenset[str]
     usual: dict[str, Any]  # of all fields, in their order; what has no default is MISSING
-    required: list[str]
+    required: frozenset[str]
     factories: list[tuple[str, Callable[[], Any]]]
+    settle: Callable[[Any], None] | None
 
 
 _PLANS: dict[type[Any], _Plan] = {}
@@ -74,36 +75,45 @@ def _plan_of(kind: type[Any]) -> _Plan:
         own = fields(kind)
         _PLANS[kind] = _Plan(
             [each.name for each in own if each.init and not each.kw_only],
-            {each.name for each in own if each.init},
+            frozenset(each.name for each in own if each.init),
             {each.name: each.default for each in own},
-            [each.name for each in own if each.default is MISSING and each.default_factory is MISSING],
+            frozenset(each.name for each in own if each.default is MISSING and each.default_factory is MISSING),
             [(each.name, each.default_factory) for each in own if each.default_factory is not MISSING],
+            getattr(kind, "__post_init__", None),
         )
     return _PLANS[kind]
 
 
 def _init(self: Any, /, *given: Any, **named: Any) -> None:
     kind = type(self)
+    plan = _PLANS.get(kind) or _plan_of(kind)
+    fresh = dict(zip(plan.by_place, given, strict=False))
+    fresh.update(named)
+    if len(fresh) != len(given) + len(named) or not plan.required <= fresh.keys() <= plan.by_name:
+        _refuse_arguments(kind, given, named)
+    held = self.__dict__
+    held.update(plan.usual)
+    held.update(fresh)
+    for name, factory in plan.factories:
+        if name not in fresh:
+            held[name] = factory()
+    if plan.settle is not None:
+        plan.settle(self)
+
+
+def _refuse_arguments(kind: type[Any], given: tuple[Any, ...], named: dict[str, Any]) -> NoReturn:
     plan = _plan_of(kind)
     if len(given) > len(plan.by_place):
         raise TypeError(f"{kind.__name__}() takes {len(plan.by_place)} values by place, but got {len(given)}")
-    twice = named.keys() & plan.by_place[: len(given)] if given else ()
-    if twice or not named.keys() <= plan.by_name:
-        said = "got multiple values for" if twice else "got an unexpected keyword"
-        raise TypeError(f"{kind.__name__}() {said} argument {min(twice or named.keys() - plan.by_name)!r}")
-    held = self.__dict__
-    held.update(plan.usual)
-    held.update(zip(plan.by_place, given, strict=False))
-    held.update(named)
-    for name, factory in plan.factories:
-        if held[name] is MISSING:
-            held[name] = factory()
-    for name in plan.required:
-        if held[name] is MISSING:
-            raise TypeError(f"{kind.__name__}() missing required argument {name!r}")
-    settle = getattr(self, "__post_init__", None)
-    if settle is not None:
-        settle()
+    placed = plan.by_place[: len(given)]
+    for said, names in (
+        ("got multiple values for", named.keys() & placed),
+        ("got an unexpected keyword", named.keys() - plan.by_name),
+        ("missing required", plan.required - named.keys() - set(placed)),
+    ):
+        if names:
+            raise TypeError(f"{kind.__name__}() {said} argument {min(names)!r}")
+    raise AssertionError
 
 
 def unchecked(kind: type[T], /, **named: Any) -> T:

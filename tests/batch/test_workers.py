@@ -46,7 +46,7 @@ def test_a_failure_is_told_before_more_are_taken(tmp_path):
 
 def test_an_end_leaves_no_process_and_no_file(tmp_path, monkeypatch):
     made = []
-    monkeypatch.setattr(workers, "Worker", lambda process: made.append(Worker(process)) or made[-1])
+    monkeypatch.setattr(workers, "Worker", lambda *given: made.append(Worker(*given)) or made[-1])
     going = local_results(obey, iter(enumerate(written(tmp_path, "a", "sleep", "sleep"))), jobs=3)
     assert next(going)[0] == 0
     wait_until(lambda: len(begun(tmp_path)) == 2)
@@ -72,8 +72,8 @@ def test_a_worker_that_cannot_start_leaves_no_socket(tmp_path, monkeypatch):
 
 
 def test_a_worker_ends_quietly_where_exceptions_are_swallowed(tmp_path, capfd):
-    worker = Worker(obey)
-    worker.give(*written(tmp_path, "deaf"), SimpleQueue())
+    worker = Worker(obey, SimpleQueue())
+    worker.give(*written(tmp_path, "deaf"))
     wait_until((tmp_path / "0.asleep").exists)
     worker.process.terminate()
     assert worker.process.wait(30) == 143

@@ -40,7 +40,7 @@ often, and an interrupt is over within 0.2 s."""
 class Worker:
     """A process that does one task at a time, which come through its standard input."""
 
-    def __init__(self, process: Process) -> None:
+    def __init__(self, process: Process, done: SimpleQueue[tuple[Worker, Outcome | None]]) -> None:
         self.process = subprocess.Popen(
             [sys.executable, "-c", START, *sys.path],
             stdin=subprocess.PIPE,
@@ -50,17 +50,23 @@ class Worker:
             creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
         )
         self._task: Task | None = None
-        self._thread = Thread()  # waits for the outcome
+        self._tasks: SimpleQueue[Task | None] = SimpleQueue()
         self._send(process)
-
-    def give(self, task: Task, done: SimpleQueue[tuple[Worker, Outcome | None]]) -> None:
-        """Hand a task over; its outcome goes to a queue, or None if the process ends instead."""
-        self._task = task
-        self._thread = Thread(target=lambda: done.put((self, self._outcome(task))), daemon=True)
+        self._thread = Thread(target=self._serve, args=(done,), daemon=True)
         self._thread.start()
 
-    def _outcome(self, task: Task) -> Outcome | None:
-        self._send(task)
+    def give(self, task: Task) -> None:
+        """Hand a task over; its outcome goes to the queue, or None if the process ends instead."""
+        self._task = task
+        self._tasks.put(task)
+
+    def _serve(self, done: SimpleQueue[tuple[Worker, Outcome | None]]) -> None:
+        """Send tasks, and wait for the outcome of each."""
+        for task in iter(self._tasks.get, None):
+            self._send(task)
+            done.put((self, self._outcome()))
+
+    def _outcome(self) -> Outcome | None:
         try:
             outcome: Outcome = pickle.load(self.process.stdout)  # type: ignore[arg-type]  # it is a pipe
         except (EOFError, OSError, pickle.UnpicklingError):
@@ -81,8 +87,8 @@ class Worker:
         except subprocess.TimeoutExpired:
             self.process.kill()
             code = self.process.wait()
-        if self._thread.is_alive():  # it sees that the pipe is closed
-            self._thread.join()
+        self._tasks.put(None)
+        self._thread.join()  # it sees that the pipe is closed
         with suppress(OSError), self.process:  # closes the pipes
             pass
         if self._task is not None:
@@ -100,9 +106,9 @@ def local_results(
     idle: list[Worker] = []
 
     def start(numbered: tuple[int, Task]) -> Worker:
-        worker = idle.pop() if idle else Worker(process)
+        worker = idle.pop() if idle else Worker(process, done)
         workers.add(worker)
-        worker.give(numbered[1], done)
+        worker.give(numbered[1])
         return worker
 
     try:

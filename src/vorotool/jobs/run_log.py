@@ -7,6 +7,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
+from functools import cache
 from inspect import signature
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -33,6 +34,12 @@ Made = TypeVar("Made")
 
 MakeBar = Callable[[str], AbstractContextManager[Report]]
 """Make a bar with a label."""
+
+
+@cache
+def parameters_of(function: Callable[..., Any]) -> tuple[str, ...]:
+    """Return the names of what a function takes."""
+    return tuple(signature(function).parameters)
 
 
 class Run:
@@ -124,7 +131,7 @@ class Run:
         `function` is ``module:function``; its name is the phase where no other one is given.
         """
         made = resolved(function)
-        takes = signature(made).parameters
+        takes = parameters_of(made)
         known = {name: getattr(o, name) for name in OF_MANY} | {"note": self.note}
         with nullcontext() if phase is None else self.phase(phase or made.__name__) as progress:
             known = known | {"progress": progress} | more

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
 from fractions import Fraction
 from functools import cached_property, partial
-from inspect import signature
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
@@ -20,7 +19,7 @@ from vorotool.jobs.options import Options, Place
 from vorotool.jobs.outlined_images import read_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop, written_grid
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
-from vorotool.jobs.run_log import Run
+from vorotool.jobs.run_log import Run, parameters_of
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import (
     Amount,
@@ -180,7 +179,7 @@ class SkeletonProducts(Results, ABC):
 
     def _made_by_function(self, made: Made) -> Any:
         """Call the function that makes a result, with the options that its parameters name and the user gives."""
-        source, names = getattr(self, made.of), list(signature(resolved(made.make)).parameters)[1:]
+        source, names = getattr(self, made.of), parameters_of(resolved(made.make))[1:]
         given = {name: value for name, value in vars(self.options).items() if name in names and value is not None}
         return self.call(made.make, source, phase=made.counted_as, **given)
 
