@@ -119,8 +119,7 @@ def _function(kind: str) -> Convert:
     from importlib import import_module
 
     module, name = kind.split(".")
-    found: Convert = getattr(import_module(f"vorotool.cli.values.{module}"), name)
-    return found
+    return getattr(import_module(f"vorotool.cli.values.{module}"), name)
 
 
 def _type_of(command: str, row: Option) -> ParameterType:

@@ -294,15 +294,13 @@ class SpaceShapeProducts(Results):
     def shape(self) -> SpaceAlphaShape:
         """The shape of the radius."""
         how: Any = {"r": self.radius, "regions": self.options.regions or 1, "allow_empty": self._allow_empty}
-        made: SpaceAlphaShape = self.call("engines.alpha.alpha_shape:alpha_shape", self.family, phase="shape", **how)
-        return made
+        return self.call("engines.alpha.alpha_shape:alpha_shape", self.family, phase="shape", **how)
 
     @cached_property
     def curves(self) -> Table:
         """Measures of the shapes of all radii."""
         space_curves = resolved("engines.alpha.space_shape:space_curves")
-        made: Table = space_curves(self.family, progress=self.run.progress("curves"))
-        return made
+        return space_curves(self.family, progress=self.run.progress("curves"))
 
     def value(self, what: str) -> Any:
         """Give the shape of the radius, or what is of all radii."""

@@ -90,8 +90,7 @@ def _simplified(run: Run, o: Options, polygons: PolygonSet, tolerance: float) ->
         how: dict[str, Any] = {"strict": o.strict, "threads": o.threads}
         graph = resolved("engines.arrangement.planar_graph:graph_for_skeletons")(polygons, **how)
         shapes = resolved("engines.arrangement.repaired_polygons:placed_shapes")(graph)
-        simplified: PolygonSet = resolved(SIMPLIFY)(shapes.polygons, tolerance)
-    return simplified
+        return resolved(SIMPLIFY)(shapes.polygons, tolerance)
 
 
 class Foreground(NamedTuple):

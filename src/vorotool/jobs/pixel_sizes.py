@@ -166,8 +166,7 @@ def placed_mesh(size: PixelSize | None, mesh: Placed) -> Placed:
     """Give a triangulation of such seeds the coordinate reference system of the map."""
     if size is None or size.origin is None:
         return mesh
-    made: Placed = replace(mesh, y_axis=UP, crs=size.crs)  # type: ignore[type-var]  # triangulations have both
-    return made
+    return replace(mesh, y_axis=UP, crs=size.crs)  # type: ignore[type-var]  # triangulations have both
 
 
 def placed_backdrop(run: Run, o: Options, backdrop: Backdrop) -> Backdrop:

@@ -111,8 +111,7 @@ class Tessellated(Results):
     def labels(self, first: int = 0, count: int | None = None) -> NDArray[Any]:
         """Compute the labels of some rows or slices."""
         with self.run.phase("tessellate"):
-            made: NDArray[Any] = self.sweep.labels(first, count, dtype=self.dtype)
-        return made
+            return self.sweep.labels(first, count, dtype=self.dtype)
 
     @cached_property
     def regions(self) -> Regions:

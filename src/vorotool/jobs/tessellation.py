@@ -286,8 +286,7 @@ class StreamedProducts(Products):
 
     def band(self, what: Any, dtype: np.dtype[Any], first: int, count: int) -> Band:
         """Give some rows as what computes them anywhere."""
-        made: Band = self.sweep.band(what, dtype, first, count, self.options.max_distance if what == "labels" else None)
-        return made
+        return self.sweep.band(what, dtype, first, count, self.options.max_distance if what == "labels" else None)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""

@@ -42,8 +42,7 @@ VERIFY = "engines.delaunay.delaunay:verify_triangulation"
 def seeds_of(run: Run, o: Options, points: Any) -> SeedSet:
     """Give the seeds of an image, or points in their frame."""
     if is_of(points, "SeedSet"):
-        seeds: SeedSet = points
-        return seeds
+        return points
     place, frame = "engines.tessellation.seeding:seeds_in_frame", partial(frame_of, o)
     return run.call(o, place, points, frame, phase=None, sides=sides_of(o))
 

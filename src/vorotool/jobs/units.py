@@ -234,8 +234,7 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
     from vorotool.types.scaling import scaled
 
     with _within_doubles(size):
-        result: Value = scaled(value, size.factor, size.origin, unit=size.unit, of_steps=size.is_spacing)
-    return result
+        return scaled(value, size.factor, size.origin, unit=size.unit, of_steps=size.is_spacing)
 
 
 def unit_columns(size: PixelSize | None, count: int) -> dict[str, list[str]]:

@@ -222,8 +222,7 @@ def _geojson(value: Any, product: Product, flatten: float | None = None) -> dict
     out = io.BytesIO()
     with writing(coordinate_unit=own_unit(value)):
         write_product(out, value, product, "geojson", flatten=flatten)
-    made: dict[str, Any] = orjson.loads(out.getvalue())
-    return made
+    return orjson.loads(out.getvalue())
 
 
 def feature_collection(value: Any) -> dict[str, Any]:

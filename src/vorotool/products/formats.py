@@ -137,5 +137,4 @@ def format_named(name: str) -> str | None:
 def resolved(function: str) -> Callable[..., Any]:
     """Give the function that ``module:name`` stands for."""
     module, name = function.split(":")
-    found: Callable[..., Any] = getattr(import_module(f"vorotool.{module}"), name)
-    return found
+    return getattr(import_module(f"vorotool.{module}"), name)

@@ -192,8 +192,7 @@ def _colored(image: LabelImage) -> NDArray[np.uint8]:
     labels, classes = object_colors(image)
     palette = picture_palette(int(classes.max(initial=0))).colors
     known, number = np.append(0, labels), np.append(0, classes)
-    made: NDArray[np.uint8] = palette[number[np.searchsorted(known, np.maximum(image.labels, 0))]]
-    return made
+    return palette[number[np.searchsorted(known, np.maximum(image.labels, 0))]]
 
 
 # ---- tables --------------------------------------------------------------------------------------

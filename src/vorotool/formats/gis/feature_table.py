@@ -251,8 +251,7 @@ def features_of(source: Source) -> Features:
     """Give the features of a source; those that were read to tell what it holds come with it."""
     if isinstance(source.document, Features):
         return source.document
-    read: Features = resolved(INPUTS[source.format].features)(source)
-    return read
+    return resolved(INPUTS[source.format].features)(source)
 
 
 def read_points(source: Source, options: ReadOptions) -> PointRows:

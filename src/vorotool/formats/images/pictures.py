@@ -56,8 +56,7 @@ def read_picture_file(
         if count > 1 and page is None and note is not None:
             other = option("--page", "page=...")
             note(Message(f"{source.name} has {count} pictures: the first one is read; choose another with {other}"))
-        values: NDArray[Any] = interruptible(lambda: _decoded(file, page or 0))
-    return values
+        return interruptible(lambda: _decoded(file, page or 0))
 
 
 def picture_pages(source: Source, kind: str) -> int:
@@ -98,8 +97,7 @@ def _decoded(file: Any, index: int) -> NDArray[Any]:
     mode = _PLAIN.get(about["mode"])
     if "transparency" in about:
         mode = {"P": "RGBA", "L": "LA", "RGB": "RGBA"}.get(about["mode"], mode)
-    values: NDArray[Any] = file.read(index=index, mode=mode, rotate=True, writeable_output=False)
-    return values
+    return file.read(index=index, mode=mode, rotate=True, writeable_output=False)
 
 
 def _check_jpeg(source: Source, kind: str) -> None:
@@ -188,5 +186,4 @@ def _with_one_palette(images: list[Image.Image]) -> list[Image.Image]:
 def _packed(image: Image.Image) -> NDArray[np.uint32]:
     """(H, W) one number a color."""
     red, green, blue = np.moveaxis(np.asarray(image).astype(np.uint32), 2, 0)
-    packed: NDArray[np.uint32] = red << 16 | green << 8 | blue
-    return packed
+    return red << 16 | green << 8 | blue

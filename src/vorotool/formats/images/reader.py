@@ -102,8 +102,7 @@ def picture_and_grid(source: Source, options: ReadOptions) -> tuple[NDArray[np.u
 
 def _as_seen(values: NDArray[Any], palette: NDArray[np.uint8] | None) -> NDArray[np.uint8]:
     if palette is not None and values.ndim == 2 and values.max() < len(palette):
-        colors: NDArray[np.uint8] = palette[values]
-        return colors
+        return palette[values]
     channels = _spread(values[:, :, None] if values.ndim == 2 else values)
     if channels.shape[2] in (2, 4):
         alpha = channels[:, :, -1:].astype(np.uint16)
@@ -345,5 +344,4 @@ def _read_gray_alpha_16(data: bytes) -> NDArray[np.uint16]:
 
 
 def _joined(high: NDArray[Any], low: NDArray[Any]) -> NDArray[np.uint16]:
-    joined: NDArray[np.uint16] = high.astype(np.uint16) << np.uint16(8) | low
-    return joined
+    return high.astype(np.uint16) << np.uint16(8) | low

@@ -110,8 +110,7 @@ def _is_turned_over(points: Floats, nesting: Nesting) -> NDArray[np.bool_]:
     lines = shapely.linearrings(points, indices=owners(np.diff(rings)))
     is_shell = np.zeros(len(lines), dtype=bool)
     is_shell[polygons[:-1]] = True
-    turned: NDArray[np.bool_] = np.logical_or.reduceat(shapely.is_ccw(lines) != is_shell, polygons[cells[:-1]])
-    return turned
+    return np.logical_or.reduceat(shapely.is_ccw(lines) != is_shell, polygons[cells[:-1]])
 
 
 def select(points: Floats, nesting: Nesting, features: Indices) -> Rings:

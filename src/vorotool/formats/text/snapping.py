@@ -65,10 +65,7 @@ def _ranks(keys: NDArray[Any], wanted: NDArray[Any]) -> Indices:
 
 def _hashes(points: Floats) -> NDArray[np.uint64]:
     x, y = (np.ascontiguousarray(points + 0.0).view(np.uint64)).T  # no negative zeros
-    made: NDArray[np.uint64] = (x * np.uint64(0x9E3779B97F4A7C15)) ^ (
-        y * np.uint64(0xC2B2AE3D27D4EB4F) + (y >> np.uint64(29))
-    )
-    return made
+    return (x * np.uint64(0x9E3779B97F4A7C15)) ^ (y * np.uint64(0xC2B2AE3D27D4EB4F) + (y >> np.uint64(29)))
 
 
 @frozen(eq=False)
@@ -194,8 +191,7 @@ class _Places:
 
 def _place_keys(places: NDArray[np.int32]) -> Indices:
     x, y = places.astype(np.int64).T
-    keys: Indices = (x << 32) + y
-    return keys
+    return (x << 32) + y
 
 
 def _features_of_faces(

@@ -302,8 +302,7 @@ class Page:
         """(n, 2) px from the left and from the top."""
         scale = np.array([self.scale, (-self.scale if self.y_up else self.scale) * self.aspect])
         center = np.array([self.width / 2, self.height / 2])
-        placed: NDArray[np.float64] = (np.ldexp(points, -self._exponent) - self._middle - self._rest) * scale + center
-        return placed
+        return (np.ldexp(points, -self._exponent) - self._middle - self._rest) * scale + center
 
     def length(self, distance: float) -> float:
         """Px of a distance along x."""

@@ -62,8 +62,7 @@ def scale_colors(count: int) -> NDArray[np.uint8]:
     place = np.linspace(0, len(stops) - 1, count)
     below = np.minimum(place.astype(np.intp), len(stops) - 2)
     colors = stops[below] + (place - below)[:, None] * (stops[below + 1] - stops[below])
-    rounded: NDArray[np.uint8] = np.rint(colors).astype(np.uint8)
-    return rounded
+    return np.rint(colors).astype(np.uint8)
 
 
 def color_bar(largest: float, unit: str | None, page: Page) -> list[Layer]:

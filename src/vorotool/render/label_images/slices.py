@@ -146,13 +146,11 @@ class SlicePicture:
     def _voxels_of(self, places: NDArray[np.int64], scale: int) -> NDArray[np.int64]:
         """The voxel that each seed lies in, (x, y, z) from the first one; between two it is the latter."""
         first = (self.frame.x, self.frame.y, self.frame.z)
-        found: NDArray[np.int64] = (2 * places + scale) // (2 * scale) - np.array(first)
-        return found
+        return (2 * places + scale) // (2 * scale) - np.array(first)
 
     def _inside(self, voxels: NDArray[np.int64]) -> NDArray[np.bool_]:
         is_on_axis: NDArray[np.bool_] = (voxels >= 0) & (voxels < np.array(self.frame.shape[::-1]))
-        inside: NDArray[np.bool_] = np.logical_and.reduce(is_on_axis, axis=1)
-        return inside
+        return np.logical_and.reduce(is_on_axis, axis=1)
 
     def _places(self, view: View, xyz: NDArray[np.float64]) -> NDArray[np.int64]:
         """Column and row in the picture of places in a slice, in steps of a part of a pixel."""

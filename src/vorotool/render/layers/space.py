@@ -38,8 +38,7 @@ def seen(places: Floats) -> Floats:
 def _along(ways: Floats, axis: tuple[float, float, float]) -> Floats:
     """Give the components of (n, 3) vectors along an axis, each sum in the same order on all machines."""
     x, y, z = ways.T
-    made: Floats = x * axis[0] + y * axis[1] + z * axis[2]
-    return made
+    return x * axis[0] + y * axis[1] + z * axis[2]
 
 
 def space_layers(mesh: Tetrahedralization, page: Page, layers: Iterable[str]) -> list[Layer]:
