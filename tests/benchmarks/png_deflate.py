@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 import vorotool
 from vorotool.formats.images.png_writer import write_png
+from vorotool.numeric.coordinates import writing
 
 BLOCK_BYTES = 1 << 20
 
@@ -95,7 +96,8 @@ def written(image: NDArray[np.uint16], threads: int) -> tuple[int, float]:
     begin = time.perf_counter()
     with tempfile.TemporaryFile() as out:
         bands = (image[start : start + 64] for start in range(0, len(image), 64))
-        write_png(out, bands, image.shape, threads=threads)
+        with writing(threads=threads):
+            write_png(out, bands, image.shape)
         out.flush()
         return out.tell(), time.perf_counter() - begin
 

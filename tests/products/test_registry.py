@@ -57,13 +57,13 @@ import sys, types
 from pathlib import Path
 from vorotool.products import formats
 
-def write(out, value, *, precision, threads):
+def write(out, value):
     out.write(b"%d curves\\n" % len(value))
 
 module = types.ModuleType("vorotool.formats.results.drawings")
 module.write = write
 sys.modules[module.__name__] = module
-writers = {"offset": formats.Writer("formats.results.drawings:write", ("precision", "threads"))}
+writers = {"offset": formats.Writer("formats.results.drawings:write", ())}
 added = formats.Format("drawing", "Drawing", ("drw",), writers=writers)
 formats.FORMATS["drawing"] = added
 formats.EXTENSIONS[".drw"] = "drawing"

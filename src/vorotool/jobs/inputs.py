@@ -307,7 +307,7 @@ def read_backdrop(o: Options) -> Backdrop:
 
     def encode() -> bytes:
         out = io.BytesIO()
-        write_png(out, [pixels.reshape(height, 3 * width)], (height, width), rgb=True, threads=o.threads)
+        write_png(out, [pixels.reshape(height, 3 * width)], (height, width), rgb=True)
         return out.getvalue()
 
     return Backdrop(pixels, encode, grid=grid)

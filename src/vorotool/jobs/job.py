@@ -77,6 +77,8 @@ def process_input(run: Run, options: Options, path: str, targets: Sequence[Targe
     system = run.crs if size is None else getattr(products.options.unit, "crs", None)  # of tables
     how: dict[str, Any] = {
         "decimals": options.decimals,
+        "precision": options.precision,
+        "threads": options.threads,
         "is_verified": options.verify,
         "columns": options.with_columns,
         "unit": unit,
@@ -215,7 +217,7 @@ class Results:
         from vorotool.render.drawing import Wanted
 
         o = self.options
-        return Wanted(o.looks, self.world, o.layers, o.width or 1000, self.backdrop, o.threads)
+        return Wanted(o.looks, self.world, o.layers, o.width or 1000, self.backdrop)
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, before anything is."""
@@ -296,7 +298,5 @@ class Results:
             self.products[target.what],
             target.fmt,
             flatten=o.flatten and length_in_units(o.pixel_size, o.flatten),
-            precision=o.precision,
-            threads=o.threads,
             path=target.path,
         )

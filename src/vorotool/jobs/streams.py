@@ -64,12 +64,12 @@ class Stream:
         """Give all of it, part by part."""
         return (self.part_of(first, count) for first, count in limits)
 
-    def write(self, out: Any, fmt: Any, parts: Iterator[NDArray[Any]], count: int, *, threads: int) -> None:
+    def write(self, out: Any, fmt: Any, parts: Iterator[NDArray[Any]], count: int) -> None:
         """Write parts of so many rows or slices to a file."""
         is_flat = isinstance(self.frame, Frame)
         writer = "images.label_images:write_label_image" if is_flat else "volumes.writer:write_volume"
         shape = (count, *self.frame.shape[1:])
-        resolved(f"formats.{writer}")(out, parts, shape=shape, dtype=self.dtype, fmt=fmt, threads=threads, **self.about)
+        resolved(f"formats.{writer}")(out, parts, shape=shape, dtype=self.dtype, fmt=fmt, **self.about)
 
     def expected(self, count: int, size_of: Callable[[NDArray[Any]], int]) -> int:
         """Estimate the bytes of the whole from those of some parts of so many rows or slices, which differ."""
@@ -153,17 +153,17 @@ class Tessellated(Results):
             return
         from vorotool.formats.io.descriptors import check_space
 
-        stream, fmt, threads = self.stream(target.what), target.fmt, self.options.threads
+        stream, fmt = self.stream(target.what), target.fmt
         whole = stream.frame.shape[0]
 
         def size_of(part: NDArray[Any]) -> int:
             sample = io.BytesIO()
-            stream.write(sample, fmt, iter([part]), len(part), threads=threads)
+            stream.write(sample, fmt, iter([part]), len(part))
             return sample.tell()
 
         most = prod(stream.frame.shape) * (11 if fmt == "text" else stream.dtype.itemsize)
         check_space(target.path, most, lambda: stream.expected(stream.limits[0][1], size_of))
-        stream.write(out, fmt, stream.parts(stream.limits), whole, threads=threads)
+        stream.write(out, fmt, stream.parts(stream.limits), whole)
 
     def write_store(self, target: Target, rules: Mapping[str, Any]) -> None:
         """Write an image or a volume to a Zarr store, if there is room for it: here, or on a cluster."""

@@ -114,7 +114,6 @@ def write(
     >>> write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), "build/skeleton.svg")
     """
     from vorotool.numeric.checks import checked_flag, checked_threads
-    from vorotool.numeric.length_units import own_unit
 
     path, flatten = _checked_path(path), checked_flatten(flatten)
     if not isinstance(fmt, str | None):
@@ -135,8 +134,9 @@ def write(
     o = Options(
         "write",
         threads=checked_threads(threads),
-        **{"flatten": flatten, "precision": precision, "layers": layers, "width": width, "y_up": y_up},
-        **{"label_by": label_by, "legend": legend, "scale_bar": scale_bar, "max_pixels": MAX_PIXELS},
+        **numbers,
+        **{"layers": layers, "width": width, "y_up": y_up, "with_columns": with_columns, "max_pixels": MAX_PIXELS},
+        **{"label_by": label_by, "legend": legend, "scale_bar": scale_bar},
         **looks_of(**looks),
     )
     is_labels = is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")
@@ -159,8 +159,7 @@ def write(
             from vorotool.formats.gis.geopackage import check_layers
 
             check_layers(path, (product.what,), overwrite=overwrite)
-        with writing(decimals, columns=with_columns, coordinate_unit=own_unit(value)):
-            _write(_Value(o, value, product), path, chosen)
+        _write(_Value(o, value, product), path, chosen)
 
 
 def _checked_path(path: Any) -> str:
@@ -320,6 +319,10 @@ class _Value(Results):
 
 def _write(results: _Value, path: str, fmt: str) -> None:
     """Check and write the one result."""
-    target = Target(next(iter(results.products)), path, fmt)
-    results.check(target)
-    results.write(target, inputs=())
+    from vorotool.numeric.length_units import own_unit
+
+    o, target = results.options, Target(next(iter(results.products)), path, fmt)
+    how = {"columns": o.with_columns, "precision": o.precision, "threads": o.threads}
+    with writing(o.decimals, coordinate_unit=own_unit(results.value(target.what)), **how):
+        results.check(target)
+        results.write(target, inputs=())

@@ -117,7 +117,7 @@ def plural(noun: str) -> str:
 
 Integers = NDArray[np.int64]
 
-MOST_DECIMALS = 17
+MOST_DECIMALS = MOST_DIGITS = 17
 
 _EXACT = 2.0**52
 """Numbers of steps below this, and the results of dividing them by a power of ten, are distinct doubles."""
@@ -132,6 +132,8 @@ class Writing(NamedTuple):
     unit: str | None = None  # of lengths, in ASCII, which tables name in a last column
     coordinate_unit: str | None = None  # which collections state, where no coordinate reference system does
     is_safe: bool = False  # spreadsheets are kept from taking texts of CSV and TSV for formulas
+    precision: int = 0  # significant digits of other numbers; 0: the shortest text that reads back the same
+    threads: int = 0  # that text and images are made by; 0: all
 
 
 @dataclass
@@ -158,12 +160,24 @@ def record_deviation(distances: Floats) -> None:
 
 @contextmanager
 def writing(
-    decimals: int | None = None, *, is_verified: bool = False, columns: Sequence[str] | None = None, **how: Any
+    decimals: int | None = None,
+    *,
+    is_verified: bool = False,
+    columns: Sequence[str] | None = None,
+    precision: int | None = None,
+    **how: Any,
 ) -> Iterator[Written]:
     """Say how files are written within, see `Writing`; what else is said outside stays."""
     name = option("--decimals")
     if decimals is not None and not 0 <= whole_number(decimals, name) <= MOST_DECIMALS:
         raise UsageError(f"{name} is {shown_number(decimals)}: use 0 to {MOST_DECIMALS}, or leave it out")
+    name = option("--precision")
+    if precision is not None:
+        if not 1 <= whole_number(precision, name) <= MOST_DIGITS:
+            raise UsageError(
+                f"{name} is {shown_number(precision)}: use 1 to {MOST_DIGITS} significant digits, or leave it out"
+            )
+        how["precision"] = precision
     if columns is not None:
         if not isinstance(columns, list | tuple) or not all(isinstance(each, str) for each in columns):
             raise UsageError(f"invalid with_columns {shown_number(columns)}: expected a list of names")

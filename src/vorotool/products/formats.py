@@ -15,7 +15,7 @@ class Writer(NamedTuple):
 
     function: str
     """``module:name`` within the package."""
-    takes: tuple[str, ...] = ("fmt", "what", "precision", "threads")
+    takes: tuple[str, ...] = ("fmt", "what")
     """Options that it has, of these and ``flatten``."""
 
 
@@ -47,7 +47,7 @@ class Format(NamedTuple):
         return tuple(f".{extension}" for extension in self.extensions or (self.name,))
 
 
-_GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten", "precision", "threads"))
+_GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten",))
 _DXF = Writer("formats.drawing.dxf_writer:write_dxf", ("what",))
 _ALL = (
     Format("png", "PNG", is_text=False, is_image=True),
@@ -120,7 +120,7 @@ AS_MESH = option("-f ply or vtu", 'fmt="ply" or "vtu"')
 
 TABLES = ("csv", "tsv", "json", "npz")
 """Formats of tables."""
-GENERAL = Writer("formats.text.tables:write_value", ("fmt", "what", "flatten", "precision", "threads"))
+GENERAL = Writer("formats.text.tables:write_value", ("fmt", "what", "flatten"))
 """What writes the rows or the features of any value."""
 ANIMATIONS = ("gif", "apng", "webp")
 """Formats of pictures that move."""

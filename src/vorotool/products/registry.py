@@ -93,7 +93,7 @@ _TABLES = " ".join(TABLES)
 
 # ---- tessellate ----------------------------------------------------------------------------------
 _IMAGES = "png tiff npy text"
-_LABELS = Writer("formats.images.label_images:write_labels", ("fmt", "threads"))
+_LABELS = Writer("formats.images.label_images:write_labels", ("fmt",))
 _COLORED = {"png": ("cells", "diagram", "objects", "seeds", "labels"), "svg": ("cells", "labels", "objects", "seeds")}
 # Rows stay rows: one argument a line would hide the tables.
 # fmt: off
@@ -110,7 +110,7 @@ _TESSELLATE = (
 
 # ---- tessellate, of volumes ----------------------------------------------------------------------
 _STACKS = "tiff npy zarr"
-_VOXELS = Writer("formats.volumes.writer:write_values", ("fmt", "threads"))
+_VOXELS = Writer("formats.volumes.writer:write_values", ("fmt",))
 _SLICES = {fmt: (*layers[:1], *(name for name in layers[1:] if name != "objects")) for fmt, layers in _COLORED.items()}
 _VOLUMES = (
     _product("labels", "LabelVolume", _STACKS, own=dict.fromkeys(("tiff", "npy"), _VOXELS), has_page=True),
@@ -125,8 +125,8 @@ _VOLUMES = (
 # ---- delaunay ------------------------------------------------------------------------------------
 _MESH = dict.fromkeys(("obj", "edge", "ele", "node"), Writer("formats.results.meshes:write_mesh"))
 _CELLS = {
-    "json": Writer("formats.results.features:write_cells_json", ("precision", "threads")),
-    "npz": Writer("formats.results.features:write_cells_arrays", ("threads",)),
+    "json": Writer("formats.results.features:write_cells_json", ()),
+    "npz": Writer("formats.results.features:write_cells_arrays", ()),
 }
 _MESHES = "Triangulation DigitalTriangulation"
 _EDGED = f"{_MESHES} ProximityGraph"
@@ -144,7 +144,7 @@ _DELAUNAY = (
 )
 
 # ---- delaunay, of points in space ----------------------------------------------------------------
-_SOLIDS = Writer("formats.results.meshes:write_solid", ("fmt", "what", "threads"))
+_SOLIDS = Writer("formats.results.meshes:write_solid", ("fmt", "what"))
 _SOLID = dict.fromkeys(("obj", "ply", "stl", "vtu"), _SOLIDS)
 _SPACE_LAYERS = _pictures("hull edges points labels", "render.layers.space:space")
 _TETRAHEDRA = _product("tetrahedra", "Tetrahedralization", f"{_TABLES} npy vtu", _SPACE_LAYERS, "hull edges points",
@@ -160,7 +160,7 @@ _SPACE = (
     _HULL._replace(usual_for=("obj", "ply", "stl")),
     _product("cells", "SpaceCellSet", f"{_TABLES} obj ply vtu",
         own=dict.fromkeys(("npz", "obj", "ply", "vtu"), Writer("formats.results.meshes:write_cells",
-            ("fmt", "threads")))),
+            ("fmt",)))),
     _product("table", "Tetrahedralization", _TABLES),
 )
 
@@ -223,10 +223,10 @@ _DISC_PRODUCT = _product(
 
 
 _SKELETON, _OFFSETS, _MAP = (  # all of a result, in JSON and as arrays
-    dict.fromkeys(("json", "npz"), Writer(f"formats.results.{function}", ("fmt", "precision", "threads")))
+    dict.fromkeys(("json", "npz"), Writer(f"formats.results.{function}", ("fmt",)))
     for function in ("skeleton_files:write_skeleton", "skeleton_files:write_offsets", "voronoi_files:write_voronoi")
 )
-_THICKNESS = Writer("formats.images.label_images:write_thickness", ("fmt", "threads"))
+_THICKNESS = Writer("formats.images.label_images:write_thickness", ("fmt",))
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels", "render.layers.skeleton:skeleton")
 _DIAGRAM = _ARCS._replace(drawn_by="render.layers.skeleton:diagram")
@@ -393,8 +393,6 @@ def write_product(
     fmt: str,
     *,
     flatten: float | None = None,
-    precision: int | None = None,
-    threads: int = 0,
     path: str = "-",
 ) -> None:
     """Write a result in one of its formats; pictures and pages are none of these."""
@@ -402,15 +400,14 @@ def write_product(
     written = resolved("numeric.coordinates:current_written")()
     written.crs = getattr(value, "crs", None)
     written.has_y_down = written.has_y_down or getattr(value, "y_axis", None) == "down"
-    options: dict[str, Any] = {"flatten": flatten, "precision": precision, "threads": threads}
     writer = chosen.writers.get(product.what, chosen.writer)
     if writer is None and fmt not in product.data:
         source = next(name for name in chosen.made_from if name in product.data)
         with resolved(chosen.maker)(out, product.what, path) as taker:
-            write_product(taker, value, product, source, **options)
+            write_product(taker, value, product, source, flatten=flatten)
         return
     writer = writer or (GENERAL if is_of(value, *_IN_PLACE) else product.own.get(fmt, GENERAL))
-    given = {"fmt": fmt, "what": product.what, **options}
+    given = {"fmt": fmt, "what": product.what, "flatten": flatten}
     resolved(writer.function)(out, value, **{name: given[name] for name in writer.takes})
 
 

@@ -27,7 +27,6 @@ class Wanted(NamedTuple):
     layers: Sequence[str] | None = None  # None: the usual ones
     width: int = 1000  # px
     backdrop: Backdrop | None = None  # the image that it is drawn over
-    threads: int = 0
 
     def shown(self, usual: Sequence[str]) -> list[str]:
         """Give its layers: over an image the shapes are seen already, and a column of names is shown in any case."""
@@ -57,12 +56,12 @@ class Picture(Protocol):
 class Drawing:
     """Layers from below, made when they are asked for, and the page that they are drawn on."""
 
-    def __init__(self, page: Page, value: Any, layers_of: Callable[[Any], Sequence[Layer]], threads: int = 0) -> None:
-        self.page, self._value, self._layers_of, self._threads = page, value, layers_of, threads
+    def __init__(self, page: Page, value: Any, layers_of: Callable[[Any], Sequence[Layer]]) -> None:
+        self.page, self._value, self._layers_of = page, value, layers_of
 
     def of(self, value: Any) -> Drawing:
         """Prepare a picture of another value on the same page."""
-        return Drawing(self.page, value, self._layers_of, self._threads)
+        return Drawing(self.page, value, self._layers_of)
 
     @cached_property
     def layers(self) -> Sequence[Layer]:
@@ -91,12 +90,12 @@ class Drawing:
             from vorotool.render.canvas.svg import write_layers_svg
 
             layers, insets = self._finished()
-            write_layers_svg(out, layers, self.page, insets=insets, threads=self._threads)
+            write_layers_svg(out, layers, self.page, insets=insets)
             return
         from vorotool.formats.images.png_writer import write_png
 
         has_alpha = self.page.backdrop is None and self.page.style.ground is None
-        write_png(out, self._bands(), self.shape, rgb=True, has_alpha=has_alpha, threads=self._threads)
+        write_png(out, self._bands(), self.shape, rgb=True, has_alpha=has_alpha)
 
     def pixels(self) -> NDArray[np.uint8]:
         """(H, W, 3) red, green and blue of the PNG."""
@@ -156,7 +155,7 @@ def drawing_of(
         page = page_of(value, width=wanted.width)
     page = styled_page(page, wanted.looks, wanted.world, fmt)
     layers_of = partial(resolved(f"{place}_layers"), page=page, layers=wanted.shown(product.usual_layers), **more)
-    return Drawing(page, value, layers_of, wanted.threads)
+    return Drawing(page, value, layers_of)
 
 
 def drawn_part(value: Any, what: str | None) -> Product:

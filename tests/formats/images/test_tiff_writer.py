@@ -83,7 +83,7 @@ def test_large_images_are_bigtiff(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_memory_stays_bounded(dtype: str, tmp_path: object) -> None:
     band = (np.arange(64 * 4096).reshape(64, 4096) // 50).astype(dtype)
     with (tmp_path / "large.tif").open("w+b") as out, memory_below(40e6):  # type: ignore[operator]
-        write_tiff(out, (band for _ in range(128)), (8192, 4096), dtype=dtype, threads=2)
+        write_tiff(out, (band for _ in range(128)), (8192, 4096), dtype=dtype)
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ from support.few import few
 from support.processes.peak_memory import memory_below
 from support.refusals import refused
 from vorotool.formats.text.row_writer import SLICE_ROWS, Column, RowShape, write_rows
+from vorotool.numeric.coordinates import writing
 from vorotool.types.table import Computed, Lookup
 
 
@@ -28,7 +29,8 @@ class Count(io.RawIOBase):
 def test_slices_join(rows, threads):
     out = io.BytesIO()
     columns = [Column.of("", np.arange(rows)), Column.of("", Computed(lambda part: np.arange(rows)[part] / 2, rows))]
-    write_rows(out, columns, RowShape(("[", ",", "]"), ","), threads=threads)
+    with writing(threads=threads):
+        write_rows(out, columns, RowShape(("[", ",", "]"), ","))
     assert json.loads(b"[" + out.getvalue() + b"]") == [[k, k / 2] for k in range(rows)]
 
 
@@ -38,8 +40,8 @@ def test_memory_stays_bounded(threads):
     values, index = np.random.default_rng(0).random(1000), np.zeros(rows, np.int32)
     columns = [Column.of("", Lookup(values, index)) for _ in range(4)]
     out = Count()
-    with memory_below(20e6):
-        write_rows(out, columns, threads=threads)
+    with memory_below(20e6), writing(threads=threads):
+        write_rows(out, columns)
     assert out.size > 60e6
 
 
@@ -48,4 +50,5 @@ def test_a_failing_output_ends_the_work():
         def write(self, _data):
             raise OSError(28, "No space left on device")
 
-    refused(OSError, "No space", write_rows, Full(), [Column.of("", np.arange(10 * SLICE_ROWS))], threads=2)
+    with writing(threads=2):
+        refused(OSError, "No space", write_rows, Full(), [Column.of("", np.arange(10 * SLICE_ROWS))])

@@ -13,6 +13,7 @@ import tifffile
 import vorotool
 from support.families.tiff_files import grey, tiff_file
 from support.few import few
+from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.volumes import writer
@@ -184,10 +185,8 @@ def test_limits(tmp_path):
 
 
 def made(values, slabs=1, **options):
-    out = io.BytesIO()
     parts = np.array_split(values, slabs)
-    write_volume(out, parts, shape=values.shape, dtype=values.dtype, fmt="tiff", **options)
-    return out.getvalue()
+    return bytes_of(write_volume, parts, shape=values.shape, dtype=values.dtype, fmt="tiff", **options)
 
 
 @pytest.mark.parametrize("dtype", few([np.uint8, np.float32, np.uint16, np.uint32, np.int32, np.uint64], 2))

@@ -5,7 +5,7 @@ import io
 
 import numpy as np
 
-from vorotool.numeric.coordinates import writing
+from vorotool.numeric.coordinates import current_decimals, writing
 from vorotool.products.formats import FORMATS
 from vorotool.products.registry import chosen_part, write_product
 
@@ -20,8 +20,9 @@ def streamed(product):
 
 def bytes_of(write, *arguments, **options):
     """Give what a function writes into a file that it is given first."""
-    out = io.BytesIO()
-    write(out, *arguments, **options)
+    out, how = io.BytesIO(), {name: options.pop(name) for name in ("precision", "threads") if name in options}
+    with writing(current_decimals(), **how):
+        write(out, *arguments, **options)
     return out.getvalue()
 
 

@@ -38,7 +38,6 @@ def write_label_image(
     nodata: int | None = None,
     scale: float | None = None,
     tiled: bool = False,
-    threads: int = 0,
 ) -> None:
     """Write an image from bands of rows; what the format cannot hold is refused before anything is written."""
     kind = np.dtype(np.uint8 if np.dtype(dtype) == np.bool_ else dtype)
@@ -47,14 +46,10 @@ def write_label_image(
     if fmt == "png":
         depth = bit_depth or (16 if palette is None else 8)
         check_png(kind, largest_label, depth)
-        resolved("formats.images.png_writer:write_png")(
-            out, bands, shape, bit_depth=depth, palette=palette, threads=threads
-        )
+        resolved("formats.images.png_writer:write_png")(out, bands, shape, bit_depth=depth, palette=palette)
     elif fmt == "tiff":
         of_pixels: dict[str, Any] = {"grid": grid, "nodata": nodata, "scale": scale, "tiled": tiled}
-        resolved("formats.images.tiff_writer:write_tiff")(
-            out, bands, shape, dtype=kind, palette=palette, **of_pixels, threads=threads
-        )
+        resolved("formats.images.tiff_writer:write_tiff")(out, bands, shape, dtype=kind, palette=palette, **of_pixels)
     elif fmt == "npy":
         resolved("formats.io.arrays:write_npy")(out, bands, shape, dtype=kind)
     elif fmt == "text":
@@ -63,7 +58,7 @@ def write_label_image(
         raise UsageError(f"invalid fmt {fmt!r}: expected png, tiff, npy or text")
 
 
-def write_labels(out: BinaryIO, image: LabelImage, fmt: LabelFormat, *, threads: int = 0) -> None:
+def write_labels(out: BinaryIO, image: LabelImage, fmt: LabelFormat) -> None:
     """Write the labels of an image that is in memory; see `write_label_image`."""
     kind, largest = image.labels.dtype, int(image.labels.max())
     write_label_image(
@@ -74,7 +69,6 @@ def write_labels(out: BinaryIO, image: LabelImage, fmt: LabelFormat, *, threads:
         fmt=fmt,
         largest_label=largest,
         grid=image.grid,
-        threads=threads,
     )
 
 
@@ -145,7 +139,7 @@ ROWS = 256
 """Of a band, which is converted at a time."""
 
 
-def write_thickness(out: BinaryIO, image: ThicknessImage, fmt: Literal["tiff", "npy"], *, threads: int = 0) -> None:
+def write_thickness(out: BinaryIO, image: ThicknessImage, fmt: Literal["tiff", "npy"]) -> None:
     """Write each thickness as a float of 32 bits."""
     values = image.values
     write_label_image(
@@ -156,5 +150,4 @@ def write_thickness(out: BinaryIO, image: ThicknessImage, fmt: Literal["tiff", "
         fmt=fmt,
         largest_label=0,
         grid=image.grid,
-        threads=threads,
     )

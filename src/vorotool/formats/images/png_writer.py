@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
 from vorotool.formats.io.arrays import blocks, check_fits
+from vorotool.numeric.coordinates import current_written
 from vorotool.numeric.parallel import in_order
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -38,7 +39,6 @@ def write_png(
     palette: NDArray[np.uint8] | None = None,
     rgb: bool = False,
     has_alpha: bool = False,
-    threads: int = 0,
 ) -> None:
     """Write a gray, palette or RGB PNG from bands of rows, in bounded memory."""
     height, width = shape
@@ -62,7 +62,7 @@ def write_png(
         encode=_encoder(bit_depth, palette),
     )
     head, checksum = _ZLIB_HEADER, 1
-    for data, adler, length in in_order(_deflated, packed, threads):
+    for data, adler, length in in_order(_deflated, packed, current_written().how.threads):
         _write_chunk(out, b"IDAT", head + data)
         head, checksum = b"", joined_adler32(checksum, adler, length)
     _write_chunk(out, b"IDAT", head + _EMPTY_LAST_BLOCK + struct.pack(">I", checksum))

@@ -20,6 +20,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from vorotool.formats.images.image_grids import grid_tags, scale_tag
 from vorotool.formats.io.arrays import BLOCK_BYTES, blocks, checked, stored
+from vorotool.numeric.coordinates import current_written
 from vorotool.numeric.parallel import in_order
 from vorotool.types.pixels import PixelGrid
 
@@ -41,7 +42,6 @@ def write_tiff(
     nodata: int | None = None,
     scale: float | None = None,
     tiled: bool = False,
-    threads: int = 0,
 ) -> None:
     """Write a single-page TIFF from bands of rows, in bounded memory; a BigTIFF where the pixels need it."""
     tags = grid_tags(grid, shape, np.dtype(dtype), nodata=nodata)
@@ -51,7 +51,7 @@ def write_tiff(
         tags["tile"] = (TILE, TILE)
     kind = np.dtype(dtype).newbyteorder("<")
     large = shape[0] * shape[1] * kind.itemsize >= CLASSIC_LIMIT
-    write_pages(out, bands, shape, kind, tags, is_large=large, palette=palette, threads=threads)
+    write_pages(out, bands, shape, kind, tags, is_large=large, palette=palette)
 
 
 def write_pages(
@@ -63,12 +63,11 @@ def write_pages(
     *,
     is_large: bool,
     palette: NDArray[np.uint8] | None = None,
-    threads: int = 0,
 ) -> None:
     """Write an image from bands of rows, or a stack from slabs of slices; the bytes do not depend on these."""
     if not out.seekable():
         with tempfile.TemporaryFile() as spool:
-            write_pages(spool, bands, shape, kind, tags, is_large=is_large, palette=palette, threads=threads)
+            write_pages(spool, bands, shape, kind, tags, is_large=is_large, palette=palette)
             spool.seek(0)
             shutil.copyfileobj(spool, out)
         return
@@ -81,7 +80,9 @@ def write_pages(
     handle = tifffile.FileHandle(out, name="image.tif", size=0)
     with tifffile.TiffWriter(handle, bigtiff=is_large, byteorder="<") as writer:
         writer.write(
-            in_order(deflated, strips, threads) if compressed else (strip[1:].tobytes() for strip in strips),
+            in_order(deflated, strips, current_written().how.threads)
+            if compressed
+            else (strip[1:].tobytes() for strip in strips),
             shape=shape,
             dtype=kind,
             photometric="minisblack" if palette is None else "palette",

@@ -56,15 +56,15 @@ class Parts(NamedTuple):
     lists: dict[str, list[Member]]
 
 
-def write_document(out: BinaryIO, parts: Parts, fmt: str, *, precision: int | None, threads: int) -> None:
+def write_document(out: BinaryIO, parts: Parts, fmt: str) -> None:
     """Write a result as JSON, one object of a list a line of text, or as 1-D arrays; all indices are 0-based."""
     if fmt == "npz":
-        write_arrays(out, document_arrays(parts), threads=threads)
+        write_arrays(out, document_arrays(parts))
         return
     write_head(out, parts.head)
     write_items(out, parts.polygons)
     for name, members in parts.lists.items():
-        write_list(out, name, members, precision=None if name == "sites" else precision, threads=threads)
+        write_list(out, name, members)
     out.write(b"}\n")
 
 
@@ -281,11 +281,13 @@ def truths(name: str, values: NDArray[np.bool_]) -> Member:
     return Member(name, [("", _texts(["false", "true"], values))], "", {name: values})
 
 
-def places(name: str, xy: NDArray[np.floating], exists: NDArray[np.bool_] | None = None) -> Member:
-    """Make a member of pairs ``[x, y]``, null where they do not exist."""
+def places(
+    name: str, xy: NDArray[np.floating], exists: NDArray[np.bool_] | None = None, *, is_exact: bool = False
+) -> Member:
+    """Make a member of pairs ``[x, y]``, null where they do not exist; those that are exact have all digits."""
     pair = [np.ascontiguousarray(values) for values in xy.T]
     made = {f"{name}_{axis}": values for axis, values in zip("xy", pair, strict=True)}
-    return _pair(name, [Column("", values) for values in pair], exists, made)
+    return _pair(name, [Column("", values, is_place=is_exact) for values in pair], exists, made)
 
 
 def index_pairs(
@@ -306,7 +308,7 @@ def _pair(
     first, second = pair
     if exists is None:
         return Member(name, [("[", first), (",", second)], "]", arrays)
-    given = (Column("", column.values, ~exists) for column in pair)
+    given = (replace(column, missing=~exists) for column in pair)
     parts = [_texts(["null", "["], exists), next(given), _texts(["", ","], exists), next(given)]
     return Member(name, [("", column) for column in (*parts, _texts(["", "]"], exists))], "", arrays)
 
@@ -322,9 +324,7 @@ def _texts(names: list[str], index: NDArray[Any]) -> Column:
     return Column("", Lookup(names, np.ascontiguousarray(index, dtype=np.int32)))
 
 
-def write_list(
-    out: BinaryIO, name: str, members: Sequence[Member], *, precision: int | None = None, threads: int = 0
-) -> None:
+def write_list(out: BinaryIO, name: str, members: Sequence[Member]) -> None:
     """Write a comma and a member of a document that is a list of objects."""
     around, columns, text = [], [], "{"
     for number, member in enumerate(members):
@@ -336,7 +336,7 @@ def write_list(
         text = member.after
     shape = RowShape((*around, f"{text}}}"), ",\n", "")
     out.write(f',\n"{name}":['.encode())
-    write_list_rows(out, columns, shape, precision=precision, threads=threads)
+    write_list_rows(out, columns, shape)
     out.write(b"]")
 
 
@@ -355,7 +355,7 @@ def site_members(table: SiteTable) -> list[Member]:
     ]
     if table.ends is not None:
         exists = ~np.isnan(table.ends[:, 0, 0])
-        made += [places(name, table.ends[:, end], exists) for end, name in enumerate(("from", "to"))]
+        made += [places(name, table.ends[:, end], exists, is_exact=True) for end, name in enumerate(("from", "to"))]
     return made
 
 

@@ -125,34 +125,31 @@ def write_features(
     value: Any,
     features: Rows | Mixture,
     fmt: str,
-    *,
-    precision: int | None = None,
-    threads: int = 0,
 ) -> None:
     """Write features as GeoJSON, or their geometry as well-known text, one a line."""
     if fmt == "wkt":
         for rows in parts_of(features):
-            _write_wkt(out, rows, threads)
+            _write_wkt(out, rows)
     else:
         parts = list(parts_of(features))
-        blocks = [_features(rows, precision) for rows in parts]
+        blocks = [_features(rows) for rows in parts]
         y_axis = getattr(parts[0].source, "y_axis", value.y_axis)
-        write_collection(out, blocks, crs=value.crs, y_axis=y_axis, precision=precision, threads=threads)
+        write_collection(out, blocks, crs=value.crs, y_axis=y_axis)
 
 
-def _write_wkt(out: BinaryIO, rows: Rows, threads: int) -> None:
+def _write_wkt(out: BinaryIO, rows: Rows) -> None:
     if isinstance(rows.geometry, PolygonSet):
         write_wkt(out, written_polygons(rows.geometry))
         return
     columns, (opening, *between, closing), missing = geometry_text(rows, "wkt")
-    write_rows(out, columns, RowShape((opening, *between, f"{closing}\n"), "", missing), threads=threads)
+    write_rows(out, columns, RowShape((opening, *between, f"{closing}\n"), "", missing))
 
 
-def _features(rows: Rows, precision: int | None) -> tuple[Sequence[Column], RowShape]:
+def _features(rows: Rows) -> tuple[Sequence[Column], RowShape]:
     if isinstance(rows.geometry, PolygonSet):
         return feature_columns(written_polygons(rows.geometry))
     table = rows.table(is_file=True, has_ids=False).stored()
-    columns = [json_column(Column.of(name, column), precision) for name, column in table.items()]
+    columns = [json_column(Column.of(name, column)) for name, column in table.items()]
     geometry, (before, *between, closing), _ = geometry_text(rows, "geojson")
     ids, opening, after = _ids(rows)
     first, *others = object_shape([column.name for column in columns], "", f',"geometry":{before}').around
@@ -222,7 +219,7 @@ def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str) -> None:
 
 
 # ---- cells ---------------------------------------------------------------------------------------
-def write_cells_json(out: BinaryIO, cells: CellSet, *, precision: int | None = None, threads: int = 0) -> None:
+def write_cells_json(out: BinaryIO, cells: CellSet) -> None:
     """Write one item a polygon, and one for each empty cell."""
     rows, shapes = rows_of(cells), _written(cells)
     of_cells = shapes.nesting.cells
@@ -233,16 +230,16 @@ def write_cells_json(out: BinaryIO, cells: CellSet, *, precision: int | None = N
     empty = np.diff(of_cells) == 0
     polygons[:-1][empty[cell]] = of_cells[1:][empty]  # an empty row ends where it begins
     table = rows.table(has_ids=False).stored()
-    columns = [_looked_up(name, values, cell, precision) for name, values in table.items()]
+    columns = [_looked_up(name, values, cell) for name, values in table.items()]
     around = object_shape([column.name for column in columns], ',"properties":', ",")
-    head, opening = [_looked_up("id", rows.names, cell, precision)], ['{"id":']
+    head, opening = [_looked_up("id", rows.names, cell)], ['{"id":']
     if sizes.max(initial=1) > 1:
         head.append(Column.of("part", part + 1))
         opening.append(',"part":')
     shape = RowShape((*opening, *around.around, "}"), ",\n", "null")
     out.write(f'{{"{Y_AXIS}":"{cells.y_axis}","polygons":['.encode())
     columns = [*head, *columns, Column("", shapes.texts("json", polygons))]
-    write_list_rows(out, columns, shape, precision=precision, threads=threads)
+    write_list_rows(out, columns, shape)
     out.write(b"]}\n")
 
 
@@ -252,9 +249,9 @@ def _written(cells: CellSet) -> Any:
     return written_areas(areas)
 
 
-def _looked_up(name: str, values: Any, cell: NDArray[np.int32], precision: int | None) -> Column:
+def _looked_up(name: str, values: Any, cell: NDArray[np.int32]) -> Column:
     """The column of the polygons from that of the cells."""
-    column = json_column(Column.of(name, values), precision)
+    column = json_column(Column.of(name, values))
     if isinstance(column.values, list):
         missing = None if column.missing is None else column.missing[cell]
         return Column(name, [column.values[i] for i in cell.tolist()], missing)
@@ -262,7 +259,7 @@ def _looked_up(name: str, values: Any, cell: NDArray[np.int32], precision: int |
     return Column(name, Lookup(np.asarray(whole), cell), column.missing, column.is_place)
 
 
-def write_cells_arrays(out: BinaryIO, cells: CellSet, *, threads: int = 0) -> None:
+def write_cells_arrays(out: BinaryIO, cells: CellSet) -> None:
     """Write the columns, and what the cells consist of, as NPZ."""
     shapes = _written(cells)
     rings, polygons, of_cells = shapes.nesting
@@ -276,4 +273,4 @@ def write_cells_arrays(out: BinaryIO, cells: CellSet, *, threads: int = 0) -> No
         "frame": np.array(cells.frame.sides),
         Y_AXIS: np.array([cells.y_axis]),
     }
-    write_npz(out, {**rows_of(cells).table().stored(), **arrays}, threads)
+    write_npz(out, {**rows_of(cells).table().stored(), **arrays})

@@ -13,8 +13,9 @@ import numpy as np
 
 from vorotool.convert.tables import listed
 from vorotool.formats.results.features import line_column
-from vorotool.formats.text.row_writer import Column, RowShape, check_precision, write_rows
+from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_text
+from vorotool.numeric.coordinates import current_written
 from vorotool.numeric.xml_text import xml_characters
 from vorotool.types.features import Lines
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -34,11 +35,8 @@ def write_graphml(
     *,
     by: str = "branch",
     flatten: float | None = None,
-    precision: int | None = None,
-    threads: int = 0,
 ) -> None:
     """Write a skeleton as an undirected graph in GraphML, with the columns of `skeleton_graph`; geometry is WKT."""
-    check_precision(precision)
     graph = skeleton_graph(skeleton, by=by, flatten=flatten)
     values = {name: listed(column) for name, column in graph.edges.items()}
     kinds = {name: _kind(column) for name, column in values.items()}
@@ -57,21 +55,21 @@ def write_graphml(
         first, *others = (f'<data key="n_{name}">' for name in _NODE_KEYS)
         between = (f'">{first}', *(f"</data>{name}" for name in others))
         shape = RowShape(('<node id="', *between, "</data></node>\n"))
-        write_rows(out, columns, shape, precision=precision, threads=threads)
+        write_rows(out, columns, shape)
     columns = [
-        Column("", _openings(graph, by, values, precision)),
+        Column("", _openings(graph, by, values)),
         line_column(Lines(graph.points, graph.start), "wkt"),
     ]
     shape = RowShape(("", "", "</data></edge>\n"), "", "LINESTRING EMPTY")
-    write_rows(out, columns, shape, precision=precision, threads=threads)
+    write_rows(out, columns, shape)
     out.write(b"</graph>\n</graphml>\n")
 
 
-def _openings(graph: SkeletonGraph, by: str, values: Mapping[str, list[Any]], precision: int | None) -> list[str]:
+def _openings(graph: SkeletonGraph, by: str, values: Mapping[str, list[Any]]) -> list[str]:
     """One text an edge, up to its first point."""
     keys = [(f'<data key="e{number}">', _kind(column)) for number, column in enumerate(values.values())]
     last = f'<data key="e{len(keys)}">'
-    texts = []
+    texts, precision = [], current_written().how.precision
     ends = (graph.edges[by].tolist(), graph.source.tolist(), graph.target.tolist())
     for number, source, target, *row in zip(*ends, *values.values(), strict=True):
         data = "".join(
@@ -83,7 +81,7 @@ def _openings(graph: SkeletonGraph, by: str, values: Mapping[str, list[Any]], pr
     return texts
 
 
-def _text(value: Any, kind: str, precision: int | None) -> str:
+def _text(value: Any, kind: str, precision: int) -> str:
     if kind == "double":
         return f"{value:.{precision}g}" if precision else repr(float(value)).removesuffix(".0")
     if kind == "string":

@@ -29,16 +29,14 @@ def write_mesh(
     fmt: str,
     *,
     what: str = "edges",
-    precision: int | None = None,
-    threads: int = 0,
 ) -> None:
     """Write edges, triangles or points; the bytes depend on nothing but the mesh, the format and the precision."""
     if fmt == "obj":
         rows = mesh.edges if what == "edges" else mesh.triangles
         between = [" "] * (rows.shape[1] - 1)
-        write_rows(out, _places(mesh), RowShape(("v ", " ", " 0\n")), precision=precision, threads=threads)
+        write_rows(out, _places(mesh), RowShape(("v ", " ", " 0\n")))
         shape = RowShape(("l " if what == "edges" else "f ", *between, "\n"))
-        write_rows(out, _numbers(mesh, rows, 1), shape, threads=threads)
+        write_rows(out, _numbers(mesh, rows, 1), shape)
         return
     if isinstance(mesh, DigitalTriangulation):
         raise UsageError(
@@ -50,7 +48,7 @@ def write_mesh(
     out.write(f"{rows_of_columns} {counts}\n".encode())
     numbers = Column("", np.arange(rows_of_columns, dtype=np.int64) + mesh.first_number)
     shape = RowShape(("", *[" "] * len(columns), "\n"))
-    write_rows(out, [numbers, *columns], shape, precision=precision, threads=threads)
+    write_rows(out, [numbers, *columns], shape)
 
 
 def _places(mesh: AnyTriangulation | ProximityGraph) -> list[Column]:
@@ -87,14 +85,14 @@ _TRIANGLE: dict[str, Callable[[Any], tuple[str, list[Column]]]] = {
 Index = NDArray[np.int32]
 
 
-def write_solid(out: BinaryIO, mesh: Tetrahedralization, fmt: str, *, what: str, threads: int = 0) -> None:
+def write_solid(out: BinaryIO, mesh: Tetrahedralization, fmt: str, *, what: str) -> None:
     """Write tetrahedra, triangles, the hull or edges; the bytes depend on nothing but these and the format."""
     places, corners, labels = _placed(mesh.points), getattr(mesh, what), mesh.label_array
     if fmt == "obj":
-        _write_obj_vertices(out, places, threads)
+        _write_obj_vertices(out, places)
         numbers = [Column("", column + np.int64(1)) for column in np.ascontiguousarray(corners.T)]
         kind = "f " if len(numbers) == 3 else "l "
-        write_rows(out, numbers, RowShape((kind, *[" "] * (len(numbers) - 1), "\n")), threads=threads)
+        write_rows(out, numbers, RowShape((kind, *[" "] * (len(numbers) - 1), "\n")))
     elif fmt == "ply":
         faces = np.empty(len(corners), dtype=[("count", "u1"), ("corners", "<i4", 3)])
         faces["count"], faces["corners"] = 3, corners
@@ -111,11 +109,11 @@ def write_solid(out: BinaryIO, mesh: Tetrahedralization, fmt: str, *, what: str,
         _write_vtu(out, places, "PointData", {"label": labels.astype("<i8", copy=False)}, cells)
 
 
-def write_cells(out: BinaryIO, cells: SpaceCellSet, fmt: str, *, threads: int = 0) -> None:
+def write_cells(out: BinaryIO, cells: SpaceCellSet, fmt: str) -> None:
     """Write Voronoi cells as polyhedra (VTU), faces (OBJ, PLY), or arrays; the bytes depend on nothing but these."""
     places = _placed(cells.vertices)
     if fmt == "obj":
-        _write_obj_vertices(out, places, threads)
+        _write_obj_vertices(out, places)
         _write_groups(out, cells)
     elif fmt == "ply":
         sizes, labels = np.diff(cells.face_starts), labels_of_faces(cells)
@@ -133,7 +131,7 @@ def write_cells(out: BinaryIO, cells: SpaceCellSet, fmt: str, *, threads: int = 
         }
         _write_vtu(out, places, "CellData", data, _polyhedra(cells, kept))
     else:
-        _write_npz(out, places, cells, threads)
+        _write_npz(out, places, cells)
 
 
 def _placed(points: Floats) -> Floats:
@@ -158,10 +156,10 @@ def _parts(rows: NDArray[Any]) -> Iterator[NDArray[Any]]:
 
 
 # ---- OBJ -----------------------------------------------------------------------------------------
-def _write_obj_vertices(out: BinaryIO, places: Floats, threads: int) -> None:
+def _write_obj_vertices(out: BinaryIO, places: Floats) -> None:
     """Lines ``v x y z``; lines and faces name them by their numbers from 1."""
     vertices = [Column("", np.ascontiguousarray(column), is_place=True) for column in places.T]
-    write_rows(out, vertices, RowShape(("v ", " ", " ", "\n")), threads=threads)
+    write_rows(out, vertices, RowShape(("v ", " ", " ", "\n")))
 
 
 def _write_groups(out: BinaryIO, cells: SpaceCellSet) -> None:
@@ -344,7 +342,7 @@ def _corners_of_cells(cells: SpaceCellSet, kept: NDArray[np.intp]) -> tuple[NDAr
 
 
 # ---- arrays --------------------------------------------------------------------------------------
-def _write_npz(out: BinaryIO, places: Floats, cells: SpaceCellSet, threads: int) -> None:
+def _write_npz(out: BinaryIO, places: Floats, cells: SpaceCellSet) -> None:
     """The columns, and what the cells consist of."""
     x, y, z = np.ascontiguousarray(places.T)
     label_a, label_b = np.ascontiguousarray(labels_of_faces(cells).T)
@@ -361,4 +359,4 @@ def _write_npz(out: BinaryIO, places: Floats, cells: SpaceCellSet, threads: int)
         "cell_faces": cells.cell_faces,
         "box": cells.box.reshape(-1),
     }
-    write_npz(out, {**rows_of(cells).table().stored(), **arrays}, threads)
+    write_npz(out, {**rows_of(cells).table().stored(), **arrays})

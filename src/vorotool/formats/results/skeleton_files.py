@@ -23,11 +23,9 @@ _SITES = ("site_a", "site_b")
 
 
 # ---- writing -------------------------------------------------------------------------------------
-def write_skeleton(
-    out: BinaryIO, skeleton: Skeleton, fmt: str, *, precision: int | None = None, threads: int = 0
-) -> None:
+def write_skeleton(out: BinaryIO, skeleton: Skeleton, fmt: str) -> None:
     """Write polygons, sites, vertices and arcs; no polygon, side or source is null, or -1."""
-    d.write_document(out, _parts_of_skeleton(skeleton), fmt, precision=precision, threads=threads)
+    d.write_document(out, _parts_of_skeleton(skeleton), fmt)
 
 
 def _parts_of_skeleton(skeleton: Skeleton) -> d.Parts:
@@ -93,9 +91,9 @@ _OFFSETS = "vorotool.offsets"
 
 
 # ---- writing offset curves -------------------------------------------------------------------------------------
-def write_offsets(out: BinaryIO, offsets: Offsets, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
+def write_offsets(out: BinaryIO, offsets: Offsets, fmt: str) -> None:
     """Write polygons, sites, shapes, rings and pieces; no polygon is null, or -1, the center of a line null, or NaN."""
-    d.write_document(out, _parts_of_offsets(offsets), fmt, precision=precision, threads=threads)
+    d.write_document(out, _parts_of_offsets(offsets), fmt)
 
 
 def _parts_of_offsets(offsets: Offsets) -> d.Parts:

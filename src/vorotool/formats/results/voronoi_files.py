@@ -35,23 +35,21 @@ _MOST = 2**31 - 1
 
 
 # ---- writing -------------------------------------------------------------------------------------
-def write_voronoi(
-    out: BinaryIO, cells: VoronoiMap, fmt: str, *, precision: int | None = None, threads: int = 0
-) -> None:
+def write_voronoi(out: BinaryIO, cells: VoronoiMap, fmt: str) -> None:
     """Write polygons, sites, vertices, arcs and cells; what belongs to no cell is null, or -1."""
     if fmt == "npz":
-        write_arrays(out, _arrays(cells), threads=threads)
+        write_arrays(out, _arrays(cells))
         return
     polygons = cells.polygons
     d.write_head(out, _head(cells))
     write_items(out, polygons, {"feature": polygons.feature.tolist(), "site": cells.polygon_site.tolist()})
     texts = [json_text(site) for site in d.described_rows(len(cells), cells.ids, cells.properties)]
     out.write(b',\n"sites":[')
-    write_list_rows(out, [Column("", texts)], RowShape(("", ""), ",\n", ""), threads=threads)
+    write_list_rows(out, [Column("", texts)], RowShape(("", ""), ",\n", ""))
     out.write(b"]")
     for name, members in _lists(cells).items():
-        d.write_list(out, name, members, precision=precision, threads=threads)
-    _write_cells(out, cells, threads)
+        d.write_list(out, name, members)
+    _write_cells(out, cells)
     out.write(b"}\n")
 
 
@@ -101,7 +99,7 @@ def _lists(cells: VoronoiMap) -> dict[str, list[d.Member]]:
     }
 
 
-def _write_cells(out: BinaryIO, cells: VoronoiMap, threads: int) -> None:
+def _write_cells(out: BinaryIO, cells: VoronoiMap) -> None:
     """Write the rings: before each arc there is a comma, the end of a ring, or the beginning of a cell."""
     out.write(b',\n"cells":[\n' if len(cells) else b',\n"cells":[')
     texts = [",", "],["]
@@ -121,7 +119,6 @@ def _write_cells(out: BinaryIO, cells: VoronoiMap, threads: int) -> None:
         out,
         [Column("", Lookup(texts, token)), Column("", cells.ring_arcs.astype(np.int64))],
         RowShape(("", "", "")),
-        threads=threads,
     )
     left = [empty] * (len(cells) - place)
     out.write(("]]}" * bool(full.size) + ",\n" * bool(full.size and left) + ",\n".join(left)).encode())

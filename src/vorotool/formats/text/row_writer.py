@@ -9,18 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.errors import UsageError, option
 from vorotool.frozen import frozen
 from vorotool.numeric.checks import is_masked_array
 from vorotool.numeric.coordinates import current_written, on_grid
-from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import in_order
 from vorotool.types.table import Computed, Lookup
 
 SLICE_ROWS = 1 << 14
 """Rows whose text is made at a time: some 2 MB."""
-
-MOST_DIGITS = 17
 
 _ENDS = ("", "0", "1", "_a", "_b", "_1", "_2", "_3")
 PLACES = frozenset(["z", "cx", "cy", "bbox_x", "bbox_y", *(f"{axis}{end}" for axis in "xy" for end in _ENDS)])
@@ -126,29 +122,17 @@ class TypedOutput(Protocol):
         """Learn of the columns that are about to be written."""
 
 
-def check_precision(precision: int | None) -> int:
-    """Return the number of significant digits, 0 for the shortest text that reads back the same."""
-    name = option("--precision")
-    if precision is not None and not 1 <= whole_number(precision, name) <= MOST_DIGITS:
-        raise UsageError(
-            f"{name} is {shown_number(precision)}: use 1 to {MOST_DIGITS} significant digits, or leave it out"
-        )
-    return precision or 0
-
-
 def write_rows(
     out: BinaryIO,
     columns: Sequence[Column],
     shape: RowShape | None = None,
     *,
     by_tabs: bool = False,
-    precision: int | None = None,
-    threads: int = 0,
 ) -> None:
     """Write the text of rows; the bytes do not depend on the number of threads."""
     if not columns:
         return
-    digits = check_precision(precision)
+    threads, digits = current_written().how.threads, current_written().how.precision
     each_digits = [0 if column.is_place else digits for column in columns]
     looked_up = {  # by the identity of what lookups show: each array once
         id(column.values.values): (column.values.values, n)
@@ -176,15 +160,13 @@ def write_rows(
             out.write(block)
 
 
-def write_list_rows(
-    out: BinaryIO, columns: Sequence[Column], shape: RowShape, *, precision: int | None = None, threads: int = 0
-) -> None:
+def write_list_rows(out: BinaryIO, columns: Sequence[Column], shape: RowShape) -> None:
     """Write the rows of a list between its brackets: on lines of their own, if there are any; see `write_rows`."""
     if isinstance(out, TypedOutput):
         out.announce(columns)
     if columns and len(columns[0].values):
         out.write(b"\n")
-        write_rows(out, columns, shape, precision=precision, threads=threads)
+        write_rows(out, columns, shape)
         out.write(b"\n")
 
 

@@ -17,7 +17,6 @@ from vorotool.formats.text.row_writer import (
     Column,
     RowShape,
     TypedOutput,
-    check_precision,
     write_list_rows,
     write_rows,
 )
@@ -36,26 +35,25 @@ if TYPE_CHECKING:
 _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at a time
 
 
-def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
+def write_table(out: BinaryIO, table: Table, fmt: str) -> None:
     """Write a table; the bytes depend on nothing but the table, the format and the precision."""
-    check_precision(precision)
     unit, stored = current_written().how.unit, table.stored()
     if unit is not None and stored:
         stored |= _unit_column(table, unit)
     if fmt == "npz":
-        write_npz(out, stored, threads)
+        write_npz(out, stored)
         return
     columns = [Column.of(name, values) for name, values in stored.items()]
     if fmt == "json":
         out.write(b"[")
-        texts = [json_column(column, precision) for column in columns]
-        write_list_rows(out, texts, object_shape([*stored]), precision=precision, threads=threads)
+        texts = [json_column(column) for column in columns]
+        write_list_rows(out, texts, object_shape([*stored]))
         out.write(b"]\n")
     else:
-        text = partial(_text_of, precision=precision, is_safe=current_written().how.is_safe)
+        text = partial(_text_of, precision=current_written().how.precision, is_safe=current_written().how.is_safe)
         write_rows(out, [Column(name, [text(name)]) for name in stored], by_tabs=fmt == "tsv")
         texts = [column.mapped(text) for column in columns]
-        write_rows(out, texts, by_tabs=fmt == "tsv", precision=precision, threads=threads)
+        write_rows(out, texts, by_tabs=fmt == "tsv")
 
 
 # ---- units ---------------------------------------------------------------------------------------
@@ -79,7 +77,7 @@ def safe_text(text: str) -> str:
     return f"'{text}" if re.match(_FORMULA, text) and not re.fullmatch(_NUMBER, text) else text
 
 
-def _text_of(value: Any, precision: int | None, *, is_safe: bool = False) -> str:
+def _text_of(value: Any, precision: int, *, is_safe: bool = False) -> str:
     """Text of a mixed column: numbers as in other columns, lists and objects as JSON."""
     if isinstance(value, str):
         return safe_text(value) if is_safe else value
@@ -99,9 +97,9 @@ def object_shape(names: list[str], before: str = "", after: str = "") -> RowShap
     return RowShape((f"{before}{{{around[0]}", *around[1:]), ",\n", "null")
 
 
-def json_column(column: Column, precision: int | None = None) -> Column:
+def json_column(column: Column) -> Column:
     """The column with what is no number as JSON text."""
-    digits = None if isinstance(column.values, Lookup) else precision
+    digits = 0 if isinstance(column.values, Lookup) else current_written().how.precision
     if isinstance(column.values, np.ndarray) and column.values.dtype.kind == "b":
         column = replace(column, values=column.values.tolist())
     return column.mapped(lambda v: json_text(float(f"{v:.{digits}g}") if digits and type(v) is float else v))
@@ -150,20 +148,20 @@ def _archive(out: BinaryIO) -> zipfile.ZipFile:
     return zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED)  # type: ignore[call-overload]
 
 
-def write_npz(out: BinaryIO, columns: Mapping[str, Any], threads: int) -> None:
+def write_npz(out: BinaryIO, columns: Mapping[str, Any]) -> None:
     """Write one array a column, of any lengths."""
     with _archive(out) as archive:
         for column in [Column.of(name, values) for name, values in columns.items()]:
-            _write_array(archive, column.name, _npz_values(column), threads)
+            _write_array(archive, column.name, _npz_values(column))
             if column.missing is not None:
-                _write_array(archive, f"{column.name}_missing", column.missing, threads)
+                _write_array(archive, f"{column.name}_missing", column.missing)
 
 
-def write_arrays(out: BinaryIO, arrays: Mapping[str, NDArray[Any]], *, threads: int = 0) -> None:
+def write_arrays(out: BinaryIO, arrays: Mapping[str, NDArray[Any]]) -> None:
     """Write 1-D arrays of any lengths as NPZ: the same bytes for the same arrays."""
     with _archive(out) as archive:
         for name, values in arrays.items():
-            _write_array(archive, name, values, threads)
+            _write_array(archive, name, values)
 
 
 def _npz_values(column: Column) -> NDArray[Any] | Lookup | Computed:
@@ -195,7 +193,7 @@ def _numbers(values: Sequence[Any]) -> NDArray[Any] | None:
     return None
 
 
-def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Lookup | Computed, threads: int) -> None:
+def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Lookup | Computed) -> None:
     """Write an array part by part: the next ones are gathered while one is summed and written."""
     import zipfile
 
@@ -212,7 +210,7 @@ def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Loo
     parts = range(0, len(values), _SLICE_VALUES)
     with archive.open(entry, "w", force_zip64=True) as member:
         np.lib.format.write_array_header_1_0(member, header)
-        for part in in_order(gathered, parts, threads if len(parts) > 1 else 1):
+        for part in in_order(gathered, parts, current_written().how.threads if len(parts) > 1 else 1):
             member.write(part.data)
 
 
@@ -237,8 +235,6 @@ def write_collection(
     *,
     crs: Any,
     y_axis: YAxis,
-    precision: int | None = None,
-    threads: int = 0,
 ) -> None:
     """Write a collection, streamed: one feature a row, of blocks of rows with the same members each."""
     out.write(collection_opening(crs, y_axis))
@@ -250,7 +246,7 @@ def write_collection(
         if has_rows:
             out.write(b"\n" if is_first else b",\n")
             is_first = False
-            write_rows(out, columns, shape, precision=precision, threads=threads)
+            write_rows(out, columns, shape)
     out.write(b"]}\n" if is_first else b"\n]}\n")
 
 
@@ -343,8 +339,6 @@ def write_value(
     *,
     what: str | None = None,
     flatten: float | None = None,
-    precision: int | None = None,
-    threads: int = 0,
 ) -> None:
     """Write a value; the bytes depend on nothing but the value and the options that concern numbers."""
     if fmt == "npy":
@@ -354,8 +348,8 @@ def write_value(
         rows = rows_of(value, what, flatten=flatten)
         if isinstance(rows.geometry, Areas):
             rows = resolved("formats.results.features:with_shapes")(rows)
-        write_table(out, rows.table(), fmt, precision=precision, threads=threads)
+        write_table(out, rows.table(), fmt)
     else:
         features = features_of(value, what, flatten=flatten)
         write = resolved("formats.results.features:write_features")
-        write(out, value, features, fmt, precision=precision, threads=threads)
+        write(out, value, features, fmt)

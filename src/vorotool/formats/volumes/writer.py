@@ -31,7 +31,6 @@ def write_volume(
     fmt: VolumeFormat,
     grid: VoxelGrid | None = None,
     nodata: int | None = None,
-    threads: int = 0,
 ) -> None:
     """Write a volume from slabs of slices, in bounded memory; the bytes do not depend on the slabs or the threads."""
     kind = np.dtype(np.uint8 if np.dtype(dtype) == np.bool_ else dtype).newbyteorder("<")
@@ -43,13 +42,13 @@ def write_volume(
         raise UsageError(f"a volume cannot be written as {fmt!r}: use {one}")
     is_large = shape[0] * (shape[1] * shape[2] * kind.itemsize + _PAGE_BYTES) >= CLASSIC_LIMIT
     tags = stack_tags(grid, shape, np.dtype(kind).newbyteorder("="), is_large=is_large, nodata=nodata)
-    write_pages(out, slabs, shape, kind, tags, is_large=is_large, threads=threads)
+    write_pages(out, slabs, shape, kind, tags, is_large=is_large)
 
 
-def write_values(out: BinaryIO, value: LabelVolume | Volume, fmt: VolumeFormat, *, threads: int = 0) -> None:
+def write_values(out: BinaryIO, value: LabelVolume | Volume, fmt: VolumeFormat) -> None:
     """Write a volume that is in memory."""
     values = value.labels if isinstance(value, LabelVolume) else value.values
-    write_volume(out, [values], shape=value.shape, dtype=values.dtype, fmt=fmt, grid=value.grid, threads=threads)
+    write_volume(out, [values], shape=value.shape, dtype=values.dtype, fmt=fmt, grid=value.grid)
 
 
 # ---- what is said of voxels ----------------------------------------------------------------------

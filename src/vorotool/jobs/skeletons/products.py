@@ -373,7 +373,7 @@ class SkeletonProducts(Results, ABC):
         if what == "thickness":
             unit = None if o.pixel_size is None else o.pixel_size.unit
             style, image = wanted.looks.style(wanted.world.scale_bar), self.written(what, fmt)
-            return Plot(partial(write_thickness_png, image=image, style=style, unit=unit, threads=o.threads))
+            return Plot(partial(write_thickness_png, image=image, style=style, unit=unit))
         shown = wanted.shown(product.usual_layers)
         more: dict[str, Any] = {}
         if what in ("skeleton", "diagram", "elements"):

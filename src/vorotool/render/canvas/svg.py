@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.numeric.arrays import mask_of
+from vorotool.numeric.coordinates import current_written
 from vorotool.numeric.curves.flatten import middles_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.xml_text import xml_characters
@@ -50,9 +51,7 @@ DASH = 6
 """Px: of broken lines, and between."""
 
 
-def write_layers_svg(
-    out: BinaryIO, layers: Iterable[Layer], page: Page, *, insets: Iterable[Layer] = (), threads: int = 0
-) -> None:
+def write_layers_svg(out: BinaryIO, layers: Iterable[Layer], page: Page, *, insets: Iterable[Layer] = ()) -> None:
     """Draw layers from below, each a group with its name for an id; strokes keep their width when it is scaled."""
     ground = "" if page.style.ground is None else f'<rect {page.size} fill="{page.style.ground}"/>\n'
     head = f'<svg xmlns="http://www.w3.org/2000/svg" {page.size} viewBox="0 0 {page.extent}">\n'
@@ -60,10 +59,10 @@ def write_layers_svg(
     if page.backdrop is not None:
         out.write(image_element(page.backdrop))
     for layer in layers:
-        for part in layer_parts(layer, page, threads):
+        for part in layer_parts(layer, page):
             out.write(part)
     for inset in insets:
-        for part in layer_parts(inset, PixelPage(page), threads):
+        for part in layer_parts(inset, PixelPage(page)):
             out.write(part)
     out.write(b"</svg>\n")
 
@@ -85,24 +84,24 @@ def fill_style(backdrop: Backdrop | None, *, is_sheer: bool = False) -> str:
     return "" if backdrop is None and not is_sheer else ' fill-opacity="0.5"'
 
 
-def layer_parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
+def layer_parts(layer: Layer, page: Page) -> Iterator[bytes]:
     """Give the group of a layer, piece by piece."""
     if isinstance(layer, Arcs):
-        return _circles(layer, page, threads) if isinstance(layer, Circles) else _arcs(layer, page)
+        return _circles(layer, page) if isinstance(layer, Circles) else _arcs(layer, page)
     x, y = np.ascontiguousarray(np.round(page.place(layer.points), page.decimals).T + 0.0)  # no -0
     if isinstance(layer, Lines):
-        return _lines(layer, x, y, threads)
+        return _lines(layer, x, y)
     if isinstance(layer, Curves):
-        return _curves(layer, x, y, page, threads)
+        return _curves(layer, x, y, page)
     if isinstance(layer, Polygons):
         if isinstance(layer, CurvedPolygons):
-            return _curved_polygons(layer, x, y, page, threads)
-        return _polygons(layer, x, y, page, threads)
-    return _points(layer, x, y, threads) if isinstance(layer, Points) else _texts(layer, x, y, threads)
+            return _curved_polygons(layer, x, y, page)
+        return _polygons(layer, x, y, page)
+    return _points(layer, x, y) if isinstance(layer, Points) else _texts(layer, x, y)
 
 
-def _rows(columns: list[Any], around: tuple[str, ...], threads: int) -> list[bytes]:
-    return _core.text.format_rows(columns, [None] * len(columns), [], threads, (around, "", ""))
+def _rows(columns: list[Any], around: tuple[str, ...]) -> list[bytes]:
+    return _core.text.format_rows(columns, [None] * len(columns), [], current_written().how.threads, (around, "", ""))
 
 
 def _chunks(count: int, size: int) -> Iterator[slice]:
@@ -123,23 +122,24 @@ def _paths(count: int, places: Callable[[slice], Iterable[bytes]]) -> Iterator[b
         yield b'"/>\n'
 
 
-def _texts_of(x: NDArray[Any], y: NDArray[Any], threads: int) -> tuple[_core.text.NumberTexts, _core.text.NumberTexts]:
+def _texts_of(x: NDArray[Any], y: NDArray[Any]) -> tuple[_core.text.NumberTexts, _core.text.NumberTexts]:
+    threads = current_written().how.threads
     return _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
 
 
-def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
-    across, down = _texts_of(x, y, threads)
+def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any]) -> Iterator[bytes]:
+    across, down = _texts_of(x, y)
 
     def places(rows: slice) -> list[bytes]:
         a, b = layer.pairs[rows].T
-        return _rows([(across, a), (down, a), (across, b), (down, b)], ("M", " ", "L", " ", ""), threads)
+        return _rows([(across, a), (down, a), (across, b), (down, b)], ("M", " ", "L", " ", ""))
 
     return _group(layer.name, _stroke(layer.color, layer.width), _paths(len(layer.pairs), places))
 
 
-def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], page: Page, threads: int) -> Iterator[bytes]:
+def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], page: Page) -> Iterator[bytes]:
     """One row a place: M before the begin of a path, Q or C before a control point, then L, A or nothing."""
-    commands, (across, down) = _Commands(layer, page), _texts_of(x, y, threads)
+    commands, (across, down) = _Commands(layer, page), _texts_of(x, y)
     more = int(isinstance(layer, CubicCurves))
 
     def places(rows: slice) -> list[bytes]:
@@ -155,7 +155,7 @@ def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], page: Page, threads
             place[last - 1], token[last - 1] = layer.second[rows], 3
         first = (last - bends - more - 1)[begins]
         place[first], token[first] = source[begins], 0
-        return _rows([(commands.texts, token), (across, place), (down, place)], ("", "", " ", ""), threads)
+        return _rows([(commands.texts, token), (across, place), (down, place)], ("", "", " ", ""))
 
     dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
     return _group(layer.name, _stroke(layer.color, layer.width) + dashes, _paths(len(layer.pairs), places))
@@ -195,32 +195,28 @@ class _Commands:
         return first + np.arange(len(commands))
 
 
-def _filled(
-    layer: Polygons, page: Page, rows: int, columns: Callable[[slice], list[Any]], threads: int
-) -> Iterator[bytes]:
+def _filled(layer: Polygons, page: Page, rows: int, columns: Callable[[slice], list[Any]]) -> Iterator[bytes]:
     """One row a place: what stands before it, x and y; the end of the last path is missing."""
     edge = _SEAL if layer.is_sealed else "" if layer.edge is None else f" {_outline(layer.edge, layer.width)}"
-    parts = (part for chunk in _chunks(rows, SLICE_ROWS) for part in _rows(columns(chunk), ("", "", " ", ""), threads))
+    parts = (part for chunk in _chunks(rows, SLICE_ROWS) for part in _rows(columns(chunk), ("", "", " ", "")))
     style = f'fill-rule="evenodd"{fill_style(page.backdrop, is_sheer=layer.is_sheer)}{edge}'
     return _group(layer.name, style, chain(parts, [b'Z"/>\n'] * bool(rows)))
 
 
-def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], page: Page, threads: int) -> Iterator[bytes]:
+def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], page: Page) -> Iterator[bytes]:
     """What stands before a corner is L, the end of a ring, or the end of a path and another's begin."""
-    (across, down), (texts, before) = _texts_of(x, y, threads), _openings(layer)
+    (across, down), (texts, before) = _texts_of(x, y), _openings(layer)
 
     def columns(rows: slice) -> list[Any]:
         corners = layer.corners[rows]
         return [(texts, before[rows]), (across, corners), (down, corners)]
 
-    return _filled(layer, page, len(layer.corners), columns, threads)
+    return _filled(layer, page, len(layer.corners), columns)
 
 
-def _curved_polygons(
-    layer: CurvedPolygons, x: NDArray[Any], y: NDArray[Any], page: Page, threads: int
-) -> Iterator[bytes]:
+def _curved_polygons(layer: CurvedPolygons, x: NDArray[Any], y: NDArray[Any], page: Page) -> Iterator[bytes]:
     """Rows as of `_curves`; each ring begins with a place, and ends with it."""
-    across, down = _texts_of(x, y, threads)
+    across, down = _texts_of(x, y)
     curves, commands = layer.curves, _Commands(layer.curves, page)
     side, is_back = np.abs(layer.along) - 1, layer.along < 0
     bends = curves.control[side] >= 0
@@ -241,7 +237,7 @@ def _curved_polygons(
     def columns(part: slice) -> list[Any]:
         return [(texts, token[part]), (across, place[part]), (down, place[part])]
 
-    return _filled(layer, page, rows, columns, threads)
+    return _filled(layer, page, rows, columns)
 
 
 def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
@@ -273,14 +269,14 @@ def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
     return texts, before
 
 
-def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+def _points(layer: Points, x: NDArray[Any], y: NDArray[Any]) -> Iterator[bytes]:
     if len(x) > MOST_ELEMENTS:
         discs = [(layer.name, layer.color, layer.radius)]
         if layer.halo is not None:
             discs.insert(0, (f"{layer.name}-halo", layer.halo, layer.radius + layer.edge))
-        return chain.from_iterable(_dots(*each, x, y, threads) for each in discs)
+        return chain.from_iterable(_dots(*each, x, y) for each in discs)
     halo = "" if layer.halo is None else f" {edge_style(layer.halo, layer.edge)}"
-    circles = _rows([x, y], ('<circle cx="', '" cy="', f'" r="{layer.radius:.3g}"/>\n'), threads)
+    circles = _rows([x, y], ('<circle cx="', '" cy="', f'" r="{layer.radius:.3g}"/>\n'))
     return _group(layer.name, f'fill="{layer.color}"{halo}', circles)
 
 
@@ -289,28 +285,28 @@ def edge_style(color: str, width: float) -> str:
     return f'stroke="{color}" stroke-width="{2 * width:.3g}" paint-order="stroke"'
 
 
-def _dots(name: str, color: str, radius: float, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+def _dots(name: str, color: str, radius: float, x: NDArray[Any], y: NDArray[Any]) -> Iterator[bytes]:
     """Lines of no length with round ends are discs."""
 
     def places(rows: slice) -> list[bytes]:
-        return _rows([x[rows], y[rows]], ("M", " ", "h0"), threads)
+        return _rows([x[rows], y[rows]], ("M", " ", "h0"))
 
     return _group(name, _stroke(color, 2 * radius), _paths(len(x), places))
 
 
-def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any]) -> Iterator[bytes]:
     font = f'font-family="Helvetica, Arial, sans-serif" font-size="{layer.size:g}"'
     halo = "" if layer.halo is None else f" {halo_style(layer.halo, layer.size)}"
     anchor = "start" if layer.is_led else "middle"
     columns = [x, np.round(layer.lowered(y, CAPITAL), DECIMALS), [_escaped(text) for text in layer.texts]]
-    texts = _elements(columns, ('<text x="', '" y="', '">', "</text>\n"), threads)
+    texts = _elements(columns, ('<text x="', '" y="', '">', "</text>\n"))
     return _group(layer.name, f'text-anchor="{anchor}" {font} fill="{layer.color}"{halo}', texts)
 
 
-def _elements(columns: list[Any], around: tuple[str, ...], threads: int) -> Iterator[bytes]:
+def _elements(columns: list[Any], around: tuple[str, ...]) -> Iterator[bytes]:
     """An element a row."""
     for rows in _chunks(len(columns[0]), SLICE_ROWS):
-        yield from _rows([column[rows] for column in columns], around, threads)
+        yield from _rows([column[rows] for column in columns], around)
 
 
 def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
@@ -339,14 +335,14 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
     return _group(layer.name, style, _paths(len(paths), lambda rows: ["".join(paths[rows]).encode()]))
 
 
-def _circles(layer: Circles, page: Page, threads: int) -> Iterator[bytes]:
+def _circles(layer: Circles, page: Page) -> Iterator[bytes]:
     """An element of each, in which a page with different scales along x and y has ellipses."""
     x, y = np.ascontiguousarray(np.round(page.place(layer.center[::2]), page.decimals).T + 0.0)
     across = np.round(np.array([page.length(each) for each in layer.radius.tolist()]), page.decimals + 1)
     columns, around = [x, y, across], _CIRCLE
     if page.aspect != 1:
         columns, around = [*columns, np.round(across * page.aspect, page.decimals + 1)], _ELLIPSE
-    return _group(layer.name, _stroke(layer.edge, layer.width), _elements(columns, around, threads))
+    return _group(layer.name, _stroke(layer.edge, layer.width), _elements(columns, around))
 
 
 def _escaped(text: str) -> str:

@@ -28,22 +28,20 @@ TICKS = 4
 """Numbers beside a bar at most, besides 0."""
 
 
-def write_thickness_png(
-    out: BinaryIO, image: ThicknessImage, style: PictureStyle, *, unit: str | None = None, threads: int = 0
-) -> None:
+def write_thickness_png(out: BinaryIO, image: ThicknessImage, style: PictureStyle, *, unit: str | None = None) -> None:
     """Draw the pixels in colors from dark, which is thin, to light; a scale bar and the bar of the colors over them."""
     largest = image.largest
     ground = np.array([list(bytes.fromhex((style.ground or WHITE)[1:]))], dtype=np.uint8)
     indices, palette = amount_indices(image.values, largest), np.concatenate([ground, scale_colors(COLORS)])
     if not style.has_insets:
         has_alpha = style.ground is None
-        write_png(out, [indices], indices.shape, bit_depth=8, palette=palette, has_alpha=has_alpha, threads=threads)
+        write_png(out, [indices], indices.shape, bit_depth=8, palette=palette, has_alpha=has_alpha)
         return
     page = ImagePage(Backdrop(palette[indices], bytes))
     page.style = replace(style, has_legend=False)
     bar = color_bar(largest, unit, page) if style.has_legend and largest > 0 else []
     over = [*bar, *insets([], page)]
-    write_png(out, layer_bands([], page, insets=over), indices.shape, rgb=True, threads=threads)
+    write_png(out, layer_bands([], page, insets=over), indices.shape, rgb=True)
 
 
 def amount_indices(values: NDArray[np.float64], largest: float) -> NDArray[np.uint8]:

@@ -13,6 +13,7 @@ from vorotool.engines.label_images.names_and_colors import name_places, outermos
 from vorotool.engines.label_images.regions import voronoi_diagram
 from vorotool.formats.images.png_writer import write_png
 from vorotool.frozen import frozen
+from vorotool.numeric.coordinates import current_written
 from vorotool.render.canvas.insets import insets
 from vorotool.render.canvas.layers import Backdrop, ImagePage, Layer, Lines, Page, Points, Polygons, column_texts
 from vorotool.render.canvas.png import layer_bands
@@ -55,7 +56,6 @@ class LabelPicture:
     backdrop: Backdrop | None = None  # the image, whose size the picture has
     # written on regions instead of their labels; on those that are not in it nothing is
     texts: Mapping[int, str] | None = None
-    threads: int = 0
 
     @property
     def page(self) -> None:
@@ -111,7 +111,7 @@ def label_picture(
     if sites is not None and column is not None:
         texts = dict(zip(sites.site_labels.tolist(), column_texts(sites.properties, column, ()), strict=True))
     style = wanted.looks.style(wanted.world.scale_bar)
-    shown, own = wanted.shown(usual), (wanted.width, y_up, wanted.backdrop, texts, wanted.threads)
+    shown, own = wanted.shown(usual), (wanted.width, y_up, wanted.backdrop, texts)
     return LabelPicture(image, colors, shown, style, *own)
 
 
@@ -119,7 +119,7 @@ def _names(picture: LabelPicture) -> Names | None:
     """Names of regions, deep inside their objects or themselves."""
     if "labels" not in picture.layers:
         return None
-    labels, places = name_places(picture.image, threads=picture.threads)
+    labels, places = name_places(picture.image, threads=current_written().how.threads)
     if picture.texts is None:
         return Names([str(label) for label in labels.tolist()], places)
     texts = [picture.texts.get(label, "") for label in labels.tolist()]
@@ -170,16 +170,14 @@ def _insets(picture: LabelPicture, page: Page, *, has_outlines: bool) -> list[La
 
 
 def _write_png(out: BinaryIO, picture: LabelPicture) -> None:
-    threads, marks = picture.threads, _Marks(picture)
+    marks = _Marks(picture)
     if picture.backdrop is not None or picture.style.has_insets:
         pixels = _pixels(picture, marks)
-        write_png(out, [pixels.reshape(len(pixels), -1)], pixels.shape[:2], rgb=True, threads=threads)
+        write_png(out, [pixels.reshape(len(pixels), -1)], pixels.shape[:2], rgb=True)
         return
     palette, has_alpha = marks.palette, picture.style.ground is None
     bands, depth = _indexed(picture, marks, picture.layers, marks.below), palette.bit_depth
-    write_png(
-        out, bands, picture.image.shape, bit_depth=depth, palette=palette.colors, has_alpha=has_alpha, threads=threads
-    )
+    write_png(out, bands, picture.image.shape, bit_depth=depth, palette=palette.colors, has_alpha=has_alpha)
 
 
 def _indexed(picture: LabelPicture, marks: _Marks, layers: Sequence[str], below: _Below) -> Iterator[NDArray[np.uint8]]:
@@ -262,7 +260,7 @@ def _borders(picture: LabelPicture) -> NDArray[np.bool_] | None:
 
 def _lines(picture: LabelPicture, width: float) -> NDArray[np.bool_]:
     """Draw the lines between cells."""
-    return widened(voronoi_diagram(picture.image, threads=picture.threads).view(bool), width)
+    return widened(voronoi_diagram(picture.image, threads=current_written().how.threads).view(bool), width)
 
 
 def _numbering(

@@ -61,7 +61,7 @@ def write_label_svg(
     if backdrop is not None:
         parts.append("</g>")
     paper = PixelPage(Page((0.0, 0.0, 1.0, 1.0), width=page.width, y_up=False))
-    parts += [b"".join(layer_parts(inset, paper, 1)).decode().rstrip() for inset in insets]
+    parts += [b"".join(layer_parts(inset, paper)).decode().rstrip() for inset in insets]
     out.write(("\n".join([*parts, "</svg>"]) + "\n").encode())
 
 
