@@ -42,14 +42,17 @@ def asked_sides(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
         grid = None  # who reads the value says what is wrong with its axes
     what = "pixels" if axes == 2 else "voxels"
     if spacing is None:
-        if grid is not None and not isinstance(getattr(source, "sides", None), PixelSides):  # labels have theirs
+        if (
+            grid is not None and not _is_sheared(grid) and not isinstance(getattr(source, "sides", None), PixelSides)
+        ):  # labels have theirs
             warn(
                 f"the input has {what} of {grid.size_text()}, but distances are measured in {what}: spacing='auto' "
                 f"uses this size, spacing=1 confirms {what}"
             )
         return pixel_sides(None, axes)
-    if grid is None:
-        raise UsageError(f"spacing='auto' needs an image that states the size of its {what}: give numbers instead")
+    if grid is None or _is_sheared(grid):
+        needed = f"states the size of its {what}" if grid is None else "is not sheared on the map"
+        raise UsageError(f"spacing='auto' needs an image that {needed}: give numbers instead")
     sides = sides_of_grid(*((grid.height, grid.width) if isinstance(grid, PixelGrid) else grid.sides))
     if sides is None:
         raise UsageError(
@@ -57,6 +60,10 @@ def asked_sides(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
             "coarse enough for exact distances: give rounded numbers"
         )
     return sides
+
+
+def _is_sheared(grid: PixelGrid | VoxelGrid) -> bool:
+    return isinstance(grid, PixelGrid) and not grid.is_rectangular
 
 
 def carried_grid(source: Any, axes: int) -> PixelGrid | VoxelGrid | None:

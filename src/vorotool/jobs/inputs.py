@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from vorotool.types.images import Raster
     from vorotool.types.points.point_set import PointSet, VolumePoints
     from vorotool.types.points.seed_set import SeedSet
+    from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.volumes.volume import VolumeSeeds
 
 
@@ -271,8 +272,8 @@ def report_no_seeds(run: Run, o: Options, frame: object) -> None:
     report_no_geometry(run, o)
 
 
-def no_seeds(run: Run, o: Options) -> SeedSet:
-    """Return the seeds of an input without any, with the frame that is asked for."""
+def no_seeds(run: Run, o: Options, value: PointSet | PolygonSet) -> SeedSet:
+    """Return the seeds of an input without any, with its columns, and the frame that is asked for."""
     import numpy as np
 
     from vorotool.types.points.seed_set import SeedSet
@@ -280,7 +281,9 @@ def no_seeds(run: Run, o: Options) -> SeedSet:
     frame = asked_frame(o)
     report_no_seeds(run, o, frame)
     nothing = np.empty(0, np.int64)
-    return SeedSet(nothing, nothing, nothing.astype(np.uint32), frame=frame)
+    area = None if is_of(value, "PointSet") else nothing
+    columns = {name: list(column) for name, column in value.properties.items()}
+    return SeedSet(nothing, nothing, nothing.astype(np.uint32), frame=frame, properties=columns, object_area=area)
 
 
 def window_of(o: Options, seeds: SeedSet) -> tuple[int, int, int, int] | None:

@@ -33,6 +33,10 @@ if TYPE_CHECKING:
 Placed = TypeVar("Placed")
 
 
+_SHEARED = "the image is sheared on the map: its pixels are no rectangles"
+_STRAIGHTEN = "straighten it with gdalwarp in.tif upright.tif"
+
+
 def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | None) -> Options:
     """Give options with the size of the pixels of an image: as the user says, else what the file says of a map."""
     asked = o.pixel_size
@@ -40,13 +44,14 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
         run.stats |= unit_stats(asked)
         return o
     is_spacing = asked is not None and asked.is_spacing
-    is_plain = not is_spacing and not o.scale_bar and not shows_units(given.targets)
+    is_plain = not o.scale_bar and not shows_units(given.targets)
     measured = grid if o.takes_spacing and not is_spacing else None
     if measured is not None and measured.is_size and ("distance" in o.what if measured.is_square else is_plain):
         run.note(_note_of_size(given, measured, o, "distances"))
-    if is_plain:
+    if is_plain and not is_spacing:
         return o
-    if grid is not None and grid.transform is not None:
+    is_on_map = grid is not None and grid.transform is not None
+    if grid is not None and is_on_map and (grid.is_upright or not is_plain):  # distances need no place on it
         size = _on_map(run, given, grid, o)
     elif asked is not None:
         size = size_of_file(grid, o)
@@ -72,6 +77,8 @@ def size_of_file(grid: PixelGrid | None, o: Options) -> PixelSize:
 
 def _spacing_of_pixels(grid: PixelGrid) -> PixelSize:
     """Both sides as distances take them."""
+    if not grid.is_rectangular:
+        raise InputError(f"{_SHEARED}, which have no sides to measure with: {_STRAIGHTEN}")
     instead = "give rounded sides, such as --spacing 0.325,0.5um"
     return spacing_of(grid, (grid.height, grid.width), "image has pixels", instead)
 
@@ -90,6 +97,8 @@ def spacing_of(grid: PixelGrid | VoxelGrid, sides: tuple[Fraction, ...], what: s
 
 
 def _note_of_size(given: JobInput, grid: PixelGrid, o: Options, what: str = "results") -> str:
+    if not grid.is_rectangular:
+        return f"{given.name}: {_SHEARED}: {what} are in pixels; {_STRAIGHTEN} to measure on the map"
     measure = "; --spacing auto measures with these sides" if o.takes_spacing else ""
     if grid.is_square and what == "distances":
         return f"{given.name} states a pixel size of {grid.size_text()}: {what} are in pixels{measure}"
@@ -103,9 +112,12 @@ def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: Options) -> PixelSize
     asked, in_pixels = o.pixel_size, "--pixel-size 1 gives results in pixels"
     is_spacing = asked is not None and asked.is_spacing
     if not grid.is_upright:
+        if is_spacing and grid.is_rectangular:
+            lengths = ",".join(f"{float(side):.10g}" for side in (grid.width, grid.height))
+            in_pixels = f"--spacing {lengths}{grid.unit or ''} gives results along its rows and columns"
         raise InputError(
-            f"the image is rotated or mirrored on the map, which vectors and tables cannot follow: {in_pixels}, or "
-            "straighten it with gdalwarp in.tif upright.tif"
+            "the image is rotated, mirrored or sheared on the map, which vectors and tables cannot follow: "
+            f"{in_pixels}, or {_STRAIGHTEN}"
         )
     if not grid.is_square and not is_spacing:
         if asked is not None:
@@ -228,6 +240,8 @@ def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
         for name in (name for name in ("frame", "start", "end") if name in o.measured):
             option = flag(o.command, name)
             raise UsageError(f"{option} of an image on a map is in its pixels: give numbers without a unit")
+    if not grid.is_rectangular:
+        refuse_lengths(o, f"{_SHEARED}; give numbers of pixels, or {_STRAIGHTEN}")
     sides = unit.side * grid.height, unit.side * grid.width
     if grid.is_square:
         sides = sides[1], sides[1]

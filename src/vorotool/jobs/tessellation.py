@@ -114,7 +114,7 @@ def _tell_outside(run: Run, rows: Tessellator | PropagatedRows) -> None:
 
 def _seeds_of(run: Run, o: Options, value: PointSet | PolygonSet | Raster) -> SeedSet:
     if isinstance(value, PointSet) and not len(value):
-        return replace(no_seeds(run, o), y_axis=value.y_axis)
+        return replace(no_seeds(run, o, value), y_axis=value.y_axis)
     if isinstance(value, PointSet):
         return seeds_in_frame(value, asked_frame(o) or partial(frame_of, o), sides=sides_of(o), strict=o.strict)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
@@ -322,7 +322,7 @@ def seeds_on_map(run: Run, o: Options, given: JobInput, value: PointSet | Polygo
     """Lay cells over a map, and find the seeds in them: points, or the cells of lines and polygons."""
     is_empty = not len(value.xy)
     if is_empty and o.window is None and o.like is None:
-        return o, no_seeds(run, o)
+        return o, no_seeds(run, o, value)
     frame, grid = _cells(o, value) if o.like is None else _cells_of_raster(run, o, o.like, given, value)
     run.grid = grid
     o = changed(o, window=(frame.x, frame.y, frame.width, frame.height), size=None)
@@ -334,7 +334,7 @@ def seeds_on_map(run: Run, o: Options, given: JobInput, value: PointSet | Polygo
         value = replace(value, xy=in_cells(value.xy, grid))
     run.stats |= unit_stats(o.pixel_size)
     if is_empty:
-        return o, replace(no_seeds(run, o), grid=grid)
+        return o, replace(no_seeds(run, o, value), grid=grid)
     placed = replace(value, y_axis=UNSTATED)  # pictures show the first row on top, as the image has it
     if isinstance(placed, PointSet):
         seeds = seeds_in_frame(placed, frame, strict=o.strict)
@@ -393,7 +393,9 @@ def _check_units(path: str, given: JobInput, crs: Any, unit: InputUnit | None, g
 def _check_upright(path: str, given: JobInput, value: PointSet | PolygonSet, grid: PixelGrid) -> None:
     """Refuse a raster that is turned, mirrored, has pixels that are no squares, or y the other way."""
     if not grid.is_upright:
-        raise InputError(f"{path} is rotated or mirrored on the map: straighten it with gdalwarp {path} upright.tif")
+        raise InputError(
+            f"{path} is rotated, mirrored or sheared on the map: straighten it with gdalwarp {path} upright.tif"
+        )
     if not grid.is_square:
         raise InputError(
             f"{path} has pixels of {grid.size_text()}, but cells are squares: resample it with gdalwarp -tr SIDE SIDE "

@@ -234,7 +234,7 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
     from vorotool.types.scaling import scaled
 
     with _within_doubles(size):
-        return scaled(value, size.factor, size.origin, unit=size.unit, of_steps=size.is_spacing)
+        return scaled(value, size.factor, size.origin, unit=size.unit)
 
 
 def unit_columns(size: PixelSize | None, count: int) -> dict[str, list[str]]:
@@ -265,7 +265,6 @@ def table_in_units(
             origin=size.origin,
             y_up=y_up,
             pixel=pixel,
-            of_steps=size.is_spacing,
         )
 
 

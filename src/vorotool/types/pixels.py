@@ -76,8 +76,14 @@ class PixelGrid:
 
     @property
     def is_square(self) -> bool:
-        """Whether both sides are as long as each other."""
-        return abs(self.width - self.height) <= ALIKE * self.width
+        """Whether both sides are as long as each other, at right angles."""
+        return abs(self.width - self.height) <= ALIKE * self.width and self.is_rectangular
+
+    @property
+    def is_rectangular(self) -> bool:
+        """Whether rows and columns are at right angles; those of a sheared map are not, so that no sides measure it."""
+        a, b, _, d, e, _ = self.transform or (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+        return abs(a * b + d * e) <= ALIKE * self.width * self.height
 
     def has(self, sides: PixelSides) -> bool:
         """Whether these are the sides of its pixels.

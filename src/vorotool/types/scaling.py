@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.numeric.arrays import within
+from vorotool.numeric.coordinates import LARGEST_INTEGER
 from vorotool.types.box import Box
 from vorotool.types.fields import UP, Declared, Meaning, Record
 from vorotool.types.pixels import Frame
@@ -34,9 +35,7 @@ VOLUMES = frozenset({"volume"})
 """Columns of tables that are lengths, coordinates included, areas and volumes; others are numbers, labels and names."""
 
 
-def scaled(
-    value: Any, factor: Fraction, origin: Place = None, *, unit: str | None = None, of_steps: bool = False
-) -> Any:
+def scaled(value: Any, factor: Fraction, origin: Place = None, *, unit: str | None = None) -> Any:
     """Return a result in units of which one is ``1 / factor`` of the old."""
     measures = {name: each for name, each in _declared(value).items() if each.meaning not in _UNSCALED}
     if not measures or any(each.meaning is Meaning.STEPS for each in measures.values()):
@@ -45,12 +44,10 @@ def scaled(
     for name, each in measures.items():
         part = getattr(value, name)
         if part is not None and each.meaning is Meaning.VALUE:
-            parts[name] = scaled(part, factor, origin, unit=unit, of_steps=of_steps)
+            parts[name] = scaled(part, factor, origin, unit=unit)
         elif part is not None:
             moved = origin if each.meaning is Meaning.POSITION else None
-            parts[name] = _scaled(
-                part, factor * factor if each.meaning is Meaning.AREA else factor, moved, of_steps=of_steps
-            )
+            parts[name] = _scaled(part, factor * factor if each.meaning is Meaning.AREA else factor, moved)
     if factor != 1 and origin is None and any(each.name == "crs" for each in fields(value)):
         parts["crs"] = None  # the coordinates are others than those of the system
     if not isinstance(value, PolygonSet):
@@ -58,7 +55,7 @@ def scaled(
     made = replace(value, **parts, unit=unit)
     if value.as_given is value:
         return made
-    as_given = _scaled(value.as_given.xy, factor, origin, of_steps=of_steps)
+    as_given = _scaled(value.as_given.xy, factor, origin)
     return replace(made, xy=as_given).moved(made.xy)
 
 
@@ -95,14 +92,15 @@ def _declared(value: Any) -> dict[str, Declared]:
     return value._declared if isinstance(value, Record) else {}
 
 
-def _scale(factor: Fraction, *, of_steps: bool) -> tuple[float, float]:
-    """What numbers are multiplied by, and then divided by."""
-    return (float(factor.numerator), float(factor.denominator)) if of_steps else (float(factor), 1.0)
+def _scale(factor: Fraction) -> tuple[float, float]:
+    """What numbers are multiplied by, and then divided by: integers, where doubles hold them, are rounded once."""
+    is_held = max(factor.numerator, factor.denominator) <= LARGEST_INTEGER
+    return (float(factor.numerator), float(factor.denominator)) if is_held else (float(factor), 1.0)
 
 
-def _scaled(part: Any, factor: Fraction, origin: Place, *, of_steps: bool) -> Any:
+def _scaled(part: Any, factor: Fraction, origin: Place) -> Any:
     """Return a number, an array, a box, or a tuple x, y, width, height."""
-    times, over = _scale(factor, of_steps=of_steps)
+    times, over = _scale(factor)
     if isinstance(part, Box):
         sides = (side * times / over for side in part.sides)
         return Box(
@@ -123,11 +121,10 @@ def scaled_table(
     origin: Place = None,
     y_up: bool = False,
     pixel: tuple[float, float] = (1.0, 1.0),
-    of_steps: bool = False,
 ) -> Table:
     """Return a table of tessellations, triangulations or alpha shapes in other units."""
     columns = table.stored()
-    scale = {names: _scale(factor**k, of_steps=of_steps) for k, names in enumerate((LENGTHS, AREAS, VOLUMES), 1)}
+    scale = {names: _scale(factor**k) for k, names in enumerate((LENGTHS, AREAS, VOLUMES), 1)}
     made = {name: _scaled_column(name, column, scale, properties) for name, column in columns.items()}
     if origin is not None:
         made |= _placed_columns(columns, scale[LENGTHS], origin, pixel, y_up=y_up, properties=properties)

@@ -1,10 +1,12 @@
 """``--pixel-size``: what is written is what a larger input gives, byte by byte where the factor is a power of two."""
 
 import json
+from fractions import Fraction
 
 import numpy as np
 import pytest
 import tifffile
+from PIL import Image
 
 from support.families.rasters import MASK, write_sized
 
@@ -18,6 +20,17 @@ def test_the_resolution_of_an_image_is_kept(run, tmp_path, what):
     with tifffile.TiffFile(tmp_path / "out.tif") as file:
         tags = {name: file.pages[0].tags.valueof(name) for name in ("XResolution", "YResolution", "ResolutionUnit")}
     assert tags == {"XResolution": (300, 1), "YResolution": (150, 1), "ResolutionUnit": 2}
+
+
+def test_pixels_are_scaled_with_one_rounding(run, tmp_path):
+    """Areas, boxes and perimeters are integers in pixels: in units they are the nearest doubles."""
+    Image.fromarray(np.repeat(np.arange(1, 62, dtype=np.uint8), 41).reshape(61, 41)).save(tmp_path / "a.png")
+    side = Fraction("0.325")
+    plain = run("tessellate a.png --what table -q").rows
+    for before, after in zip(plain, run("tessellate a.png --what table --pixel-size 0.325um -q").rows, strict=True):
+        for name in ("area", "perimeter", "bbox_x", "bbox_y", "bbox_w", "bbox_h", "object_area"):
+            expected = int(before[name]) * side ** (2 if "area" in name else 1)
+            assert float(after[name]) == float(expected)
 
 
 # ---- the column --------------------------------------------------------------------------------

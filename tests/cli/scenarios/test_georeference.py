@@ -11,9 +11,12 @@ from PIL import Image
 from rasterio.transform import Affine
 from shapely.affinity import affine_transform
 
+import vorotool
 from support.families.geojson import collection
 from support.families.rasters import about, write_map
 from support.few import few
+from support.refusals import refused
+from vorotool import UsageError
 from vorotool.engines.tessellation.raster_objects import numbered_components
 
 rng = np.random.default_rng(5)
@@ -170,8 +173,8 @@ def test_clip_is_on_the_map(run, tmp_path):
 @pytest.mark.parametrize(
     ("transform", "code", "words"),
     [
-        (Affine(3, 1, 50, -1, 3, 60), 3, "the image is rotated or mirrored on the map"),
-        (Affine(-3, 0, 50, 0, -3, 60), 3, "the image is rotated or mirrored on the map"),
+        (Affine(3, 1, 50, -1, 3, 60), 3, "the image is rotated, mirrored or sheared on the map"),
+        (Affine(-3, 0, 50, 0, -3, 60), 3, "the image is rotated, mirrored or sheared on the map"),
         (from_origin(0, 100, 2, 3), 0, "in.tif"),
     ],
 )
@@ -180,6 +183,35 @@ def test_maps_that_results_cannot_follow(run, tmp_path, transform, code, words):
     run("skeleton-exact in.tif -o a.geojson", code=code, says=words)
     run("skeleton-exact in.tif -o a.geojson --pixel-size auto", code=3, says="--pixel-size 1")
     assert run("skeleton-exact in.tif -o a.geojson --pixel-size 1").err == ""
+
+
+TURNED = Affine.translation(500, 400) @ Affine.rotation(30) @ Affine.scale(2, -3)
+SHEARED = Affine(2, 1, 500, 0.5, -3, 400)
+
+
+@pytest.mark.parametrize("what", ["labels", "distance"])
+def test_a_turned_map_is_measured_along_its_rows(run, tmp_path, what):
+    """Images follow any map; what a note advises is accepted, and gives what the typed sides give."""
+    write_map(tmp_path / "in.tif", MASK, transform=TURNED)
+    run(f"tessellate in.tif -o a.tif --what {what}", says="distances are in pixels; --spacing auto")
+    for sides, name in (("auto", "b"), ("2,3m", "c")):
+        run(f"tessellate in.tif -o {name}.tif --what {what} --spacing {sides} --max-distance 7m --verify -q")
+    assert (tmp_path / "b.tif").read_bytes() == (tmp_path / "c.tif").read_bytes()
+    with rasterio.open(tmp_path / "b.tif") as file:
+        assert file.transform.almost_equals(TURNED)
+    run("tessellate in.tif --what table --spacing auto", code=3, says="--spacing 2,3m gives results along its rows")
+    assert run("tessellate in.tif --what table --spacing 2,3m").rows[0]["unit"] == "m"
+
+
+def test_a_sheared_map_has_no_sides_to_measure_with(run, tmp_path):
+    write_map(tmp_path / "in.tif", MASK, transform=SHEARED)
+    done = run("tessellate in.tif -o a.tif", says="its pixels are no rectangles: distances are in pixels")
+    assert "--spacing" not in done.err
+    run("tessellate in.tif -o a.tif --spacing auto", code=3, says="gdalwarp")
+    run("tessellate in.tif -o a.tif --max-distance 7m", code=2, says="give numbers of pixels")
+    image = vorotool.read(tmp_path / "in.tif")
+    refused(UsageError, "sheared", vorotool.tessellate, image, spacing="auto")
+    vorotool.tessellate(image)  # without a warning that advises it
 
 
 def test_a_system_without_a_code(run, tmp_path):

@@ -151,6 +151,16 @@ def test_a_tessellation_of_nothing_needs_a_frame(run, tmp_path):
     run("tessellate e.csv --size 4x3 --what distance -o d.npy", code=3, says="e.csv")
 
 
+@pytest.mark.parametrize("frame", ["--size 8x8", "--volume --size 8x8x8", "--cell-size 1 --window 0,0,8,8"])
+def test_the_table_of_nothing_has_all_columns(run, tmp_path, frame):
+    """Tables of many inputs are joined by their columns."""
+    (tmp_path / "e.csv").write_text("x,y,z,name\n")
+    (tmp_path / "a.csv").write_text("x,y,z,name\n1,2,3,a\n")
+    columns = run(f"tessellate a.csv --what table {frame} -q").out.splitlines()[0]
+    assert columns.endswith(",name")
+    assert run(f"tessellate e.csv --what table {frame} -q").out.splitlines() == [columns]
+
+
 def test_a_map_of_nothing_lies_where_its_window_is(run, tmp_path):
     (tmp_path / "e.csv").write_bytes(b"")
     frame = ("--cell-size", "5", "--window", "100,200,15,10", "--input-crs", "EPSG:2056")

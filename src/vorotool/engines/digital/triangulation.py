@@ -131,7 +131,7 @@ def _in_unit(mesh: Mesh, sides: PixelSides) -> Mesh:
     """What was found in steps of the sides of a pixel in their unit; what was decided stays."""
     if sides.step == 1:
         return mesh
-    return scaled(mesh, sides.step, of_steps=True)
+    return scaled(mesh, sides.step)
 
 
 def _sites_of_seeds(seeds: SeedSet, sides: PixelSides) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
