@@ -364,7 +364,7 @@ def _are_small(given: PolygonSet, origin: tuple[float, float], step: float) -> I
     shell = given.polygon_starts[:-1]
     first, sizes = given.ring_starts[shell], given.ring_starts[shell + 1] - given.ring_starts[shell]
     a, b, c = ((given.xy[first + sizes * third // 3] - origin) / step for third in range(3))
-    chosen = np.flatnonzero(~_are_wide(a, b, c, given.is_line))
+    chosen = np.flatnonzero(~_are_wide(a, b, c, given.is_line) & (sizes > 1))
     if not chosen.size:
         return chosen
     first, sizes, is_line = first[chosen], sizes[chosen], given.is_line[chosen]

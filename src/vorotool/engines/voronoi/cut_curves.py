@@ -47,6 +47,8 @@ class CutCurves(Columns):
     def place(self, t: Floats) -> Floats:
         """(k, 2) where each is at its parameter."""
         is_bent = self.height > 0
+        if not is_bent.any() and not self.round.any():
+            return self.base + t[:, None] * self.way
         h = np.where(is_bent, self.height, 1)
         up = np.where(is_bent, (t * t - h * h) / (2 * h), 0)
         across = np.stack([-self.way[:, 1], self.way[:, 0]], axis=1)
@@ -259,6 +261,8 @@ def _take_parabolas(borders: Borders, graph: PlanarGraph, pieces: Indices, curve
     count = len(graph.points)
     point, segment = np.sort(borders.elements[pieces], axis=1).T
     mixed = np.flatnonzero((point < count) & (segment >= count))
+    if not mixed.size:
+        return
     focus, a, b = (graph.points[at].astype(np.int64) for at in (point[mixed], *_ends(graph, segment[mixed])))
     along, offset = b - a, focus - a
     double = along[:, 0] * offset[:, 1] - along[:, 1] * offset[:, 0]
@@ -280,6 +284,8 @@ def _take_circles(borders: Borders, pieces: Indices, curves: tuple[Floats, ...])
     """Write the circles among pieces, counter-clockwise, into arrays of base, way, radius, first and last."""
     base, way, radius, first, last = curves
     chosen = np.flatnonzero(~np.isnan(borders.center[pieces, 0]))
+    if not chosen.size:
+        return
     center = borders.center[pieces[chosen]]
     a, b = (borders.places[end] - center for end in borders.ends[pieces[chosen]].T)
     chord = b - a

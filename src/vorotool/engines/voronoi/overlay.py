@@ -100,6 +100,7 @@ def cut_pieces(edges: CutEdges, found: Crossings, count: int, is_cut: NDArray[np
 class Overlay:
     """Parts of borders and of cuts put together: those of borders that are within what is cut, and not along it."""
 
+    cuts: CutPieces
     has_parts = False
     """Whether parts of cells are those of the borders; else what a site has is one part."""
 
@@ -113,7 +114,6 @@ class Overlay:
         # (v + 1,) whether places are on cuts, the last one of -1, at infinity
         self.is_cut = np.append((found.edge >= 0) & (found.node == np.arange(len(found.node))), False)
         self.is_cut[self.count : self.count + len(edges.points)] = True
-        self.cuts = cut_pieces(edges, found, self.count, self.is_cut)
 
     def put(self, pieces: Pieces) -> None:
         """Take parts of borders; with those that cuts run along these are told whose their sides are."""
@@ -214,6 +214,7 @@ class RegionOverlay(Overlay):
         found = crossings_of(local, edges)
         super().__init__(borders, graph, edges, local.region, controls_of(borders, graph), found)
         self.local, self.joint = local, joint
+        self.cuts = cut_pieces(edges, found, self.count, self.is_cut)
         self._tell_walls()
         whole = np.ones(len(borders.ends), dtype=bool)
         whole[found.pieces] = False
