@@ -109,16 +109,6 @@ def with_length(
 
 def connected_roots(pairs: NDArray[np.integer], count: int) -> NDArray[np.int64]:
     """(count,) the smallest number that each is connected with by pairs."""
-    root = np.arange(count)
-    a, b = np.asarray(pairs).reshape(-1, 2).T
-    while len(a):
-        low, high = np.minimum(root[a], root[b]), np.maximum(root[a], root[b])
-        apart = low != high
-        a, b = a[apart], b[apart]
-        np.minimum.at(root, high[apart], low[apart])
-        while True:  # follow chains of roots to their ends, each step twice as far
-            further = root[root]
-            if (further == root).all():
-                break
-            root = further
-    return root
+    from vorotool import _core
+
+    return _core.graphs.connected_components(pairs.reshape(-1, 2).astype(np.int32), count).astype(np.int64)
