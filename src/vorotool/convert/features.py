@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.convert.tables import index_of, listed
 from vorotool.errors import InputError, element, warn
 from vorotool.frozen import frozen
+from vorotool.numeric.arrays import objects
 from vorotool.numeric.checks import LONGEST, index_of_rows
 from vorotool.numeric.crs import crs_member, member_of_text, without_number
 from vorotool.numeric.numbers import shown_number
@@ -52,11 +53,7 @@ class HeldFeatures:
     @property
     def geometry(self) -> NDArray[np.object_]:
         """(n,) the items, if all are of shapely."""
-        if isinstance(self.items, np.ndarray):
-            return self.items
-        made = np.empty(len(self.items), dtype=object)
-        made[:] = self.items
-        return made
+        return self.items if isinstance(self.items, np.ndarray) else objects(self.items)
 
     def described(self, owners: NDArray[Any]) -> dict[str, Any]:
         """Give the fields of a `PolygonSet` for polygons by the feature of each."""
@@ -183,10 +180,7 @@ def _of_texts(texts: Sequence[Any], *, is_alone: bool = False) -> HeldFeatures:
 
 def _without_curves(held: HeldFeatures) -> HeldFeatures:
     """Flatten the curves in collections of shapely, and warn once of these and of those of texts."""
-    items = np.empty(len(held.items), dtype=object)
-    for k, item in enumerate(held.items):  # one by one: some may be sequences
-        items[k] = item
-    flat = resolved(f"{_WELL_KNOWN}:without_curves")(items)
+    flat = resolved(f"{_WELL_KNOWN}:without_curves")(objects(held.items))
     if flat.curves + held.curves:
         warn(resolved(f"{_WELL_KNOWN}:flattened_note")(flat.curves + held.curves))
     return replace(held, items=flat.geometry) if flat.curves else held
@@ -235,8 +229,7 @@ def _of_geopandas(source: Any) -> HeldFeatures:
         for place, name in enumerate(source.columns):
             if name != active:
                 properties[str(name)] = listed(source.iloc[:, place])
-    items = np.empty(len(geometry), dtype=object)
-    items[:] = np.asarray(geometry, dtype=object)
+    items = np.array(geometry, dtype=object)
     return HeldFeatures(items, properties, index=index_of(geometry), crs=crs_of(source.crs), is_map=True)
 
 

@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.convert.extras import needed
-from vorotool.numeric.arrays import with_length
+from vorotool.numeric.arrays import norms, with_length
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.crs import crs_text
 from vorotool.numeric.numbers import Flatten, checked_flatten
@@ -284,7 +284,7 @@ def _of_planar_graph(library: Any, value: PlanarGraph) -> Any:
     graph.add_nodes_from(enumerate(_attributes({"x": x, "y": y})))
     (a, b), (left, right) = value.segments.T.tolist(), value.segment_faces.T
     way = points[value.segments[:, 1]] - points[value.segments[:, 0]]
-    length = np.sqrt((way * way).sum(axis=1))
+    length = norms(way)
     columns = {"segment": np.arange(len(value)), "length": length, "face_left": left, "face_right": right}
     graph.add_edges_from(zip(a, b, _attributes(columns), strict=True))
     return graph

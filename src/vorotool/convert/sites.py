@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option, warn
 from vorotool.frozen import frozen
+from vorotool.numeric.arrays import objects
 from vorotool.numeric.checks import index_of_rows, items_of, naming, unexpected
 from vorotool.numeric.crs import note_degrees
 from vorotool.numeric.lazy import shapely
@@ -87,8 +88,7 @@ def _features(source: Any, name: str) -> Sites:
 def _of_held(held: HeldFeatures, name: str) -> Sites:
     from vorotool.types.polygons.shapely_geometry import polygons_of_geometry
 
-    items = np.empty(len(held.items), dtype=object)
-    items[:] = [_shapely_of(item) for item in held.items]
+    items = objects([_shapely_of(item) for item in held.items])
     made = polygons_of_geometry(items, lambda own: {"feature": own, **held.described(own)}, takes_points=True)
     note_degrees(made, name, warn)
     return Sites(made, made.feature, len(items), held.ids, held.properties, held.index)

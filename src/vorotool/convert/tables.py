@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, element
+from vorotool.numeric.arrays import objects
 from vorotool.numeric.checks import column_names, described, is_masked_array
 from vorotool.numeric.coordinates import INEXACT, first_inexact, number_array
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
@@ -142,10 +143,9 @@ def _plain_array(column: Any) -> NDArray[Any]:
     if is_masked_array(array):
         return np.where(np.ma.getmaskarray(array), np.nan, array.data) if np.ma.is_masked(array) else array.data
     if array.dtype.kind == "O":
-        values = [np.nan if each is None or type(each).__name__ in MISSING_TYPES else each for each in array.tolist()]
-        made = np.empty(len(values), dtype=object)
-        made[:] = values
-        return made
+        return objects(
+            [np.nan if each is None or type(each).__name__ in MISSING_TYPES else each for each in array.tolist()]
+        )
     return array
 
 

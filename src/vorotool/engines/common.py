@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, VerificationError
-from vorotool.numeric.arrays import Floats, Indices, following, norms
+from vorotool.numeric.arrays import Floats, Indices, dots, following, norms
 from vorotool.numeric.checks import as_array
 
 
@@ -53,17 +53,14 @@ def described(array: Any) -> str:
 def nearest_on_segments(places: Floats, a: Floats, b: Floats) -> Floats:
     """(…, 2) the nearest place to each on a segment, which may have no length."""
     way = b - a
-    square = (way * way).sum(axis=-1)
-    share = np.divide(((places - a) * way).sum(axis=-1), square, out=np.zeros_like(square), where=square > 0)
+    square = dots(way, way)
+    share = np.divide(dots(places - a, way), square, out=np.zeros_like(square), where=square > 0)
     return a + np.clip(share, 0, 1)[..., None] * way
 
 
 def off_segments(places: Floats, a: Floats, b: Floats) -> Floats:
     """(n,) how far each place is from a segment, which may have no length."""
-    way = b - a
-    square = (way * way).sum(axis=1)
-    share = np.divide(((places - a) * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
-    return norms(places - a - np.clip(share, 0, 1)[:, None] * way)
+    return norms(places - nearest_on_segments(places, a, b))
 
 
 def twice_areas(xy: Floats, start: Indices) -> Floats:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError, UsageError, element
+from vorotool.numeric.arrays import objects
 from vorotool.numeric.numbers import plain_text, shown_number
 
 MAX_PIXELS = 2**31
@@ -62,16 +63,6 @@ def available_threads() -> int:
 def is_choice(value: object, choices: Iterable[object]) -> bool:
     """Tell whether an argument is one of a few names or numbers; an array, which has no single answer, is not."""
     return isinstance(value, str | int | float | np.bool_ | np.number | None) and value in tuple(choices)
-
-
-def set_rows(value: object, name: str, dtype: DTypeLike, width: int = 0) -> None:
-    """Give an array of a frozen value its type, and rows of a width: (n, width), or (n,) for 0."""
-    array = np.ascontiguousarray(getattr(value, name), dtype=dtype)
-    if array.size == 0:
-        array = array.reshape((0, width) if width else (0,))
-    if array.ndim != (2 if width else 1) or (width and array.shape[1] != width):
-        raise InputError(f"{name} must have shape (…, {width or ''}), but has shape {array.shape}")
-    object.__setattr__(value, name, array)
 
 
 def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = None) -> NDArray[Any]:
@@ -250,10 +241,10 @@ def index_of_rows(index: Any, rows: NDArray[Any]) -> Any:
         return None
     rows = np.asarray(rows, dtype=np.intp)
     if rows.size and rows.min() < 0:
-        return _objects([index[row] if row >= 0 else None for row in rows.tolist()])
+        return objects([index[row] if row >= 0 else None for row in rows.tolist()])
     if hasattr(index, "take"):
         return index.take(rows)
-    return _objects([index[row] for row in rows.tolist()])
+    return objects([index[row] for row in rows.tolist()])
 
 
 def joined_index(first: Any, count: int, second: Any, more: int) -> Any:
@@ -262,11 +253,4 @@ def joined_index(first: Any, count: int, second: Any, more: int) -> Any:
         return None
     if all(hasattr(index, "append") and hasattr(index, "take") for index in (first, second)):  # both of pandas
         return first.append(second)
-    return _objects([*([None] * count if first is None else first), *([None] * more if second is None else second)])
-
-
-def _objects(values: list[Any]) -> NDArray[np.object_]:
-    made = np.empty(len(values), dtype=object)
-    for place, value in enumerate(values):  # a slice would take tuples apart
-        made[place] = value
-    return made
+    return objects([*([None] * count if first is None else first), *([None] * more if second is None else second)])

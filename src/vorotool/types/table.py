@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, ItemsView, Iterator, Mapping, Sequence, ValuesView
+from collections.abc import Callable, ItemsView, Iterator, Mapping, ValuesView
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.frozen import frozen
+from vorotool.numeric.arrays import objects
 from vorotool.numeric.checks import is_equal
 from vorotool.products.formats import resolved
 from vorotool.types.values import Tabular, counted
@@ -27,15 +28,8 @@ class Lookup:
         return len(self.index)
 
     def __getitem__(self, rows: slice) -> NDArray[Any]:
-        values = self.values if isinstance(self.values, np.ndarray) else object_column(self.values)
+        values = self.values if isinstance(self.values, np.ndarray) else objects(self.values)
         return values.take(self.index[rows])
-
-
-def object_column(values: Sequence[Any]) -> NDArray[Any]:
-    """Return values of any kind as a column."""
-    array = np.empty(len(values), dtype=object)
-    array[:] = values
-    return array
 
 
 @frozen(eq=False)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.delaunay.delaunay import verify_triangulation
 from vorotool.errors import VerificationError
-from vorotool.numeric.arrays import owners
+from vorotool.numeric.arrays import dots, owners
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
@@ -103,7 +103,7 @@ def _triangles_reached(mesh: Triangulation, r: Radius) -> NDArray[np.bool_]:
     corners = mesh.points[mesh.triangles]
     with np.errstate(all="ignore"):
         sides = [corners[:, (k + 2) % 3] - corners[:, (k + 1) % 3] for k in range(3)]
-        lengths = np.stack([(side * side).sum(axis=1) for side in sides])
+        lengths = np.stack([dots(side, side) for side in sides])
         squares = lengths.prod(axis=0)
         left, right = sides[0][:, 0] * sides[1][:, 1], sides[0][:, 1] * sides[1][:, 0]
         cross = left - right
@@ -120,7 +120,7 @@ def _edges_reached(family: AlphaComplex, r: Radius) -> NDArray[np.bool_]:
     ends = family.points[family.edges]
     with np.errstate(all="ignore"):
         across = ends[:, 1] - ends[:, 0]
-        quarter = (across * across).sum(axis=1) / 4
+        quarter = dots(across, across) / 4
     return _at_most(quarter, np.full(len(quarter), 4 * _ROUNDING), r, lambda e: _squared_length(ends[e]) / 4)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.delaunay.delaunay import verify_triangulation
 from vorotool.errors import VerificationError
-from vorotool.numeric.arrays import Booleans, Floats
+from vorotool.numeric.arrays import Booleans, Floats, dots
 from vorotool.numeric.parallel import Progress
 from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.alpha.radii import Radius
@@ -204,18 +204,18 @@ def _powers(places: Floats) -> tuple[Floats, Floats]:
     ways = places[:, 1:-1] - places[:, :1]
     top = places[:, -1] - places[:, 0]
     with np.errstate(all="ignore"):
-        sizes = (ways * ways).sum(axis=2)
+        sizes = dots(ways, ways)
         if ways.shape[1] == 1:
             center, spread = ways[:, 0] / 2, 1.0
         else:
             u, v = ways[:, 0], ways[:, 1]
-            uu, vv, uv = sizes[:, 0], sizes[:, 1], (u * v).sum(axis=1)
+            uu, vv, uv = sizes[:, 0], sizes[:, 1], dots(u, v)
             gram = uu * vv - uv * uv
             x, y = vv * (uu - uv) / (2 * gram), uu * (vv - uv) / (2 * gram)
             center = x[:, None] * u + y[:, None] * v
             spread = (uu * vv / gram) ** 2
-        power = (top * (top - 2 * center)).sum(axis=1)
-        reach = np.maximum(sizes.max(axis=1), (top * top).sum(axis=1))
+        power = dots(top, top - 2 * center)
+        reach = np.maximum(sizes.max(axis=1), dots(top, top))
         doubt = 2.0**-44 * spread * reach
         known = (np.abs(ways).max(axis=2).min(axis=1) > _SMALL) & (reach < _LARGE**2) & np.isfinite(doubt)
     return power, np.where(known, doubt, inf)

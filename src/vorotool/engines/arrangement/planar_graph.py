@@ -13,7 +13,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.repaired_polygons import flat_holes, given_shapes, with_flat_shells_as_lines
 from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError, warn
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, divides, mask_of, norms, owners, ranges, starts_of
+from vorotool.numeric.arrays import Floats, Indices, crosses, divides, dots, mask_of, norms, owners, ranges, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, Run
@@ -267,7 +267,7 @@ def _source_fault(graph: PlanarGraph) -> str | None:
     reach = np.abs(d).sum(axis=1) // 2 if graph.repairs["moved_edges"] else 0
     for column in (0, 1):
         c = graph.points[graph.segments[segment, column]].astype(np.int64) - a
-        is_off = np.abs(d[:, 0] * c[:, 1] - d[:, 1] * c[:, 0]) > reach
+        is_off = np.abs(crosses(d, c)) > reach
         is_off |= ((c < np.minimum(d, 0)) | (c > np.maximum(d, 0))).any(axis=1)
         if is_off.any():
             at = int(is_off.argmax())
@@ -377,7 +377,7 @@ def _are_small(given: PolygonSet, origin: tuple[float, float], step: float) -> I
     length = norms(way)
     order = np.lexsort((length, own))[begin + sizes - 1]  # the longest edge of each
     across = way[order][:, ::-1] * (1, -1) / np.where(length[order] > 0, length[order], 1)[:, None]
-    level = ((xy - xy[begin][own]) * across[own]).sum(axis=1)
+    level = dots(xy - xy[begin][own], across[own])
     thin = np.maximum.reduceat(level, begin) - np.minimum.reduceat(level, begin)
     width = np.where(is_line, width, np.minimum(width, thin))
     width = np.where(width > 0, width, sides.max(axis=1))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Indices, connected_roots, mask_of, owners, ranges, starts_of
+from vorotool.numeric.arrays import Indices, connected_roots, dots, mask_of, owners, ranges, starts_of
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 from vorotool.types.polygons.shapely_geometry import RingArrays
@@ -213,7 +213,7 @@ def _lines(graph: PlanarGraph, given: PolygonSet) -> _Rings:
     along = vertices[edge + 1] - vertices[edge]
     ends = graph.segments[segment]
     pieces = graph.points[ends].astype(np.int64)
-    is_back = ((pieces[:, 1] - pieces[:, 0]) * along).sum(axis=1) < 0
+    is_back = dots(pieces[:, 1] - pieces[:, 0], along) < 0
     ends[is_back] = ends[is_back, ::-1]
     # both coordinates are monotone along an edge
     keys = graph.points[ends[:, 0]] * np.sign(along)

@@ -18,7 +18,7 @@ from vorotool.engines.centerlines.twigs import around_edges
 from vorotool.engines.from_skeleton.points_along import first_hits
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError, UsageError, warn
-from vorotool.numeric.arrays import Booleans, Floats, Numbers, mask_of, starts_of
+from vorotool.numeric.arrays import Booleans, Floats, Numbers, crosses, mask_of, starts_of
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
@@ -334,13 +334,9 @@ def _edges_between_corners(lines: Centerlines, arcs: Numbers) -> NDArray[np.int6
     sites = lines.path.sites[arcs]
     vertex = table.vertices(polygons, sites)
     p, a, b, q = np.moveaxis(around_edges(polygons, vertex), -2, 0)
-    turns = [np.sign(_cross(a - p, b - a)), np.sign(_cross(b - a, q - b))]
+    turns = [np.sign(crosses(a - p, b - a)), np.sign(crosses(b - a, q - b))]
     is_edge = (table.kind[sites] == EDGE) & (turns[0] == turns[1]) & (turns[0] != 0)
     return np.where(is_edge, vertex, -1)
-
-
-def _cross(u: Floats, v: Floats) -> Floats:
-    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
 
 
 def _along(lines: Centerlines, arcs: Numbers, site: int) -> int:

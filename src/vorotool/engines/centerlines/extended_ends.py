@@ -19,6 +19,8 @@ from vorotool.numeric.arrays import (
     Floats,
     Numbers,
     connected_roots,
+    crosses,
+    dots,
     mask_of,
     norms,
     owners,
@@ -300,7 +302,7 @@ def end_middles(skeleton: Skeleton, leaves: Numbers) -> Floats:
         if skeleton.polygons.connectivity is not None:  # of pixels: shoulders are steps
             _set_single_edges(outlines, skeleton.radius[leaves[chosen]], to_middle, corners)
         met = _met(skeleton, outlines, origin[chosen], to_middle, corners)
-        is_round = _square(to_middle) < FLAT * FLAT * _square(met - origin[chosen])
+        is_round = dots(to_middle, to_middle) < FLAT * FLAT * dots(met - origin[chosen], met - origin[chosen])
         axis = _met(skeleton, outlines, origin[chosen], ways[chosen], corners)
         places[chosen] = np.where(is_round[:, None], axis, met)
     return places
@@ -356,7 +358,7 @@ def _set_single_edges(outlines: _Outlines, radius: Floats, to_middle: Floats, co
     sticks_out[1:-1] = outlines.is_vertex[1:-1] & (np.where(outlines.is_left[outline[1:-1]], turn, -turn) > 0)
     edge = np.flatnonzero(sticks_out[:-1] & sticks_out[1:])
     least = SINGLE * radius[outline[edge]]
-    edge = edge[_square(way[edge]) > least * least]
+    edge = edge[dots(way[edge], way[edge]) > least * least]
     edge = edge[np.bincount(outline[edge], minlength=len(radius))[outline[edge]] == 1]
     to_middle[outline[edge]] = outlines.points[edge] / 2 + outlines.points[edge + 1] / 2
     corners[outline[edge]] = np.stack([edge, edge + 1], axis=1)
@@ -371,13 +373,9 @@ def _shoulder(outlines: _Outlines, axis: Floats, side: Floats) -> tuple[Floats, 
 def _farthest(outlines: _Outlines, way: Floats) -> Numbers:
     """The point of each outline that is farthest in a direction, the first of several."""
     start, outline = outlines.start, owners(np.diff(outlines.start))
-    reach = (outlines.points * way[outline]).sum(axis=1)
+    reach = dots(outlines.points, way[outline])
     at = np.flatnonzero(reach == np.maximum.reduceat(reach, start[:-1])[outline])
     return at[np.diff(outline[at], prepend=-1) > 0]
-
-
-def _square(ways: Floats) -> Floats:
-    return (ways * ways).sum(axis=1)
 
 
 def _unit(ways: Floats) -> Floats:
@@ -450,11 +448,7 @@ class Walks:
         is_long: Booleans = np.logical_and.reduce(size > 0)
         last, before, far = ways / np.where(is_long, size, 1)[:, :, None]
         # at 0.09375, 0.15625 and 0.59375 radii: the smaller bend of both, none if they differ in sign
-        bends = _cross(before, last) / 0.0625, _cross(far, last) / 0.5
+        bends = crosses(before, last) / 0.0625, crosses(far, last) / 0.5
         bend = np.where(bends[0] * bends[1] > 0, np.minimum(*np.abs(bends)) * np.sign(bends[0]), 0.0)
         turned = last + 0.09375 * bend[:, None] * np.stack([-last[:, 1], last[:, 0]], axis=1)
         return np.where(is_long[:, None], turned, straight)
-
-
-def _cross(u: Floats, v: Floats) -> Floats:
-    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]

@@ -16,7 +16,7 @@ from vorotool.engines.centerlines.twigs import TIE
 from vorotool.engines.common import nearest_on_segments
 from vorotool.engines.skeleton.parts import core_skeleton
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Booleans, Columns, Floats, owners, ranks_of, starts_of
+from vorotool.numeric.arrays import Booleans, Columns, Floats, dots, owners, ranks_of, starts_of
 from vorotool.numeric.parallel import Progress
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
@@ -180,7 +180,7 @@ def nearest_place(skeleton: Skeleton, place: tuple[float, float], arcs: NDArray[
 def _squares_to_pieces(points: Floats, p: Floats) -> Floats:
     """Squared distances from the piece that begins at each point; the last has none."""
     off = nearest_on_segments(p, points, np.append(points[1:], points[-1:], axis=0)) - p
-    return (off * off).sum(axis=1)
+    return dots(off, off)
 
 
 def _nearest_on_arc(skeleton: Skeleton, arc: int, p: Floats) -> tuple[float, float]:

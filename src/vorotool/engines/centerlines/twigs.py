@@ -18,6 +18,8 @@ from vorotool.numeric.arrays import (
     Columns,
     Floats,
     Numbers,
+    crosses,
+    dots,
     mask_of,
     norms,
     owners,
@@ -285,7 +287,7 @@ def _gaps(skeleton: Skeleton) -> _Gaps:
     begins, ends = _sides(skeleton)
     xy, following = skeleton.polygons.xy, skeleton.polygons.following
     to_node, way = skeleton.vertices[begins.node] - xy[begins.vertex], (xy[following] - xy)[begins.vertex]
-    is_forward = way[:, 0] * to_node[:, 1] - way[:, 1] * to_node[:, 0] > 0  # what is inside is on the left
+    is_forward = crosses(way, to_node) > 0  # what is inside is on the left
     one, other = (_gaps_along(skeleton, begins[is_forward == along], ends, along) for along in (True, False))
     return one + other
 
@@ -432,7 +434,7 @@ def convex_trees(chains: Chains, origins: Floats) -> Trees:
     way = chains.target - chains.source
     length = norms(way)
     normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / length[:, None]
-    offset = (normal * (chains.source - np.repeat(origins, sizes, axis=0))).sum(axis=1)
+    offset = dots(normal, chains.source - np.repeat(origins, sizes, axis=0))
     lines = list(zip(*normal.T.tolist(), offset.tolist(), strict=True))
     nodes: list[Line] = []
     arcs: list[tuple[int, int, int, int]] = []

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.delaunay.delaunay import core_mesh, triangulated
 from vorotool.errors import InputError, UsageError, VerificationError
-from vorotool.numeric.arrays import mask_of
+from vorotool.numeric.arrays import dots, mask_of, norms
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import shown_number
@@ -165,7 +165,7 @@ def _by_rule(graph: ProximityGraph) -> NDArray[np.bool_]:
     for start in range(0, len(kept), _CHUNK):
         rows = np.arange(start, min(start + _CHUNK, len(kept)))
         a, b = (scaled[mesh.edges[rows, side]] for side in (0, 1))
-        middle, length = a / 2 + b / 2, np.sqrt(((b - a) * (b - a)).sum(axis=1))
+        middle, length = a / 2 + b / 2, norms(b - a)
         nearest = own[tree.nearest(shapely.points(middle))]
         kept[rows[_held(mesh.points, mesh.edges[rows], nearest, holds)]] = False
         open_rows = kept[rows]  # nearly all of these have empty discs: few points are near
@@ -204,7 +204,7 @@ def _lune_holds(points: Places, edges: Ends, numbers: NDArray[np.intp]) -> NDArr
 
     a, b, p = points[edges[:, 0]], points[edges[:, 1]], points[numbers]
     with np.errstate(all="ignore"):
-        side, one, other = (((u - v) * (u - v)).sum(axis=1) for u, v in ((a, b), (a, p), (b, p)))
+        side, one, other = (dots(u - v, u - v) for u, v in ((a, b), (a, p), (b, p)))
         most = np.maximum(one, other)
         return _decided(most - side, most + side, exactly, (a, b, p))
 

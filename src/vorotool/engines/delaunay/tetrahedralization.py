@@ -15,7 +15,7 @@ from vorotool.engines.delaunay.delaunay import report_duplicates
 from vorotool.errors import LimitError
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.parallel import Progress, Run, running
-from vorotool.types.mesh.tetrahedralization import FACES, Tetrahedralization, norms
+from vorotool.types.mesh.tetrahedralization import FACES, Tetrahedralization, scaled_norms
 from vorotool.types.points.point_set import known_of_points
 from vorotool.types.table import Table
 
@@ -143,7 +143,7 @@ def space_table(mesh: Tetrahedralization) -> Table:
         "neighbors": np.ma.array(found["neighbors"], mask=is_duplicate),
         "cell_volume": np.ma.array(found["cell_volume"], mask=is_duplicate | on_hull),
         "nearest_label": np.ma.array(labels[nearest], mask=alone),
-        "nearest_distance": np.ma.array(norms(mesh.points[nearest] - mesh.points), mask=alone),
+        "nearest_distance": np.ma.array(scaled_norms(mesh.points[nearest] - mesh.points), mask=alone),
         "on_hull": np.ma.array(on_hull, mask=is_duplicate),
         "duplicate_of_label": np.ma.array(labels[mesh.first], mask=~is_duplicate),
     }

@@ -18,7 +18,7 @@ from vorotool.engines.common import fail
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import InputError, RepairWarning, option, warn
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, norms, ranges
+from vorotool.numeric.arrays import Floats, Indices, crosses, dots, norms, ranges
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.curves.inverse_functions import hypotenuse
@@ -234,19 +234,19 @@ def _sites_as_given(graph: PlanarGraph, sites: Indices) -> tuple[Floats, Floats,
 def _equally_far(about: Floats, radius: Floats, at: Floats, normal: Floats, is_point: NDArray[np.bool_]) -> Floats:
     """Places near others that are equally far from three sites each, by Newton's method; NaN where it fails."""
     p, r = about.copy(), radius.copy()
-    side = np.where(((p[:, None] - at) * normal).sum(axis=2) < 0, -1.0, 1.0)
+    side = np.where(dots(p[:, None] - at, normal) < 0, -1.0, 1.0)
     for _ in range(NEWTON_STEPS):
         away = p[:, None] - at
         length = norms(away)
         with np.errstate(all="ignore"):
             slope = np.where(is_point[..., None], away / length[..., None], normal * side[..., None])
-            value = np.where(is_point, length, (away * slope).sum(axis=2)) - r[:, None]
+            value = np.where(is_point, length, dots(away, slope)) - r[:, None]
             # the differences of the equations have no radius in them
             u, v = slope[:, 1] - slope[:, 0], slope[:, 2] - slope[:, 0]
             f, g = value[:, 0] - value[:, 1], value[:, 0] - value[:, 2]
-            whole = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+            whole = crosses(u, v)
             step = np.stack([f * v[:, 1] - g * u[:, 1], u[:, 0] * g - v[:, 0] * f], axis=1) / whole[:, None]
-            r += value[:, 0] + (slope[:, 0] * step).sum(axis=1)
+            r += value[:, 0] + dots(slope[:, 0], step)
             p += step
     return p
 

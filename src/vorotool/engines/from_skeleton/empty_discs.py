@@ -12,7 +12,7 @@ from vorotool.convert.sites import as_sites
 from vorotool.engines.from_skeleton.largest_discs import Axis, Candidates, bernstein_roots, check_count
 from vorotool.engines.skeleton.diagrams import diagram_of_all, skeleton_in
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import Floats, Numbers, mask_of, starts_of
+from vorotool.numeric.arrays import Floats, Numbers, crosses, dots, mask_of, starts_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
@@ -174,13 +174,13 @@ class _Space(Axis):
         edge, arc = shapely.STRtree(boxes).query(shapely.linestrings(np.stack([a, b], axis=1)))
         way = (b - a)[edge]
         beside = places[:, arc] - a[edge]
-        height = way[:, 0] * beside[..., 1] - way[:, 1] * beside[..., 0]
+        height = crosses(way, beside)
         roots = bernstein_roots(*height)
         hand, pair = np.nonzero((roots >= 0) & (roots <= 1))
         u, arc, edge, way = roots[hand, pair], arc[pair], edge[pair], way[pair]
         found = measures[arc]
         xy = found.place(u)
-        share = ((xy - a[edge]) * way).sum(axis=1) / (way * way).sum(axis=1)
+        share = dots(xy - a[edge], way) / dots(way, way)
         from_ends = [np.abs(xy - end).max(axis=1) for end in (found.source, found.target)]
         is_node = np.minimum(*from_ends) <= self.rounding
         kept = np.flatnonzero((share >= 0) & (share <= 1) & ~is_node)

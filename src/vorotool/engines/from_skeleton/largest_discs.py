@@ -12,7 +12,7 @@ from vorotool.engines.skeleton.clearance import SitePlaces, clearance_course, is
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Columns, Floats, Numbers, mask_of, norms, starts_of, within
+from vorotool.numeric.arrays import Columns, Floats, Numbers, dots, mask_of, norms, starts_of, within
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import Progress
@@ -65,11 +65,11 @@ class DiscPlaces:
         m, r = self.measures[rows], self._radii[:, rows]
         places = np.stack([m.source, m.control, m.target])
         away, both = places - center, r + radius
-        on_lines = np.stack([both[i] * both[j] - (away[i] * away[j]).sum(axis=1) for i, j in _ENDS])
+        on_lines = np.stack([both[i] * both[j] - dots(away[i], away[j]) for i, j in _ENDS])
         vertex = self.vertex[rows]
         way = center - vertex
-        known = ((way * way).sum(axis=1) - radius * radius) / 2
-        left = known - ((places - vertex) * way).sum(axis=2)
+        known = (dots(way, way) - radius * radius) / 2
+        left = known - dots(places - vertex, way)
         on_parabolas = radius * r - left
         x = np.stack([m.slope0, m.slope0, m.slope1])
         squares = radius * radius * m.half * m.half
@@ -101,7 +101,7 @@ def _excess(m: ArcMeasures, u: Floats, center: Floats, radius: Floats) -> tuple[
     control = m.control
     v = u[:, None]
     moving = 2 * ((1 - v) * (control - m.source) + v * (m.target - control))
-    ratio = np.divide((away * moving).sum(axis=1), distance, out=np.zeros_like(distance), where=distance > 0)
+    ratio = np.divide(dots(away, moving), distance, out=np.zeros_like(distance), where=distance > 0)
     return distance - (m.radius(u) + radius), ratio - _growth(m, u)
 
 
@@ -190,7 +190,7 @@ class Plateaus:
         flat = np.flatnonzero((course_slope == 0).all(axis=1))
         own = self.number[skeleton.arcs[flat, 0]]
         way = ends[1][own] - ends[0][own]
-        away = [((skeleton.vertices[skeleton.arcs[flat, k]] - xy[own]) * way).sum(axis=1) for k in (0, 1)]
+        away = [dots(skeleton.vertices[skeleton.arcs[flat, k]] - xy[own], way) for k in (0, 1)]
         inside = away[0] * away[1] <= 0
         arc[own[inside]] = flat[inside]
         for k in (0, 1):
@@ -445,7 +445,7 @@ class _MoreDiscs:
         ends = axis.skeleton.vertices[np.stack([axis.segments.first[self.whole], axis.segments.last[self.whole]])]
         way = ends[1] - ends[0]
         away = last.xy[disc] - ends[0]
-        share = np.clip((away * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), np.finfo(float).tiny), 0, 1)
+        share = np.clip(dots(away, way) / np.maximum(dots(way, way), np.finfo(float).tiny), 0, 1)
         apart = norms(away - share[:, None] * way) - (own.radius + last.radius[disc])
         touched = (disc >= 0) & (apart < -axis.rounding)
         is_new = mask_of(self.whole[touched], len(axis.middles))

@@ -19,7 +19,7 @@ from vorotool.engines.from_skeleton.contour_walk import (
 )
 from vorotool.errors import UsageError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, norms, owners, starts_of
+from vorotool.numeric.arrays import Floats, Indices, crosses, dots, norms, owners, starts_of
 from vorotool.numeric.curves.flatten import chords_of, circle_tolerances, middles_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.lazy import shapely
@@ -134,7 +134,7 @@ class _Discs:
 def _edge_feet(a: _Discs, b: _Discs) -> tuple[Floats, Floats, list[Floats]]:
     """Where the common tangent on the right of a -> b touches the discs, and by how much that magnifies errors."""
     way, growth = b.center - a.center, b.r - a.r
-    square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
+    square = np.maximum(dots(way, way), np.finfo(float).tiny)
     distance = np.sqrt(square)
     along = np.sqrt(np.maximum(distance - np.abs(growth), 0) * (distance + np.abs(growth)))
     inward = _turned((along[:, None] * way - growth[:, None] * _turned(way)) / square[:, None])
@@ -145,7 +145,7 @@ def _edge_feet(a: _Discs, b: _Discs) -> tuple[Floats, Floats, list[Floats]]:
 def _common_point(a: _Discs, b: _Discs) -> tuple[Floats, Floats]:
     """The point on the right of a -> b that is on both circles, and by how much that magnifies errors."""
     way = b.center - a.center
-    square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
+    square = np.maximum(dots(way, way), np.finfo(float).tiny)
     distance = np.sqrt(square)
     part = (square + (a.r - b.r) * (a.r + b.r)) / (2 * square)
     height = np.sqrt(np.maximum((a.r - part * distance) * (a.r + part * distance), 0))
@@ -212,7 +212,7 @@ def _caps(
     run = np.flatnonzero(is_cap)
     a, b, c = start[run], end[run], center[run]
     u, v = a - c, b - c
-    is_long = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0  # over half a circle
+    is_long = crosses(u, v) < 0  # over half a circle
     middle = middles_of(a, b, c, is_long)
     starts = np.concatenate([a, middle[is_long]])
     ends = np.concatenate([np.where(is_long[:, None], middle, b), b[is_long]])

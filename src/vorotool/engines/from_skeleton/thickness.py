@@ -12,7 +12,7 @@ from vorotool import _core
 from vorotool.engines.common import fail
 from vorotool.engines.skeleton.parts import core_skeleton, with_arcs
 from vorotool.errors import InputError, UsageError
-from vorotool.numeric.arrays import Floats, norms
+from vorotool.numeric.arrays import Floats, dots, norms
 from vorotool.numeric.checks import as_array, checked_threads, described
 from vorotool.numeric.numbers import pair_of_doubles, shown_number, whole_number
 from vorotool.numeric.parallel import Progress, report
@@ -202,12 +202,12 @@ class _Discs:
         to_focus, to_source = place - self.focus[near], place - self.source[near]
         way, radius = (self.target - self.source)[near], self.radius[near]
         growth = radius[:, 1] - radius[:, 0]
-        linear = (_dot(way, way) - growth * growth, -_dot(way, to_source) - growth * radius[:, 0])
-        bent = (-2 * _dot(self.bend[near], to_focus), -_dot(self.way[near], to_focus))
-        start = _dot(to_focus, to_focus) - 2 * _dot(self.source[near] - self.focus[near], to_focus)
+        linear = (dots(way, way) - growth * growth, -dots(way, to_source) - growth * radius[:, 0])
+        bent = (-2 * dots(self.bend[near], to_focus), -dots(self.way[near], to_focus))
+        start = dots(to_focus, to_focus) - 2 * dots(self.source[near] - self.focus[near], to_focus)
         is_linear = self.is_linear[near]
         a, b = np.where(is_linear, linear, bent)
-        c = np.where(is_linear, _dot(to_source, to_source) - radius[:, 0] * radius[:, 0], start)
+        c = np.where(is_linear, dots(to_source, to_source) - radius[:, 0] * radius[:, 0], start)
         with np.errstate(divide="ignore", invalid="ignore"):
             sums = -(b + np.copysign(np.sqrt(b * b - a * c), b))
             u = np.concatenate([sums / a, c / sums])
@@ -235,10 +235,6 @@ class _Discs:
         crosses = meets[x0 + (place[1] - y0) * (x1 - x0) / (y1 - y0) > place[0]]
         odd = np.bincount(self.polygon[crosses], minlength=len(self.is_line)) % 2 == 1
         return bool((odd & ~self.is_line).any())
-
-
-def _dot(a: Floats, b: Floats) -> Floats:
-    return np.asarray((a * b).sum(axis=1))
 
 
 def _squared(place: Floats, columns: Floats) -> Floats:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
-from vorotool.numeric.arrays import Floats, mask_of, norms
+from vorotool.numeric.arrays import Floats, dots, mask_of, norms
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress, report
 from vorotool.types.arguments import check_value
@@ -163,7 +163,7 @@ def _is_held(discs: Discs, disc: int, tolerance: float) -> bool:
     ways = (discs.feet_of(disc) - discs.xy[disc]) / discs.radius[disc]
     slack = 8 * tolerance / float(discs.radius[disc]) + 1e-12
     turn = ways[:, None, 0] * ways[:, 1] - ways[:, None, 1] * ways[:, 0]
-    is_next = (turn > slack) | ((np.abs(turn) <= slack) & ((ways[:, None] * ways).sum(axis=2) < 0))
+    is_next = (turn > slack) | ((np.abs(turn) <= slack) & (dots(ways[:, None], ways) < 0))
     return bool(is_next.any(axis=1).all())  # each has one within half a turn to the left
 
 

@@ -15,7 +15,7 @@ from vorotool import _core
 from vorotool.engines.common import label_array, refuse_negative
 from vorotool.errors import InputError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import norms
+from vorotool.numeric.arrays import dots, norms
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress
 from vorotool.types.pixels import CELL, Frame, PixelSides
@@ -215,7 +215,7 @@ class Regions:
         across = [of_one // side for side in self.sides.units[::-1]]
         fits = int(faces.max(initial=0)) * sum(across) < 2**63
         kind = np.int64 if fits else object
-        exact = (faces.astype(kind) * np.array(across, kind)).sum(axis=1)
+        exact = dots(faces.astype(kind), np.array(across, kind))
         return self._lengths(exact if fits else exact.astype(np.float64), len(across) - 1)
 
 

@@ -12,7 +12,7 @@ from vorotool.engines.skeleton.clearance import clearance_course, plateaus
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError, option
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Columns, Floats, Indices, mask_of
+from vorotool.numeric.arrays import Columns, Floats, Indices, crosses, dots, mask_of
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress, Run
 from vorotool.types.polygons.planar_graph import moved_feet, projected
@@ -259,7 +259,7 @@ def _to_middles(skeleton: Skeleton, flow: Flow, ways: Ways, long: Indices) -> No
     own = neck[flow.plateau[skeleton.arcs[flat, 0]]]
     begin, way = skeleton.vertices[ends[:, 0]], skeleton.vertices[ends[:, 1]] - skeleton.vertices[ends[:, 0]]
     places = skeleton.vertices[skeleton.arcs[flat]] - begin[own, None]
-    along = (places * way[own, None]).sum(axis=2) / np.square(way).sum(axis=1)[own, None]
+    along = dots(places, way[own, None]) / dots(way, way)[own, None]
     beyond = np.maximum(np.abs(along.mean(axis=1) - 0.5) - np.abs(along[:, 1] - along[:, 0]) / 2, 0)
     order = np.lexsort((along.min(axis=1), beyond, own))
     chosen = order[np.flatnonzero(np.diff(own[order], prepend=-1))]
@@ -335,8 +335,8 @@ def _widths(skeleton: Skeleton, ends: Floats, is_edge: NDArray[np.bool_]) -> tup
     edge = np.where(turned[:, None, None], places[:, 1], places[:, 0])
     point = np.where(turned[:, None], places[:, 0, 0], places[:, 1, 0])
     way, to_point = edge[:, 1] - edge[:, 0], point - edge[:, 0]
-    cross = np.abs(way[:, 0] * to_point[:, 1] - way[:, 1] * to_point[:, 0])
-    between, along = np.square(to_point).sum(axis=1), np.square(way).sum(axis=1)
+    cross = np.abs(crosses(way, to_point))
+    between, along = dots(to_point, to_point), dots(way, way)
     has_edge = is_edge[:, 0] | is_edge[:, 1]
     square = np.where(has_edge[:, None], np.stack([cross, along], axis=1), np.stack([between, 0 * between], axis=1))
     length = np.sqrt(np.maximum(along, 1).astype(np.float64))

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
-from vorotool.numeric.arrays import Floats, connected_roots, mask_of, norms, owners, ranges
+from vorotool.numeric.arrays import Floats, connected_roots, dots, mask_of, norms, owners, ranges
 from vorotool.numeric.lazy import shapely
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.arc_measures import ArcMeasures
@@ -94,7 +94,7 @@ def _is_part(pruned: Skeleton, own: NDArray[np.intp], skeleton: Skeleton, other:
         right &= norms(part.place(on_part) - whole.place(on_whole)) <= tolerance
         right &= np.abs(part.radius(on_part) - whole.radius(on_whole)) <= tolerance
     # chords give the length of a part to a fraction that does not matter for whether it is the right one
-    chord = np.sqrt(np.square(part.place(np.ones(len(own))) - part.place(np.zeros(len(own)))).sum(axis=1))
+    chord = norms(part.place(np.ones(len(own))) - part.place(np.zeros(len(own))))
     right &= (part.length >= chord - tolerance) & (part.length <= whole.length + tolerance)
     return right
 
@@ -103,14 +103,14 @@ def _parameter_at(arcs: ArcMeasures, place: Floats) -> Floats:
     """Where each arc is nearest to a place on it, by Newton's method from a place beside it."""
     chord, bend = arcs.target - arcs.source, arcs.source - 2 * arcs.control + arcs.target
     # the parameter of a parabola is linear across its axis, which the bend is along
-    is_bent = (bend * bend).sum(axis=1) > 2.0**-20 * (chord * chord).sum(axis=1)
+    is_bent = dots(bend, bend) > 2.0**-20 * dots(chord, chord)
     across = np.where(is_bent[:, None], np.stack([-bend[:, 1], bend[:, 0]], axis=1), chord)
-    u = _ratio(((place - arcs.source) * across).sum(axis=1), (chord * across).sum(axis=1))
+    u = _ratio(dots(place - arcs.source, across), dots(chord, across))
     for _ in range(_NEWTON_STEPS):
         way = arcs.control - arcs.source
         at = arcs.source + u[:, None] * (2 * way + u[:, None] * bend)
         speed = 2 * (way + u[:, None] * bend)
-        u = u + _ratio(((place - at) * speed).sum(axis=1), (speed * speed).sum(axis=1))
+        u = u + _ratio(dots(place - at, speed), dots(speed, speed))
     return np.clip(u, 0, 1)
 
 

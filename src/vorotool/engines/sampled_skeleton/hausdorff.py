@@ -15,7 +15,7 @@ from vorotool.engines.skeleton.exact import diagram_of_placed, skeleton_of
 from vorotool.engines.skeleton.verify_bounds import distances_to, places_on_arcs
 from vorotool.errors import silent
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import starts_of
+from vorotool.numeric.arrays import crosses, starts_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.types.box import Extent, widened
 from vorotool.types.skeleton.segment_voronoi import EDGE
@@ -67,7 +67,7 @@ def _focal_heights(
     edge = ends[np.where(is_edge[:, 0], sites[:, 0], sites[:, 1])]
     vertex = ends[np.where(is_edge[:, 0], sites[:, 1], sites[:, 0]), 0]
     along, way = edge[:, 1] - edge[:, 0], vertex - edge[:, 0]
-    return np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / hypotenuse(*along.T)
+    return np.abs(crosses(along, way)) / hypotenuse(*along.T)
 
 
 def _largest(values: NDArray[np.float64]) -> float | None:

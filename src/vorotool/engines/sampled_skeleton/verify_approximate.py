@@ -11,7 +11,7 @@ from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton, BoundarySamples
 from vorotool.engines.skeleton.verify_bounds import place_error
 from vorotool.engines.skeleton.verify_skeleton import check_arrays
-from vorotool.numeric.arrays import Floats, norms, owners
+from vorotool.numeric.arrays import Floats, crosses, dots, norms, owners
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.lazy import shapely
 
@@ -40,8 +40,8 @@ def check_samples(samples: BoundarySamples, step: float | None = None) -> None:
     a, b = graph.points[graph.segments[samples.segment[points:]]].astype(np.float64).swapaxes(0, 1)
     way, from_a = b - a, seeds[points:] - a
     length = norms(way)
-    across = (way[:, 0] * from_a[:, 1] - way[:, 1] * from_a[:, 0]) / length
-    along = (way * from_a).sum(axis=1) / length
+    across = (crosses(way, from_a)) / length
+    along = dots(way, from_a) / length
     at = first_wrong((np.abs(across) > SEED_ERROR + 2.0**-50 * length) | (along <= 0) | (along >= length))
     if at is not None:
         fail(f"seed {points + at} is not on its edge")

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.arrays import Floats, norms
+from vorotool.numeric.arrays import Floats, dots, norms
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.parallel import Progress, Run
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -47,8 +47,8 @@ class SitePlaces:
     def feet(self, site: NDArray[np.int32], place: Floats) -> Floats:
         """The nearest place on each closed site."""
         a, way = self.ends[site, 0], self.ends[site, 1] - self.ends[site, 0]
-        square = (way * way).sum(axis=1)
-        t = np.divide(((place - a) * way).sum(axis=1), square, out=np.zeros(len(site)), where=square > 0)
+        square = dots(way, way)
+        t = np.divide(dots(place - a, way), square, out=np.zeros(len(site)), where=square > 0)
         feet: Floats = a + np.clip(t, 0, 1)[:, None] * way
         return np.where((t > 1)[:, None], self.ends[site, 1], feet)
 

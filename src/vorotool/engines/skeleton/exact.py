@@ -14,7 +14,7 @@ from vorotool.engines.arrangement.repaired_polygons import PlacedShapes, placed_
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi, unwanted_sides
 from vorotool.errors import InputError, Kind, Message, UsageError, VorotoolWarning, option, warn
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Indices, ranks_of
+from vorotool.numeric.arrays import Indices, crosses, ranks_of
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.parallel import Progress, Run
@@ -404,7 +404,7 @@ class _FarAway:
         for end in (0, 1):
             point, other, key = self.ends[:, end], self.ends[:, 1 - end], self.outer[:, end] - self.first
             out, along = OUTWARDS[self.side], self.points[other] - self.points[point]
-            hand = np.where(out[:, 0] * along[:, 1] - out[:, 1] * along[:, 0] > 0, 0, 1)
+            hand = np.where(crosses(out, along) > 0, 0, 1)
             seen = self.faces if end == 0 else self.faces[:, ::-1]  # from the point outwards
             rows = np.arange(len(key))
             faces[key, hand] = seen[rows, hand]

@@ -24,7 +24,7 @@ from vorotool.engines.skeleton.exact import (
 )
 from vorotool.errors import InputError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Indices, following, owners
+from vorotool.numeric.arrays import Indices, crosses, dots, following, owners
 from vorotool.numeric.curves.inverse_functions import angle_of, hypotenuse
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import is_among
@@ -193,7 +193,7 @@ def _faces_of(elements: ElementDiagram, kept: NDArray[np.int32]) -> NDArray[np.i
     segment = nearest[by_edge] - vertices
     a, b = elements.shapes.points[shapes.segments[segment]].astype(np.float64).swapaxes(0, 1)
     place = _in_shapes(elements, middle[by_edge])
-    left = (b - a)[:, 0] * (place - a)[:, 1] - (b - a)[:, 1] * (place - a)[:, 0] > 0
+    left = crosses(b - a, place - a) > 0
     face[by_edge] = shapes.segment_faces[segment, np.where(left, 0, 1)]
     by_vertex = np.flatnonzero((nearest < vertices) & ~unbounded)
     face[by_vertex] = _sector_faces(shapes, nearest[by_vertex], _in_shapes(elements, middle[by_vertex]))
@@ -275,7 +275,7 @@ def _portions_to_arcs(
         inside = (a[0] * way[:, 1] > a[1] * way[:, 0]) & (b[0] * way[:, 1] < b[1] * way[:, 0])
         if inside.any():
             middle = a / hypotenuse(*a) + b / hypotenuse(*b)
-            towards = (way * middle).sum(axis=1) / hypotenuse(*way.T)
+            towards = dots(way, middle) / hypotenuse(*way.T)
             vertex = int(around[np.where(inside, towards, -np.inf).argmax()])
             yield (vertex, point), (site_of[corners + right], site_of[corners + left])
 

@@ -13,7 +13,7 @@ from vorotool.engines.skeleton.diagrams import batch_diagram
 from vorotool.engines.skeleton.exact import diagram_of_graph, interior_skeleton, skeleton_of
 from vorotool.engines.skeleton.parts import outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.verify_regions import border_components, with_corners_apart
-from vorotool.numeric.arrays import connected_roots, mask_of, norms, owners
+from vorotool.numeric.arrays import connected_roots, dots, mask_of, norms, owners
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Run
 from vorotool.types.box import widened
@@ -205,8 +205,8 @@ def _from_parabola(x: Places, source: Places, control: Places, target: Places) -
         t = np.full(len(x), start)
         for _ in range(NEWTON_STEPS):
             from_x, tangent = away(t), first + 2 * t[:, None] * bend
-            slope = (from_x * tangent).sum(axis=1)
-            curvature = (tangent * tangent).sum(axis=1) + 2 * (from_x * bend).sum(axis=1)
+            slope = dots(from_x, tangent)
+            curvature = dots(tangent, tangent) + 2 * dots(from_x, bend)
             step = np.divide(slope, np.abs(curvature), out=np.zeros(len(x)), where=curvature != 0)
             moved = np.clip(t - step, 0, 1)
             if np.array_equal(moved, t):

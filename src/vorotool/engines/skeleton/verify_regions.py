@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.engines.skeleton.shortened_edges import corner_sectors
-from vorotool.numeric.arrays import Floats, Indices, connected_roots, norms
+from vorotool.numeric.arrays import Floats, Indices, connected_roots, crosses, norms
 from vorotool.numeric.numbers import distinct, is_among
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
@@ -260,7 +260,7 @@ def areas_beside(skeleton: Skeleton, sites: SitePlaces) -> Floats:
         site = skeleton.sites[:, hand]
         from_source, from_target = sites.feet(site, source), sites.feet(site, target)
         a, b = from_target - source, from_source - target  # diagonals
-        total += sign * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+        total += sign * (crosses(a, b))
     return total
 
 
@@ -277,6 +277,6 @@ def face_measures(graph: PlanarGraph) -> tuple[Floats, Floats]:
     for hand, sign in ((0, 0.5), (1, -0.5)):
         face = graph.segment_faces[:, hand]
         a, b = (ends[:, k] - corner[face] for k in (0, 1))
-        np.add.at(area, face, sign * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]))
+        np.add.at(area, face, sign * (crosses(a, b)))
         np.add.at(perimeter, face, length)
     return area * (graph.scale * graph.scale), perimeter

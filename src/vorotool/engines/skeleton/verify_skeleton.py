@@ -25,7 +25,7 @@ from vorotool.engines.skeleton.verify_regions import (
     with_corners_apart,
 )
 from vorotool.errors import silent
-from vorotool.numeric.arrays import Floats, Indices, connected_roots, norms
+from vorotool.numeric.arrays import Floats, Indices, connected_roots, crosses, norms
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress, Run, running
@@ -99,7 +99,7 @@ def _areas_at_border(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph) 
     _, near = tree.query_nearest(shapely.points((a + b) / 2), all_matches=False)
     feet = [nearest_on_segments(place, *ends[near].swapaxes(0, 1)) for place in (a, b)]
     one, other = feet[1] - a, feet[0] - b  # diagonals
-    return polygon, np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]) / 2
+    return polygon, np.abs(crosses(one, other)) / 2
 
 
 def _stretches(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph) -> Floats:

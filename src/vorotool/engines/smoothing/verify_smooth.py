@@ -7,7 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.errors import VerificationError
-from vorotool.numeric.arrays import Floats, mask_of, owners
+from vorotool.numeric.arrays import Floats, crosses, dots, mask_of, owners
 from vorotool.numeric.curves.flatten import chained, places_at
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.lines import LedOn, SmoothLines, ends_of_lines
@@ -90,11 +90,11 @@ def _check_tangents(smoothed: SmoothLines, size: float) -> None:
     if (before[:, 3] != behind[:, 0]).any():
         raise VerificationError("the curves of a smooth line are not connected")
     u, v = before[:, 3] - before[:, 2], behind[:, 1] - behind[:, 0]
-    lengths = np.sqrt((u * u).sum(axis=1) * (v * v).sum(axis=1))
-    shortest = np.sqrt(np.minimum((u * u).sum(axis=1), (v * v).sum(axis=1)))
-    bend = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+    lengths = np.sqrt(dots(u, u) * dots(v, v))
+    shortest = np.sqrt(np.minimum(dots(u, u), dots(v, v)))
+    bend = np.abs(crosses(u, v))
     allowed = lengths * (BEND + np.divide(ROUNDING * size, shortest, out=np.ones(len(u)), where=shortest > 0))
-    wrong = np.flatnonzero((bend > allowed) | ((u * v).sum(axis=1) <= 0))
+    wrong = np.flatnonzero((bend > allowed) | (dots(u, v) <= 0))
     if len(wrong):
         raise VerificationError(f"smooth line {smoothed.line[joint[wrong[0]]]} has a corner inside")
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Columns, Floats, Indices, norms
+from vorotool.numeric.arrays import Columns, Floats, Indices, crosses, dots, norms
 from vorotool.types.polygons.planar_graph import PlanarGraph
 
 FAR = 2.0**34
@@ -75,7 +75,7 @@ class CutCurves(Columns):
         h = np.where(self.height > 0, self.height, 1)
         place = self.place(t)
         offset = place - self.origin
-        of_line = np.abs((place * self.line[:, :2]).sum(axis=1) - self.line[:, 2])
+        of_line = np.abs(dots(place, self.line[:, :2]) - self.line[:, 2])
         straight = np.where(np.isnan(self.origin[:, 0]), of_line, norms(offset))
         return np.where(self.height > 0, (t * t + h * h) / (2 * h), straight)
 
@@ -99,7 +99,7 @@ class CutCurves(Columns):
         """(k, 5, 2) closed rings of tangents and a chord around circular arcs."""
         a, b, middle = (self.place(t) - self.base for t in (t0, t1, (t0 + t1) / 2))
         square = (self.round * self.round)[:, None]
-        corners = [(one + middle) * square / (square + (one * middle).sum(axis=1)[:, None]) for one in (a, b)]
+        corners = [(one + middle) * square / (square + dots(one, middle)[:, None]) for one in (a, b)]
         return np.stack([a, corners[0], corners[1], b, a], axis=1) + self.base[:, None]
 
     def meets(self, place: Floats, normal: Floats, slack: Floats) -> Floats:
@@ -108,8 +108,8 @@ class CutCurves(Columns):
         is_bent = self.height > 0
         h = np.where(is_bent, self.height, 1)
         a = np.where(is_bent, across / (2 * h), 0)
-        ahead = b = (normal * self.way).sum(axis=1)
-        far = (normal * (self.base - place)).sum(axis=1)
+        ahead = b = dots(normal, self.way)
+        far = dots(normal, self.base - place)
         c = far - np.where(is_bent, h * across / 2, 0)
         is_round = self.round > 0
         a, c = np.where(is_round, far - self.round * b, a), np.where(is_round, far + self.round * b, c)
@@ -151,9 +151,9 @@ class CutCurves(Columns):
         is_bent = self.height > 0
         h = np.where(is_bent, self.height, 1)
         offset = place - self.base
-        along = (offset * self.way).sum(axis=1)
-        beside = self.way[:, 0] * offset[:, 1] - self.way[:, 1] * offset[:, 0]
-        squared = (self.way * self.way).sum(axis=1)
+        along = dots(offset, self.way)
+        beside = crosses(self.way, offset)
+        squared = dots(self.way, self.way)
         slope = along / h
         of_bent = np.abs(beside - (along * along - h * h) / (2 * h)) / np.sqrt(1 + slope * slope)
         t = np.where(is_bent, along, along / squared)
@@ -199,11 +199,11 @@ class CutEdges:
 
     def along(self, edge: Indices, places: Floats) -> Floats:
         """(k,) how far along edges places are."""
-        return (self.forward[edge] * (places - self.lines[edge, 0])).sum(axis=1)
+        return dots(self.forward[edge], places - self.lines[edge, 0])
 
     def beside(self, edge: Indices, places: Floats) -> Floats:
         """(k,) how far from the lines of edges."""
-        return np.abs((self.normal[edge] * (places - self.lines[edge, 0])).sum(axis=1))
+        return np.abs(dots(self.normal[edge], places - self.lines[edge, 0]))
 
     def place(self, ends: Floats, edge: Indices, far: Floats) -> Floats:
         """(k, 2) places along edges with such ends (m, 2, 2); between ends of one coordinate they have that too."""
@@ -245,9 +245,9 @@ def cut_curves(borders: Borders, graph: PlanarGraph, pieces: Indices) -> CutCurv
     p, q = np.where(left_is_point[:, None], la, ra), np.where(right_is_point[:, None], ra, la)
     middle = (p + q) / 2
     base[chosen], way[chosen] = middle, straight
-    squared = (straight * straight).sum(axis=1)
+    squared = dots(straight, straight)
     for end, place, where, infinite in ((0, a, first, -np.inf), (1, b, last, np.inf)):
-        t = ((place[chosen] - middle) * straight).sum(axis=1) / squared
+        t = dots(place[chosen] - middle, straight) / squared
         where[chosen] = np.where(ends[chosen, end] < 0, infinite, t)
     height, radius = np.zeros((2, len(pieces)))
     _take_parabolas(borders, graph, pieces, (base, way, height, first, last))
@@ -265,7 +265,7 @@ def _take_parabolas(borders: Borders, graph: PlanarGraph, pieces: Indices, curve
         return
     focus, a, b = (graph.points[at].astype(np.int64) for at in (point[mixed], *_ends(graph, segment[mixed])))
     along, offset = b - a, focus - a
-    double = along[:, 0] * offset[:, 1] - along[:, 1] * offset[:, 0]
+    double = crosses(along, offset)
     above = double != 0
     chosen, focus = mixed[above], focus[above].astype(np.float64)
     along = np.where(double[:, None] < 0, -along, along)[above].astype(np.float64)
@@ -274,7 +274,7 @@ def _take_parabolas(borders: Borders, graph: PlanarGraph, pieces: Indices, curve
     base[chosen], way[chosen], height[chosen] = focus, along, high
     for end, where in zip(borders.ends[pieces[chosen]].T, (first, last), strict=True):
         place, radius = borders.places[end], borders.radius[end]
-        t = (along * (place - focus)).sum(axis=1)
+        t = dots(along, place - focus)
         # on the steep sides of a sharp parabola the radius tells more than the place
         is_steep = high * radius < np.abs(t) * np.abs(place).sum(axis=1)
         where[chosen] = np.where(is_steep, np.copysign(np.sqrt(np.maximum(high * (2 * radius - high), 0)), t), t)
@@ -289,14 +289,14 @@ def _take_circles(borders: Borders, pieces: Indices, curves: tuple[Floats, ...])
     center = borders.center[pieces[chosen]]
     a, b = (borders.places[end] - center for end in borders.ends[pieces[chosen]].T)
     chord = b - a
-    is_short = ((a * b).sum(axis=1) > 0)[:, None]
+    is_short = (dots(a, b) > 0)[:, None]
     middle = np.where(is_short, a + b, np.stack([chord[:, 1], -chord[:, 0]], axis=1))
     middle /= norms(middle)[:, None]
     size = norms(a)
     base[chosen], way[chosen], radius[chosen] = center, middle, size
     for place, where in ((a, first), (b, last)):
-        beside = middle[:, 0] * place[:, 1] - middle[:, 1] * place[:, 0]
-        where[chosen] = beside / (size + (middle * place).sum(axis=1))
+        beside = crosses(middle, place)
+        where[chosen] = beside / (size + dots(middle, place))
 
 
 def _ends(graph: PlanarGraph, element: Indices) -> tuple[Indices, Indices]:
@@ -331,5 +331,5 @@ def _measured_from(graph: PlanarGraph, elements: Indices) -> tuple[Floats, Float
     one, other = _ends(graph, left[apart])
     way = points[other] - points[one]
     normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / norms(way)[:, None]
-    line[apart] = np.column_stack([normal, (normal * points[one]).sum(axis=1)])
+    line[apart] = np.column_stack([normal, dots(normal, points[one])])
     return origin, line

@@ -12,7 +12,18 @@ from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay, RegionOverlay
 from vorotool.engines.voronoi.regions import NearestElements
 from vorotool.errors import VerificationError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, following, mask_of, norms, ranges, ranks_of, starts_of
+from vorotool.numeric.arrays import (
+    Floats,
+    Indices,
+    crosses,
+    dots,
+    following,
+    mask_of,
+    norms,
+    ranges,
+    ranks_of,
+    starts_of,
+)
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.lazy import shapely
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
@@ -48,8 +59,8 @@ def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray
     """Return centers of arcs of at most half a circle; those that rounding flattens are lines."""
     circular = np.flatnonzero(~np.isnan(center[:, 0]))
     a, b = (places[end] - center[circular] for end in ends[circular].T)
-    cross = np.where(is_left[circular], 1, -1) * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-    is_lost = ((a * b).sum(axis=1) > 0) & (cross <= 0)
+    cross = np.where(is_left[circular], 1, -1) * (crosses(a, b))
+    is_lost = (dots(a, b) > 0) & (cross <= 0)
     made = center.copy()
     made[circular[is_lost]] = np.nan
     return made
@@ -136,7 +147,7 @@ def moved_vertices(arcs: Arcs, rings: Rings) -> Floats:
     if not at.size:
         return made
     made[at] = xy
-    most = float(np.sqrt(np.square(xy - arcs.vertices[at]).sum(axis=1).max()))
+    most = float(norms(xy - arcs.vertices[at]).max())
     size = np.diff(rings.start)
     around = np.add.reduceat(_lengths(arcs)[rings.half_edge >> 1], rings.start[:-1])
     thin = np.flatnonzero(np.abs(rings.area) <= 2 * most * (around + size * most))

@@ -28,7 +28,7 @@ from vorotool.engines.voronoi.site_graph import (
 )
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, owners, ranges, starts_of
+from vorotool.numeric.arrays import Floats, Indices, norms, owners, ranges, starts_of
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, is_among, rows_of
 from vorotool.numeric.parallel import Progress
@@ -432,22 +432,15 @@ def _nearest(owned: OwnedGraph, at: Exact, level: float) -> int:
     graph, count = owned.graph, len(owned.graph.points)
     place = np.array([float(at[0]), float(at[1])])
     points = graph.points.astype(np.float64)
-    squared = np.concatenate([_squared(points - place), _squared_of_segments(points, graph.segments, place)])
-    least = float(np.sqrt(squared.min()))
+    feet = nearest_on_segments(place, *points[graph.segments].swapaxes(0, 1))
+    distances = np.concatenate([norms(points - place), norms(feet - place)])
+    least = float(distances.min())
     margin = MARGIN * (float(np.abs(place).max()) + float(np.abs(points).max()) + 1)
-    candidates = np.flatnonzero(np.sqrt(squared) <= least + margin)
+    candidates = np.flatnonzero(distances <= least + margin)
     found = [(_exact_distance(graph, int(k), at), int(owned.element[k])) for k in candidates.tolist()]
     assert count
     squared_distance, site = min(each for each in found if each[1] != NOBODY)
     return OUTSIDE if np.isfinite(level) and squared_distance > Fraction(level) ** 2 else site
-
-
-def _squared(way: NDArray[np.float64]) -> NDArray[np.float64]:
-    return (way * way).sum(axis=1)
-
-
-def _squared_of_segments(points: NDArray[np.float64], segments: Any, place: NDArray[np.float64]) -> NDArray[np.float64]:
-    return _squared(nearest_on_segments(place, points[segments[:, 0]], points[segments[:, 1]]) - place)
 
 
 def _exact_distance(graph: Any, element: int, at: Exact) -> Fraction:

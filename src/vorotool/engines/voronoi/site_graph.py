@@ -22,7 +22,7 @@ from vorotool.engines.arrangement.repaired_polygons import flat_holes, given_sha
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import InputError, LimitError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Indices, owners, ranges, starts_of
+from vorotool.numeric.arrays import Indices, dots, owners, ranges, starts_of
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress, Run
 from vorotool.products.formats import resolved
@@ -329,7 +329,7 @@ def _noded(given: PolygonSet, graph: PlanarGraph) -> tuple[PolygonSet, NDArray[n
     along = a[after] - a
     inner = (place != a[edge]).any(axis=1) & (place != a[after[edge]]).any(axis=1)
     edge, place = edge[inner], place[inner]
-    far = ((place - a[edge]) * along[edge]).sum(axis=1)
+    far = dots(place - a[edge], along[edge])
     edge, _, *xy = np.unique(np.column_stack([edge, far, place]), axis=0).T
     order = np.argsort(np.concatenate([np.arange(count), edge]), kind="stable")
     places = np.concatenate([a, np.stack(xy, axis=1)])[order].astype(np.int32)

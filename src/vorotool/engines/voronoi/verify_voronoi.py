@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Floats, Indices, following, norms, owners
+from vorotool.numeric.arrays import Floats, Indices, dots, following, norms, owners
 from vorotool.numeric.curves.inverse_functions import PI, angle_of
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import shown_number, whole_number
@@ -160,7 +160,7 @@ def _below_circles(cells: VoronoiMap, source: Floats, target: Floats) -> Floats:
     first, last = angle_of(*a.T), angle_of(*b.T)
     is_left = cells.sites[cells.is_circle, 0] != OUTSIDE
     turn = np.where(is_left, np.mod(last - first, 2 * PI), -np.mod(first - last, 2 * PI))
-    square = (a * a).sum(axis=1)
+    square = dots(a, a)
     high = center[:, 1] - cells.frame[1]
     return high * (b[:, 0] - a[:, 0]) - (square * turn - b[:, 0] * b[:, 1] + a[:, 0] * a[:, 1]) / 2
 

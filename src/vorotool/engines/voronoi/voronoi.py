@@ -35,7 +35,7 @@ from vorotool.engines.voronoi.site_graph import (
     shared_elements,
 )
 from vorotool.errors import InputError, RepairWarning, UsageError
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, crosses
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.numbers import distinct, finite_double, shown_number
 from vorotool.numeric.parallel import Progress, Run, running
@@ -306,7 +306,7 @@ def _face_areas(graph: PlanarGraph, frame: Extent) -> Floats:
     for hand, sign in ((0, 1), (1, -1)):
         face = graph.segment_faces[:, hand]
         a, b = at[graph.segments.T] - near[face]
-        np.add.at(doubled, face, sign * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]))
+        np.add.at(doubled, face, sign * (crosses(a, b)))
         is_cut[face[is_out[graph.segments].any(axis=1)]] = True
     area: Floats = doubled / 2
     if is_cut.any():

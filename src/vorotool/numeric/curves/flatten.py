@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats, Indices, owners, starts_of, within
+from vorotool.numeric.arrays import Floats, Indices, dots, norms, owners, starts_of, within
 from vorotool.numeric.coordinates import finest_deviation, record_deviation
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 
@@ -41,12 +41,12 @@ def least_focal_distances(source: Floats, control: Floats, target: Floats) -> Fl
     least = np.full(len(source), np.inf)
     first, second = control - source, target - control
     bend = second - first
-    size = np.sqrt((bend * bend).sum(axis=1))
+    size = norms(bend)
     bent = np.flatnonzero(size > 0)
     axis = bend[bent] / size[bent][:, None]
     half = np.abs(first[bent, 0] * axis[:, 1] - first[bent, 1] * axis[:, 0])
     height = 2 * half * half / size[bent]
-    slopes = [(way[bent] * axis).sum(axis=1) / np.where(half > 0, half, 1) for way in (first, second)]
+    slopes = [dots(way[bent], axis) / np.where(half > 0, half, 1) for way in (first, second)]
     nearest = np.where(slopes[0] * slopes[1] < 0, 0, np.minimum(np.abs(slopes[0]), np.abs(slopes[1])))
     least[bent] = np.where(half > 0, height * (1 + nearest * nearest) / 2, np.inf)
     return least
@@ -89,7 +89,7 @@ def places_at(control: Floats, t: Floats) -> Floats:
 def cubic_polylines(control: Floats, tolerance: float | Floats) -> tuple[Floats, NDArray[np.int64]]:
     """Curves as polylines, divided evenly in their parameter."""
     second = control[:, 2:] - 2 * control[:, 1:-1] + control[:, :-2]
-    bend = np.sqrt((second * second).sum(axis=2)).max(axis=1, initial=0.0)
+    bend = norms(second).max(axis=1, initial=0.0)
     pieces = np.clip(np.ceil(np.sqrt(0.75 * bend / tolerance)), 1, MOST_PIECES).astype(np.int64)
     record_deviation(0.75 * bend / (pieces * pieces))
     curve = owners(pieces + 1)
@@ -121,21 +121,21 @@ def chords_of(
 def middles_of(start: Floats, end: Floats, center: Floats, is_long: NDArray[np.bool_]) -> Floats:
     """Middles of arcs that turn left, over half a circle where they are long."""
     u, v = start - center, end - center
-    is_wide = (u * v).sum(axis=1) < 0  # then the chord tells more than the sum of the ends
+    is_wide = dots(u, v) < 0  # then the chord tells more than the sum of the ends
     across = np.stack([(v - u)[:, 1], (u - v)[:, 0]], axis=1)
     middle = np.where(is_wide[:, None], across, np.where(is_long[:, None], -u - v, u + v))
-    square = np.maximum((middle * middle).sum(axis=1), np.finfo(float).tiny)
-    return np.asarray(center + np.sqrt((u * u).sum(axis=1) / square)[:, None] * middle)
+    square = np.maximum(dots(middle, middle), np.finfo(float).tiny)
+    return np.asarray(center + np.sqrt(dots(u, u) / square)[:, None] * middle)
 
 
 def _halvings(start: Floats, end: Floats, center: Floats, tolerance: float | Floats) -> NDArray[np.int64]:
     """(k,) how often each arc is halved."""
     is_arc = ~np.isnan(center[:, 0])
     a, b = np.where(is_arc[:, None], [start - center, end - center], 0)
-    square = (a * a).sum(axis=1)
-    quarter = np.square(b - a).sum(axis=1) / 4
+    square = dots(a, a)
+    quarter = dots(b - a, b - a) / 4
     halvings = np.zeros(len(a), dtype=np.int64)
-    is_wide = (a * b).sum(axis=1) < 0
+    is_wide = dots(a, b) < 0
     for _ in range(MOST_HALVINGS):
         radius = np.sqrt(square)
         # the height of the arc over its chord, and a quarter of the square of the chord of its half
@@ -154,7 +154,7 @@ def _halved(start: Floats, end: Floats, center: Floats, is_left: NDArray[np.bool
     """(k, 2^count - 1, 2) places inside arcs that divide them evenly."""
     ways = np.empty((len(start), 2**count + 1, 2))
     ways[:, 0], ways[:, -1] = start - center, end - center
-    radius = np.sqrt(np.square(ways[:, 0]).sum(axis=1))
+    radius = norms(ways[:, 0])
     step = 2**count
     while step > 1:
         a, b = ways[:, :-1:step], ways[:, step::step]
@@ -162,7 +162,7 @@ def _halved(start: Floats, end: Floats, center: Floats, is_left: NDArray[np.bool
         if step == 2**count:  # of a wide arc the chord tells more than the sum of its ends
             across = (b - a)[..., ::-1] * np.where(is_left[:, None, None], [1, -1], [-1, 1])
             middle = np.where((a * b).sum(axis=-1, keepdims=True) < 0, across, middle)
-        scale = radius[:, None] / np.sqrt((middle * middle).sum(axis=-1))
+        scale = radius[:, None] / norms(middle)
         ways[:, step // 2 :: step] = scale[..., None] * middle
         step //= 2
     places: Floats = center[:, None] + ways[:, 1:-1]

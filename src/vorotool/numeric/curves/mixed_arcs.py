@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, Indices, ranges, starts_of
+from vorotool.numeric.arrays import Columns, Floats, Indices, crosses, dots, norms, ranges, starts_of
 from vorotool.numeric.curves.flatten import chords_of, polylines
 from vorotool.numeric.curves.inverse_functions import PI, hypotenuse, inverse_sine, inverse_sinh
 
@@ -23,7 +24,7 @@ _TERMS = 15
 
 
 @frozen(eq=False)
-class MixedArcs:
+class MixedArcs(Columns):
     """Arcs with two ends each."""
 
     source: Floats  # (n, 2) float64 array: the ends
@@ -33,26 +34,11 @@ class MixedArcs:
     center: Floats  # (n, 2) float64 array: of the circle of each circular arc; NaN of other arcs
     is_left: NDArray[np.bool_]  # (n,) bool array: whether a circular arc goes counter-clockwise around its center
 
-    def __getitem__(self, chosen: NDArray[np.bool_] | Indices) -> MixedArcs:
-        """Some of the arcs."""
-        return MixedArcs(
-            self.source[chosen],
-            self.target[chosen],
-            self.control[chosen],
-            self.center[chosen],
-            self.is_left[chosen],
-        )
-
     def reversed(self, chosen: NDArray[np.bool_]) -> MixedArcs:
         """The same arcs, some the other way round."""
-        turned = chosen[:, None]
-        return MixedArcs(
-            np.where(turned, self.target, self.source),
-            np.where(turned, self.source, self.target),
-            self.control,
-            self.center,
-            self.is_left ^ chosen,
-        )
+        ends = (self.source, self.target)
+        source, target = (np.where(chosen[:, None], a, b) for a, b in (ends[::-1], ends))
+        return replace(self, source=source, target=target, is_left=self.is_left ^ chosen)
 
     @property
     def is_circle(self) -> NDArray[np.bool_]:
@@ -117,7 +103,7 @@ class MixedArcs:
         """Radius, sine and cosine of half the angle, and whether that is over half a turn, of circular arcs."""
         a, b = self.source[circles] - self.center[circles], self.target[circles] - self.center[circles]
         radius, chord = hypotenuse(*a.T), hypotenuse(*(b - a).T)
-        cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+        cross = crosses(a, b)
         sine = np.minimum(np.divide(chord, 2 * radius, out=np.zeros_like(chord), where=radius > 0), 1)
         cosine = np.sqrt((1 - sine) * (1 + sine))
         np.divide(np.abs(cross), chord * radius, out=cosine, where=sine > _LARGE)
@@ -150,26 +136,26 @@ def _segments_of(sine: Floats, cosine: Floats) -> Floats:
 def areas_beside(source: Floats, control: Floats, target: Floats, center: Floats) -> Floats:
     """(n,) signed areas between a place and curves: positive where they go counter-clockwise around it."""
     a, b = source - center, target - center
-    triangle = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+    triangle = (crosses(a, b)) / 2
     u, v = control - source, target - source
-    beside = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 3
+    beside = (crosses(u, v)) / 3
     areas: Floats = triangle + np.where(np.isnan(beside), 0, beside)
     return areas
 
 
 def lengths_of(source: Floats, control: Floats, target: Floats) -> Floats:
     """(n,) lengths of curves."""
-    length = _norm(target - source)
+    length = norms(target - source)
     bent = np.flatnonzero(~np.isnan(control[:, 0]))
     first, second = control[bent] - source[bent], target[bent] - control[bent]
     bend = second - first
-    size = _norm(bend)
+    size = norms(bend)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         axis = bend / size[:, None]
-        along = np.abs(first[:, 0] * axis[:, 1] - first[:, 1] * axis[:, 0])
-        s0, s1 = ((way * axis).sum(axis=1) / along for way in (first, second))
+        along = np.abs(crosses(first, axis))
+        s0, s1 = (dots(way, axis) / along for way in (first, second))
         curved = along * along / size * _rise(s0, s1, size / along)
-    folded = _norm(first) + _norm(second)
+    folded = norms(first) + norms(second)
     length[bent] = np.where((size > 0) & (along > 0) & np.isfinite(curved), curved, folded)
     return length
 
@@ -182,9 +168,3 @@ def _rise(s0: Floats, s1: Floats, step: Floats) -> Floats:
     outer = np.where(same > 0, (1 + s0 * s0 + s1 * s1) / (w0 * w1 + same), w0 * w1 - same)
     rise: Floats = step * products + inverse_sinh(np.nan_to_num(step * (1 + outer) / (w0 + w1)))
     return rise
-
-
-def _norm(way: Floats) -> Floats:
-    x, y = way.T
-    norm: Floats = np.sqrt(x * x + y * y)
-    return norm

@@ -12,7 +12,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, crosses, dots, norms
 from vorotool.numeric.curves.flatten import chords_of, middles_of
 from vorotool.numeric.lazy import shapely
 
@@ -133,8 +133,8 @@ def flattened_arcs(points: Floats, flatten: float | None = None) -> Floats:
 def _circles(a: Floats, b: Floats, c: Floats) -> tuple[Floats, NDArray[np.bool_]]:
     """Centers of circles through three points, NaN where they are on a line; and whether arcs turn left."""
     u, v = b - a, c - a
-    turn = 2 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
-    p, q = (u * u).sum(axis=1), (v * v).sum(axis=1)
+    turn = 2 * (crosses(u, v))
+    p, q = dots(u, u), dots(v, v)
     away = np.stack([v[:, 1] * p - u[:, 1] * q, u[:, 0] * q - v[:, 0] * p], axis=1) / turn[:, None]
     is_whole = (a == c).all(axis=1)
     away = np.where(is_whole[:, None], u / 2, away)
@@ -145,18 +145,14 @@ def _circles(a: Floats, b: Floats, c: Floats) -> tuple[Floats, NDArray[np.bool_]
 
 def _tolerances(a: Floats, b: Floats, c: Floats, center: Floats) -> Floats:
     """Fractions of the diagonals of the boxes that hold arcs."""
-    radius = np.sqrt(np.square(a - center).sum(axis=1))
+    radius = norms(a - center)
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-    chord, side = c - a, _cross(c - a, b - a)
+    chord, side = c - a, crosses(c - a, b - a)
     for way in ((1, 0), (0, 1), (-1, 0), (0, -1)):
         end = center + radius[:, None] * way
-        is_on = ((_cross(chord, end - a) * np.sign(side) > 0) | (a == c).all(axis=1))[:, None]
+        is_on = ((crosses(chord, end - a) * np.sign(side) > 0) | (a == c).all(axis=1))[:, None]
         low, high = np.where(is_on, np.minimum(low, end), low), np.where(is_on, np.maximum(high, end), high)
-    return np.asarray(FLATTEN_ARC * np.sqrt(np.square(high - low).sum(axis=1)))
-
-
-def _cross(u: Floats, v: Floats) -> Floats:
-    return np.asarray(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+    return np.asarray(FLATTEN_ARC * norms(high - low))
 
 
 def _halves(
@@ -165,7 +161,7 @@ def _halves(
     """Vertices of arcs between points that follow each other, without the last; and where each arc begins."""
     begin, end = points[:-1], points[1:]
     before, after = np.where(is_left[:, None], begin, end), np.where(is_left[:, None], end, begin)
-    is_long = _cross(before - center, after - center) < 0
+    is_long = crosses(before - center, after - center) < 0
     middle = middles_of(before, after, center, is_long)
     pieces = 1 + is_long
     first = np.concatenate([[0], np.cumsum(pieces)])

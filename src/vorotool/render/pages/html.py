@@ -27,7 +27,7 @@ from vorotool.types.features import Lines
 from vorotool.types.fields import is_up
 from vorotool.types.images import LabelImage
 from vorotool.types.mesh.cells import CellSet
-from vorotool.types.mesh.tetrahedralization import Tetrahedralization, norms
+from vorotool.types.mesh.tetrahedralization import Tetrahedralization, scaled_norms
 from vorotool.types.pixels import SQUARE, PixelSides
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 from vorotool.types.skeleton.critical_values import ArcProfiles, CriticalValues
@@ -223,7 +223,7 @@ def _around_middle(points: NDArray[np.float64]) -> NDArray[np.float64]:
     exponent = -int(np.frexp(np.abs(points).max())[1])  # a power of two keeps differences within range
     near = np.ldexp(points, exponent)
     near = near - (near.min(axis=0) + near.max(axis=0)) / 2
-    return near / (float(norms(near).max()) or 1.0)
+    return near / (float(scaled_norms(near).max()) or 1.0)
 
 
 def _first_radius(family: AlphaComplex | SpaceAlphaComplex, r: Radius | None) -> float:

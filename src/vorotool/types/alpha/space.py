@@ -18,7 +18,7 @@ from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.alpha.radii import Radius, RankedRadii, checked_radius
 from vorotool.types.features import Rows
 from vorotool.types.fields import record
-from vorotool.types.mesh.tetrahedralization import EDGES, FACES, Tetrahedralization, norms
+from vorotool.types.mesh.tetrahedralization import EDGES, FACES, Tetrahedralization, scaled_norms
 from vorotool.types.table import Computed, Lookup, Table
 from vorotool.types.values import Tabular, Value, counted
 
@@ -169,7 +169,7 @@ class SpaceAlphaComplex(Value, RankedRadii, Tabular):
         for begin in range(0, len(triangles), _BLOCK):
             a, b, c = np.moveaxis(self.points[triangles[begin : begin + _BLOCK]], 0, 2)
             with np.errstate(over="ignore"):
-                areas[begin : begin + _BLOCK] = norms(cross(b - a, c - a).T) / 2
+                areas[begin : begin + _BLOCK] = scaled_norms(cross(b - a, c - a).T) / 2
         return areas
 
     def squared_radius(self, rank: int) -> Fraction:
@@ -434,7 +434,7 @@ class SpaceAlphaShape(Value, Tabular):
         }
         if what == "edges":
             a, b = self.points[corners.T]
-            columns["length"] = Computed(lambda rows: norms(b[rows] - a[rows]), len(corners))
+            columns["length"] = Computed(lambda rows: scaled_norms(b[rows] - a[rows]), len(corners))
             columns["class"] = _named(self.edge_classes[self.edge_classes > 0])
         elif what == "triangles":
             columns["class"] = _named(self.triangle_classes[self.triangle_classes > 0])

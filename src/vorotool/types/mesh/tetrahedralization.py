@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vorotool.errors import UsageError
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, norms
 from vorotool.numeric.numbers import shown_number
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
@@ -135,7 +135,7 @@ class Tetrahedralization(Triangulated, Tabular):
     def edge_lengths(self, rows: slice = ALL) -> Floats:
         """Return the (e,) lengths of all or some edges."""
         a, b = self.points[self.edges[rows].T]
-        return norms(b - a)
+        return scaled_norms(b - a)
 
     @cached_property
     def volumes(self) -> Floats:
@@ -152,7 +152,7 @@ class Tetrahedralization(Triangulated, Tabular):
     @cached_property
     def circumradii(self) -> Floats:
         """Return the (t,) radii of the spheres through the corners."""
-        return norms(self.ways_to_centers)
+        return scaled_norms(self.ways_to_centers)
 
     @property
     def ways_to_centers(self) -> Floats:
@@ -191,10 +191,10 @@ class Tetrahedralization(Triangulated, Tabular):
         return ", ".join(sizes)
 
 
-def norms(ways: Floats) -> Floats:
+def scaled_norms(ways: Floats) -> Floats:
     """Lengths of (n, 3) vectors, scaled by powers of two so that none overflows on the way."""
     exponent = np.frexp(np.abs(ways).max(axis=1, initial=0.0))[1]
     scaled = np.ldexp(ways, -exponent[:, None])
     with np.errstate(over="ignore", under="ignore"):
-        lengths: Floats = np.ldexp(np.sqrt((scaled * scaled).sum(axis=1)), exponent)
+        lengths: Floats = np.ldexp(norms(scaled), exponent)
     return lengths

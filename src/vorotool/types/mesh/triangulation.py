@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.frozen import frozen
+from vorotool.numeric.arrays import dots, norms
 from vorotool.numeric.checks import check_index
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.numbers import nearest_double
@@ -220,7 +221,7 @@ class Triangulation(Mesh, Triangulated, Tabular, WithParts, Graph, Pictured):
     def _circles(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         a, b, c, scale, exponent = self._corners()
         cross, flat = _cross(b, c)
-        b2, c2 = (b * b).sum(axis=1), (c * c).sum(axis=1)
+        b2, c2 = dots(b, b), dots(c, c)
         with np.errstate(all="ignore"):  # flat triangles divide by zero and are done again
             x = (c[:, 1] * b2 - b[:, 1] * c2) / (2 * cross)
             y = (b[:, 0] * c2 - c[:, 0] * b2) / (2 * cross)
@@ -238,7 +239,7 @@ class Triangulation(Mesh, Triangulated, Tabular, WithParts, Graph, Pictured):
         largest = np.abs(sides).max(axis=(1, 2), initial=0.0)
         exponent = np.frexp(largest)[1]
         sides = np.ldexp(np.ldexp(sides, -(exponent // 2)[:, None, None]), (exponent // 2 - exponent)[:, None, None])
-        apex = (sides * sides).sum(axis=2).argmax(axis=1)
+        apex = dots(sides, sides).argmax(axis=1)
         rows = np.arange(len(corners))
         b, c = sides[rows, (apex + 2) % 3], -sides[rows, (apex + 1) % 3]
         return corners[rows, apex], b, c, np.asarray(scale), exponent + scale
@@ -265,7 +266,7 @@ def lengths_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray
             way = np.ldexp(b[far], -shift[:, None]) - np.ldexp(a[far], -shift[:, None])
             exponent = np.frexp(np.abs(way).max(axis=1))[1]
             way = np.ldexp(way, -exponent[:, None])
-            found[far] = np.ldexp(np.sqrt((way * way).sum(axis=1)), exponent + shift)
+            found[far] = np.ldexp(norms(way), exponent + shift)
     return lengths
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vorotool import _core
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import Floats, owners
+from vorotool.numeric.arrays import Floats, crosses, dots, owners
 from vorotool.types import fields as f
 from vorotool.types.features import Corners, Rows
 from vorotool.types.fields import record
@@ -255,8 +255,8 @@ def moved_feet(skeleton: Skeleton, site: NDArray[np.integer], feet: Floats, *, b
     if back:
         here, there = there, here
     way = here[..., 1, :] - here[..., 0, :]
-    square = (way * way).sum(axis=-1)
-    t = np.divide(((feet - here[..., 0, :]) * way).sum(axis=-1), square, out=np.zeros(site.shape), where=square > 0)
+    square = dots(way, way)
+    t = np.divide(dots(feet - here[..., 0, :], way), square, out=np.zeros(site.shape), where=square > 0)
     together = skeleton.features == "together"
     polygon = skeleton.site_table.polygon[site].reshape(-1)
     moved = places_as_given(feet.reshape(-1, 2), polygon, polygons, together=together, back=back)
@@ -270,9 +270,9 @@ def projected(edge: Floats, place: Floats) -> Floats:
     """Return the nearest place on each edge, which is an end of it exactly where nothing nearer is inside."""
     a, b = edge[:, 0], edge[:, 1]
     way, from_a = b - a, place - a
-    square = np.square(way).sum(axis=1)
-    off = (way[:, 0] * from_a[:, 1] - way[:, 1] * from_a[:, 0]) / square
+    square = dots(way, way)
+    off = (crosses(way, from_a)) / square
     near = place - off[:, None] * np.stack([-way[:, 1], way[:, 0]], axis=1)
     near = np.where(way == 0, a, near)
-    t = ((from_a * way).sum(axis=1) / square)[:, None]
+    t = (dots(from_a, way) / square)[:, None]
     return np.asarray(np.where(t <= 0, a, np.where(t >= 1, b, near)))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats
+from vorotool.numeric.arrays import Floats, dots, norms
 from vorotool.numeric.curves.inverse_functions import inverse_sinh
 from vorotool.types import fields as f
 from vorotool.types.fields import Record, record
@@ -61,20 +61,20 @@ class ArcMeasures:
         bent = np.flatnonzero(self.is_parabola)
         growth = self.r1[bent] - self.r0[bent]
         source, target = self.source.take(bent, axis=0), self.target.take(bent, axis=0)
-        chord = _norm(target - source)
+        chord = norms(target - source)
         along = np.sqrt(np.maximum(chord - np.abs(growth), 0) * (chord + np.abs(growth)))
-        height = _norm(source - 2 * self._control.take(bent, axis=0) + target)
+        height = norms(source - 2 * self._control.take(bent, axis=0) + target)
         middle, half_way = _ratio(growth, along), _ratio(height, along)
         self.along[bent], self.slope0[bent], self.slope1[bent] = along, middle - half_way, middle + half_way
         # the left site is to the left of the arc
         apart = np.flatnonzero(self.is_parting)
         left, right = sites.take(apart, axis=1)
         across, between = left - right, (left + right) / 2
-        half = _norm(across) / 2
+        half = norms(across) / 2
         way = np.stack([across[:, 1], -across[:, 0]], axis=1)
         self.half[apart] = half
         for slope, ends in ((self.slope0, self.source), (self.slope1, self.target)):
-            slope[apart] = _ratio(_dot(ends.take(apart, axis=0) - between, way), 2 * half * half)
+            slope[apart] = _ratio(dots(ends.take(apart, axis=0) - between, way), 2 * half * half)
 
     def __getitem__(self, chosen: NDArray[Any]) -> ArcMeasures:
         """Measures of some of the arcs."""
@@ -164,14 +164,6 @@ def mean_root(s: Floats, t: Floats) -> Floats:
     x = np.abs(t - s) * factor
     ratio = np.where(x > 0, _ratio(inverse_sinh(x), x), 1.0)
     return (products + factor * ratio) / 2
-
-
-def _dot(a: Floats, b: Floats) -> Floats:
-    return a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]
-
-
-def _norm(way: Floats) -> Floats:
-    return np.sqrt(way[..., 0] * way[..., 0] + way[..., 1] * way[..., 1])
 
 
 def _ratio(a: Floats, b: Floats) -> Floats:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats, within
+from vorotool.numeric.arrays import Floats, dots, within
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.coordinates import on_grid
 from vorotool.numeric.curves.flatten import chords_of, circle_tolerances
@@ -210,7 +210,7 @@ def _holding(feet: NDArray[np.float64], center: NDArray[np.float64]) -> list[int
     ways = feet - center
     ways /= np.sqrt((ways * ways).sum(axis=1, keepdims=True))
     turn = ways[0, 0] * ways[:, 1] - ways[0, 1] * ways[:, 0]
-    forward = (ways * ways[0]).sum(axis=1)
+    forward = dots(ways, ways[0])
     left, right = (np.flatnonzero(side) for side in (turn >= 0, turn < 0))
     chosen = [0, *(int(side[np.argmin(forward[side])]) for side in (left, right) if len(side))]
     return list(dict.fromkeys(chosen))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import Floats, mask_of, owners
+from vorotool.numeric.arrays import Floats, mask_of, norms, owners
 from vorotool.numeric.curves.flatten import chained, cubic_polylines, curve_tolerances
 from vorotool.numeric.numbers import checked_flatten, difference, product
 from vorotool.types import fields as f
@@ -93,7 +93,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
     def extension_length(self) -> Floats:
         """(k, 2) how far the start and the end are extended; 0 where they are not."""
         way = self.ends - self.path.vertices[self.end_nodes]
-        return np.nan_to_num(np.sqrt((way * way).sum(axis=2)), nan=0.0)
+        return np.nan_to_num(norms(way), nan=0.0)
 
     @cached_property
     def line_of_row(self) -> NDArray[np.intp]:

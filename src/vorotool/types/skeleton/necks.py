@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats, following
+from vorotool.numeric.arrays import Floats, following, objects
 from vorotool.types import fields as f
 from vorotool.types.features import Rows, of_polygons, of_segments, of_shapes, without_places
 from vorotool.types.fields import record
@@ -17,7 +17,7 @@ from vorotool.types.identity import described_shapes, names_of, part_table, plac
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.segment_voronoi import EDGE
 from vorotool.types.skeleton.skeleton import Skeleton
-from vorotool.types.table import Lookup, Table, object_column
+from vorotool.types.table import Lookup, Table
 from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted
 
 SITE_KINDS = ("vertex", "edge")
@@ -246,7 +246,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
             "area": self.area,
             "width": self.width,
             "cuts": self.cuts,
-            "neighbors": object_column(self.neighbors),
+            "neighbors": objects(self.neighbors),
         }
         return replace(self.polygons, **described_shapes(own, self.necks.skeleton.polygons, self.source))
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats, owners
+from vorotool.numeric.arrays import Floats, crosses, norms, owners
 from vorotool.numeric.checks import index_of_rows
 from vorotool.numeric.curves.flatten import chords_of, circle_tolerances
 from vorotool.numeric.curves.inverse_functions import inverse_sine
@@ -126,14 +126,14 @@ class Offsets(Value, Tabular, Curved, Pictured):
     def angle(self) -> NDArray[np.float64]:
         """(k,) how far each arc turns, in radians, at most π; 0 for straight lines."""
         chord = self.end - self.start
-        sine = np.sqrt((chord * chord).sum(axis=1)) / (2 * np.abs(self.piece_distance))
+        sine = norms(chord) / (2 * np.abs(self.piece_distance))
         return np.where(self.is_arc, 2 * inverse_sine(sine), 0.0)
 
     @cached_property
     def length(self) -> NDArray[np.float64]:
         """(k,) true lengths."""
         chord = self.end - self.start
-        straight = np.sqrt((chord * chord).sum(axis=1))
+        straight = norms(chord)
         return np.where(self.is_arc, self.angle * np.abs(self.piece_distance), straight)
 
     @cached_property
@@ -145,7 +145,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
         x, y = np.where(self.is_arc[:, None], self.start - self.center, 0).T
         u, v = np.where(self.is_arc[:, None], self.end - self.center, 0).T
         sector = self.piece_distance * np.abs(self.piece_distance) * self.angle - (x * v - y * u)
-        pieces = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] + np.where(self.is_arc, sector, 0)) / 2
+        pieces = (crosses(a, b) + np.where(self.is_arc, sector, 0)) / 2
         if not len(self):
             return np.zeros(0)
         return np.add.reduceat(np.add.reduceat(pieces, self.ring_starts[:-1]), self.shape_starts[:-1])

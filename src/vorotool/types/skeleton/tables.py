@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
 from vorotool.frozen import frozen
-from vorotool.numeric.arrays import connected_roots, mask_of
+from vorotool.numeric.arrays import connected_roots, crosses, mask_of, norms
 from vorotool.numeric.checks import described, is_choice
 from vorotool.numeric.curves.flatten import chained
 from vorotool.numeric.numbers import distinct, shown_number
@@ -213,7 +213,7 @@ def branch_columns(skeleton: Skeleton, *, threads: int = 0) -> dict[str, Any]:
     framed = skeleton.on_frame[both]
     has_end = ((skeleton.degree[both] == 1) & ~framed).any(axis=0)
     kind = np.select([a == b, has_end, framed.any(axis=0)], [2, 0, 3], 1).astype(np.int32)
-    chord = _length(*(skeleton.vertices[b] - skeleton.vertices[a]).T)
+    chord = norms(skeleton.vertices[b] - skeleton.vertices[a])
     tortuosity = np.maximum(np.divide(length, chord, out=np.ones(len(chord)), where=chord > 0), 1.0)
     return {
         "branch": skeleton.branch[start],
@@ -233,10 +233,6 @@ def _branch_types(skeleton: Skeleton, ends: NDArray[np.int32]) -> NDArray[np.int
     is_junction = skeleton.degree[ends] > 2
     is_cycle = (ends[0] == ends[1]) & ~is_junction[0]
     return np.where(is_cycle, 3, is_junction.sum(axis=0)).astype(np.int32)
-
-
-def _length(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.asarray(np.sqrt(x * x + y * y))  # the same on every machine, as hypot is not
 
 
 def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = None, threads: int = 0) -> Table:
@@ -368,7 +364,7 @@ def _edge_measures(polygons: PolygonSet, part: slice) -> tuple[NDArray[np.float6
     way = following - here
     first = np.repeat(first, np.diff(inner), axis=0)
     a, b = here - first, following - first
-    return _length(way[:, 0], way[:, 1]), a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return norms(way), crosses(a, b)
 
 
 def _with_valid_areas(polygons: PolygonSet, area: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.numeric.arrays import Floats, Indices, Nesting, owners, starts_of, within
+from vorotool.numeric.arrays import Floats, Indices, Nesting, crosses, dots, norms, owners, starts_of, within
 from vorotool.numeric.curves.flatten import circle_tolerances, curve_tolerances, least_focal_distances
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.numbers import distinct
@@ -41,7 +41,7 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, 
         most[at] = np.minimum(circle_tolerances(arcs.center[at], radius, tolerance), PART_OF_RADIUS * radius)
     paired = _in_pairs(cells)
     bend = (arcs.source - 2 * arcs.control + arcs.target)[paired]
-    most[paired] = np.fmin(most[paired], np.sqrt((bend * bend).sum(axis=1)) / _BEND_OF_TWO)
+    most[paired] = np.fmin(most[paired], norms(bend) / _BEND_OF_TWO)
     most[paired] = np.minimum(most[paired], arcs[paired].sagittas / 2)
     return with_feet_of_corners(cells, *arcs.polylines(most), most)
 
@@ -111,7 +111,7 @@ def with_feet_of_corners(
     arc, vertex = curved[row], corner[at]
     place = cells.vertices[vertex]
     own = arcs[arc]
-    from_circles = np.abs(_size(place - own.center) - _size(own.source - own.center))
+    from_circles = np.abs(norms(place - own.center) - norms(own.source - own.center))
     near = np.where(own.is_circle, from_circles, _from_parabolas(own, place))
     chosen = (cells.arcs[arc] != vertex[:, None]).all(axis=1) & (near <= 2 * tolerance[arc])
     arc, place = arc[chosen], place[chosen]
@@ -136,33 +136,33 @@ def with_feet_of_corners(
 def _axes(arcs: MixedArcs) -> Floats:
     """(k, 2) unit vectors across the axes of parabolas, on from source to target."""
     axis = arcs.source - 2 * arcs.control + arcs.target
-    size = _size(axis)
+    size = norms(axis)
     across = np.stack([-axis[:, 1], axis[:, 0]], axis=1) / np.where(size > 0, size, 1)[:, None]
-    forward = np.sign((across * (arcs.target - arcs.source)).sum(axis=1))
+    forward = np.sign(dots(across, arcs.target - arcs.source))
     return across * forward[:, None]
 
 
 def _feet(arcs: MixedArcs, place: Floats) -> Floats:
     """(k, 2) places on curves: in the direction of the axis of a parabola, or of the center of a circle."""
     across = _axes(arcs)
-    whole = (across * (arcs.target - arcs.source)).sum(axis=1)
-    t = (across * (place - arcs.source)).sum(axis=1) / np.where(whole > 0, whole, 1)
+    whole = dots(across, arcs.target - arcs.source)
+    t = dots(across, place - arcs.source) / np.where(whole > 0, whole, 1)
     t = t.clip(0, 1)[:, None]
     feet = (1 - t) * (1 - t) * arcs.source + 2 * t * (1 - t) * arcs.control + t * t * arcs.target
     offset = place - arcs.center
-    scale = _size(arcs.source - arcs.center) / _size(offset)
+    scale = norms(arcs.source - arcs.center) / norms(offset)
     return np.where(arcs.is_circle[:, None], arcs.center + scale[:, None] * offset, feet)
 
 
 def _along(arcs: MixedArcs, arc: Indices, place: Floats) -> Floats:
     """(k,) numbers that rise along arcs: across the axis of a parabola, the half angle on a circle."""
     own = arcs[arc]
-    key: Floats = np.nan_to_num((_axes(own) * (place - own.source)).sum(axis=1))
+    key: Floats = np.nan_to_num(dots(_axes(own), place - own.source))
     circle = np.flatnonzero(own.is_circle)
     round_arcs = own[circle]
     middle, offset = _middles(round_arcs), place[circle] - round_arcs.center
-    ahead = _size(middle) * _size(offset) + (middle * offset).sum(axis=1)
-    turned = _cross(middle, offset) / np.where(ahead > 0, ahead, 1)
+    ahead = norms(middle) * norms(offset) + dots(middle, offset)
+    turned = crosses(middle, offset) / np.where(ahead > 0, ahead, 1)
     key[circle] = np.where(round_arcs.is_left, turned, -turned)
     return key
 
@@ -172,7 +172,7 @@ def _middles(arcs: MixedArcs) -> Floats:
     a, b = arcs.source - arcs.center, arcs.target - arcs.center
     chord = np.where(arcs.is_left[:, None], b - a, a - b)
     across = np.stack([chord[:, 1], -chord[:, 0]], axis=1)
-    return np.where(((a * b).sum(axis=1) > 0)[:, None], a + b, across)
+    return np.where((dots(a, b) > 0)[:, None], a + b, across)
 
 
 def _hulls(arcs: MixedArcs) -> Floats:
@@ -181,12 +181,10 @@ def _hulls(arcs: MixedArcs) -> Floats:
     if arcs.is_circle.any():
         a, b = arcs.source - arcs.center, arcs.target - arcs.center
         middle = _middles(arcs)
-        square = (a * a).sum(axis=1)[:, None]
-        size = _size(middle)[:, None]
+        square = dots(a, a)[:, None]
+        size = norms(middle)[:, None]
         middle = middle * np.sqrt(square) / np.where(size > 0, size, 1)
-        of_circles = [
-            arcs.center + (one + middle) * square / (square + (one * middle).sum(axis=1)[:, None]) for one in (a, b)
-        ]
+        of_circles = [arcs.center + (one + middle) * square / (square + dots(one, middle)[:, None]) for one in (a, b)]
         corner = [np.where(arcs.is_circle[:, None], circle, arcs.control) for circle in of_circles]
     return np.stack([arcs.source, *corner, arcs.target, arcs.source], axis=1)
 
@@ -194,20 +192,12 @@ def _hulls(arcs: MixedArcs) -> Floats:
 def _from_parabolas(arcs: MixedArcs, place: Floats) -> Floats:
     """(k,) no more than the distance of places in the triangles of Bezier curves from these."""
     a, b, c = arcs.source, arcs.control, arcs.target
-    double = _cross(b - a, c - a)
+    double = crosses(b - a, c - a)
     with np.errstate(divide="ignore", invalid="ignore"):
-        u, w = _cross(b - place, c - place) / double, _cross(a - place, b - place) / double
-        rise = (2 * _size(c - a) + 4 * (_size(c - b) + _size(b - a))) / np.abs(double)
+        u, w = crosses(b - place, c - place) / double, crosses(a - place, b - place) / double
+        rise = (2 * norms(c - a) + 4 * (norms(c - b) + norms(b - a))) / np.abs(double)
         near: Floats = np.abs((1 - u - w) * (1 - u - w) - 4 * u * w) / rise
     return np.where(np.isfinite(near), near, 0)
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-
-
-def _size(way: Floats) -> Floats:
-    return np.sqrt((way * way).sum(axis=1))
 
 
 KINDS = ["line", "parabola", "circle"]
