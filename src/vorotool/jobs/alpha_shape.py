@@ -10,8 +10,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.engines.alpha.alpha_complex import alpha_curves, alpha_edges
-from vorotool.engines.alpha.alpha_shape import chosen_radius
-from vorotool.engines.alpha.few_points import unjoined
+from vorotool.engines.alpha.alpha_shape import chosen_radius, unjoined
 from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
 from vorotool.jobs.inputs import JobInput, check_columns, read_sites, read_space, triangulated
@@ -281,11 +280,7 @@ class SpaceShapeProducts(Results):
         how: Any = {"phase": "alpha complex", "allow_empty": self._allow_empty}
         self.family: SpaceAlphaComplex = self.call("engines.alpha.alpha_complex:alpha_complex", mesh, **how)
         self.has_shape = bool(set(options.what) & OF_ONE_SHAPE)
-        if (
-            self.has_shape
-            and self.radius is None
-            and resolved("engines.alpha.space_shape:unjoined")(self.family) is None
-        ):
+        if self.has_shape and self.radius is None and unjoined(self.family) is None:
             regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"
             r = radius_text(self.shape.r)
             run.note(f"r = {r}, the smallest radius whose shape is {regions} covering every point")

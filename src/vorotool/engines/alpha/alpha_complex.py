@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.alpha.few_points import allows_empty, report_too_few
 from vorotool.engines.delaunay.delaunay import is_of_space, triangulated
-from vorotool.errors import UsageError
+from vorotool.errors import STRICT, InputError, UsageError, VorotoolWarning, warn
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.parallel import Progress
 from vorotool.products.formats import resolved
+from vorotool.products.registry import is_of
 from vorotool.types.alpha.complex import AlphaComplex
 from vorotool.types.alpha.radii import Radius, checked_radius
 from vorotool.types.arguments import check_value
@@ -162,6 +162,31 @@ def plane_complex(
     core_rule = _core.alpha.AlphaRule[rule]
     arrays = _core.alpha.alpha_complex(mesh.points, mesh.triangles, edges, sides, core_rule, threads, progress)
     return AlphaComplex(mesh, edges, sides, rule=rule, **arrays)
+
+
+def allows_empty(points: Any, allow_empty: bool | None) -> bool:
+    """Tell whether too few points are no error: as the caller says, else those of an image, one of many perhaps."""
+    is_image = is_of(points, "SeedSet") and points.frame is not None
+    return is_image if allow_empty is None else allow_empty
+
+
+def report_too_few(count: int, *, allow_empty: bool, strict: bool) -> None:
+    """Refuse points that no edge can join, or warn of them; of an image without any it has been told."""
+    if not count and allow_empty:
+        return
+    held = "1 point" if count == 1 else f"{count} points"
+    where = ", all at one position" if count > 1 else ""
+    reason = f"an alpha shape needs at least two distinct points, but got {held}{where}"
+    refuse_or_warn(reason, "", allow_empty=allow_empty, strict=strict)
+
+
+def refuse_or_warn(reason: str, advice: str, *, allow_empty: bool, strict: bool) -> None:
+    """Raise or warn for a reason why there is no shape."""
+    if not allow_empty:
+        raise InputError(f"{reason}{advice}")
+    if strict:
+        raise InputError(f"{reason}{f'{advice}, or' if advice else ':'} leave out {STRICT} for an empty shape")
+    warn(VorotoolWarning(f"{reason}{advice}; the shape is empty"))
 
 
 def refuse_in_space(**given: Any) -> None:

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.alpha.alpha_complex import IN_SPACE, alpha_curves, plane_complex, refuse_in_space, scanned_edges
-from vorotool.engines.alpha.few_points import (
-    GIVE_R,
+from vorotool.engines.alpha.alpha_complex import (
+    IN_SPACE,
     allows_empty,
-    least_ranks,
-    radius_below_all,
+    alpha_curves,
+    plane_complex,
+    refuse_in_space,
     refuse_or_warn,
-    unjoined,
+    scanned_edges,
 )
 from vorotool.engines.delaunay.delaunay import is_of_space
 from vorotool.errors import InputError, UsageError, option
@@ -38,6 +38,9 @@ if TYPE_CHECKING:
 
 CONVEX_HULL = f"for the convex hull use {option('-r inf', 'r=inf')}"
 """Advice where a radius without end is meant."""
+
+GIVE_R = f": give r itself{option(' (-r)', '')}"
+"""Advice where no radius can be chosen."""
 
 
 def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
@@ -169,22 +172,49 @@ def alpha_shape(
     else:
         wanted: Any = {"rule": rule, "strict": strict, "allow_empty": allow_empty}
         family = plane_complex(points, **wanted, threads=threads, progress=progress)
-    reason = unjoined(family) if radius is None else None
-    if reason is not None:
-        if len(family):  # else it has been told that there are too few points
-            refuse_or_warn(reason, GIVE_R, allow_empty=allows_empty(points, allow_empty), strict=strict)
-        radius, reached, entered = radius_below_all(family), 0, 0
-    elif radius is None:
-        reached = automatic_rank(family, regions=regions, progress=progress) + 1
-        radius = family.radius_from(reached - 1)
-        entered = reached
-    elif regions != 1:
-        raise UsageError("regions applies to the automatic radius: leave out r and alpha")
-    else:
-        reached, entered = family.reached(radius), family.entered(radius)
+    empty = allows_empty(points, allow_empty)
+    radius = settled_radius(family, radius, regions=regions, strict=strict, allow_empty=empty, progress=progress)
+    reached, entered = family.reached(radius), family.entered(radius)
     thresholds = _threshold(hole_threshold, "hole_threshold"), _threshold(region_threshold, "region_threshold")
     index, kind = scanned_edges(family, reached, entered, checked_threads(threads), progress)
     return _shape(family, radius, reached, (index, kind), thresholds, progress)
+
+
+def settled_radius(
+    family: AlphaComplex | SpaceAlphaComplex,
+    given: Radius | None,
+    *,
+    regions: int,
+    strict: bool,
+    allow_empty: bool,
+    progress: Progress,
+) -> Radius:
+    """Return the radius that is given, or the automatic one; one of isolated points only where there is none."""
+    if given is not None:
+        if regions != 1:
+            raise UsageError("regions applies to the automatic radius: leave out r and alpha")
+        return given
+    if (reason := unjoined(family)) is None:
+        return family.radius_from(automatic_rank(family, regions=regions, progress=progress))
+    if len(family.edges):  # else it has been told that there are too few points
+        refuse_or_warn(reason, GIVE_R, allow_empty=allow_empty, strict=strict)
+    return float(np.nextafter(family.spectrum[0] * (1 - family.doubt), 0)) if len(family.spectrum) else 1.0
+
+
+def unjoined(family: AlphaComplex | SpaceAlphaComplex) -> str | None:
+    """Say why no radius gives a region that holds every point; None where one does."""
+    if family.covered < len(family.spectrum):
+        return None
+    count = len(family.points) - family.mesh.duplicates
+    if isinstance(family, AlphaComplex):
+        where, what = " on a line", "triangle"
+    else:
+        where, what = " in a plane" if family.mesh.dimension == 2 else " on a line", "tetrahedron"
+    few = {0: "no points span", 1: "one point spans", 2: "two points span"}
+    held = few.get(count, f"{count} points{where} span")
+    if isinstance(family, AlphaComplex) and len(family.mesh.triangles):
+        held = "a point is on"
+    return f"{held} no {what}, so no radius gives a region that holds all points"
 
 
 def _threshold(value: Any, name: str) -> Fraction | None:
@@ -251,13 +281,13 @@ def _polygons(family: AlphaComplex, region: NDArray[np.int32], progress: Progres
     )
 
 
-def automatic_rank(family: AlphaComplex, *, regions: int = 1, progress: Progress = None) -> int:
+def automatic_rank(family: AlphaComplex | SpaceAlphaComplex, *, regions: int = 1, progress: Progress = None) -> int:
     """Give the first rank whose shape has at most so many regions, which contain every point."""
     if whole_number(regions, "regions") < 1:
         raise UsageError(f"regions is {shown_number(regions)}: use 1 or more")
     if (reason := unjoined(family)) is not None:
         raise InputError(f"{reason}{GIVE_R}")
-    covered = int(least_ranks(family).max(initial=0))
+    covered = family.covered
     found = np.flatnonzero(alpha_curves(family, progress=progress)["regions"][covered:] <= regions)
     return covered + int(found[0])
 

@@ -8,8 +8,7 @@ import numpy as np
 
 from vorotool import _core
 from vorotool.engines.alpha.alpha_complex import alpha_complex
-from vorotool.engines.alpha.alpha_shape import automatic_rank
-from vorotool.engines.alpha.few_points import unjoined
+from vorotool.engines.alpha.alpha_shape import automatic_rank, unjoined
 from vorotool.engines.delaunay.delaunay import is_of_space
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.parallel import Progress

@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.alpha.few_points import GIVE_R, refuse_or_warn, report_too_few
+from vorotool.engines.alpha.alpha_complex import report_too_few
+from vorotool.engines.alpha.alpha_shape import settled_radius
 from vorotool.engines.delaunay.tetrahedralization import tetrahedralization
-from vorotool.errors import InputError, UsageError
 from vorotool.numeric.checks import checked_threads
-from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import Progress
 from vorotool.types.alpha.radii import Radius
 from vorotool.types.alpha.space import SpaceAlphaComplex, SpaceAlphaShape
@@ -50,15 +49,8 @@ def space_shape(
     family = points
     if not isinstance(points, SpaceAlphaComplex):
         family = space_complex(points, strict=strict, allow_empty=allow_empty, threads=threads, progress=progress)
-    reason = unjoined(family) if radius is None else None
-    if reason is not None:
-        if len(family.edges):  # else it has been told that there are too few points
-            refuse_or_warn(reason, GIVE_R, allow_empty=bool(allow_empty), strict=strict)
-        radius = float(np.nextafter(family.spectrum[0] * (1 - family.doubt), 0)) if len(family.spectrum) else 1.0
-    elif radius is None:
-        radius = family.radius_from(automatic_rank(family, regions=regions, progress=progress))
-    elif regions != 1:
-        raise UsageError("regions applies to the automatic radius: leave out r and alpha")
+    how: Any = {"strict": strict, "allow_empty": bool(allow_empty), "progress": progress}
+    radius = settled_radius(family, radius, regions=regions, **how)
     return SpaceAlphaShape(family, radius, _regions(family, family.reached(radius)))
 
 
@@ -71,27 +63,6 @@ def _regions(family: SpaceAlphaComplex, reached: int) -> NDArray[np.int32]:
     is_first = inside & (root == np.arange(len(root)))
     numbers = np.cumsum(is_first, dtype=np.int32) - np.int32(1)
     return np.where(inside, numbers[root], np.int32(-1))
-
-
-def unjoined(family: SpaceAlphaComplex) -> str | None:
-    """Say why no radius gives a region that holds every point; None where one does."""
-    if len(family):
-        return None
-    count = len(family.points) - family.mesh.duplicates
-    where = {2: " in a plane", 1: " on a line"}.get(family.mesh.dimension, "") if count > 2 else ""
-    held = f"{count} points{where} span" if count != 1 else "one point spans"
-    return f"{held} no tetrahedron, so no radius gives a region that holds all points"
-
-
-def automatic_rank(family: SpaceAlphaComplex, *, regions: int = 1, progress: Progress = None) -> int:
-    """Give the first rank whose shape has at most so many regions, which contain every point."""
-    if whole_number(regions, "regions") < 1:
-        raise UsageError(f"regions is {shown_number(regions)}: use 1 or more")
-    if (reason := unjoined(family)) is not None:
-        raise InputError(f"{reason}{GIVE_R}")
-    covered = family.covered
-    found = np.flatnonzero(space_curves(family, progress=progress)["regions"][covered:] <= regions)
-    return covered + int(found[0])
 
 
 def space_curves(family: SpaceAlphaComplex, *, progress: Progress = None) -> Table:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
-from vorotool.types.alpha.radii import Radius, RankedRadii, checked_radius
+from vorotool.types.alpha.radii import Radius, RankedRadii, checked_radius, squared_radius_of
 from vorotool.types.features import Corners, Rows
 from vorotool.types.fields import record
 from vorotool.types.mesh.triangulation import Triangulation
@@ -102,14 +102,14 @@ class AlphaComplex(Value, RankedRadii, Tabular, Geometric, Pictured):
         item = int(self.witness[rank])
         triangles = len(self.triangle_rank)
         corners = self.mesh.triangles[item] if item < triangles else self.edges[item - triangles]
-        places = [(Fraction(x), Fraction(y)) for x, y in self.points[corners].tolist()]
-        (ax, ay), (bx, by) = places[:2]
-        ux, uy = bx - ax, by - ay
-        if len(places) == 2:
-            return (ux * ux + uy * uy) / 4
-        vx, vy = places[2][0] - ax, places[2][1] - ay
-        product = (ux * ux + uy * uy) * (vx * vx + vy * vy) * ((vx - ux) ** 2 + (vy - uy) ** 2)
-        return product / (4 * (ux * vy - uy * vx) ** 2)
+        return squared_radius_of(self.points[corners].tolist())
+
+    @property
+    def covered(self) -> int:
+        """The first rank at which all points are in triangles; as many as there are ranks if they never are."""
+        least = np.full(len(self.points), len(self.spectrum), dtype=np.int32)
+        np.minimum.at(least, self.mesh.triangles, self.triangle_rank[:, None])
+        return int(least[self.mesh.first].max(initial=0))
 
     def classes(self, r: Radius) -> NDArray[np.uint8]:
         """Return the (e,) indices of the classes of the edges in `CLASSES` for the shape of r.

@@ -91,3 +91,29 @@ def checked_radius(r: Any) -> Radius:
 def _ceiling_root(value: Fraction) -> int:
     """Return the least integer whose square is at least this positive number."""
     return isqrt(-(-value.numerator // value.denominator) - 1) + 1
+
+
+def squared_radius_of(corners: list[list[float]]) -> Fraction:
+    """Return the exact square of the radius of the smallest circle or sphere through two, three or four points."""
+    a, *others = ([Fraction(x) for x in corner] for corner in corners)
+    b, *rest = ([x - y for x, y in zip(other, a, strict=True)] for other in others)
+    if not rest:
+        return _dot(b, b) / 4
+    if len(rest) == 1:
+        c = rest[0]
+        third = [x - y for x, y in zip(b, c, strict=True)]
+        product = _dot(b, b) * _dot(c, c)
+        return product * _dot(third, third) / (4 * (product - _dot(b, c) ** 2))
+    c, d = rest
+    normals = _cross(c, d), _cross(d, b), _cross(b, c)
+    squares = _dot(b, b), _dot(c, c), _dot(d, d)
+    center = [sum(square * normal[i] for square, normal in zip(squares, normals, strict=True)) for i in range(3)]
+    return _dot(center, center) / (4 * _dot(b, normals[0]) ** 2)
+
+
+def _dot(p: Any, q: Any) -> Fraction:
+    return sum((x * y for x, y in zip(p, q, strict=True)), Fraction(0))
+
+
+def _cross(p: list[Fraction], q: list[Fraction]) -> list[Fraction]:
+    return [p[i - 2] * q[i - 1] - p[i - 1] * q[i - 2] for i in range(3)]

@@ -15,7 +15,7 @@ from vorotool.numeric.arrays import Booleans, Floats, Indices
 from vorotool.numeric.numbers import nearest_double, shown_number
 from vorotool.types import fields as f
 from vorotool.types.alpha.complex import CLASSES
-from vorotool.types.alpha.radii import Radius, RankedRadii, checked_radius
+from vorotool.types.alpha.radii import Radius, RankedRadii, checked_radius, squared_radius_of
 from vorotool.types.features import Rows
 from vorotool.types.fields import record
 from vorotool.types.mesh.tetrahedralization import EDGES, FACES, Tetrahedralization, scaled_norms
@@ -225,31 +225,6 @@ def _checked(what: str) -> str:
 def classes_of_ranks(ranks: NDArray[np.int32], reached: int) -> NDArray[np.uint8]:
     """(k,) classes of simplices with these ranks where those below `reached` have come."""
     return (ranks < reached).sum(axis=1, dtype=np.uint8)
-
-
-def squared_radius_of(corners: list[list[float]]) -> Fraction:
-    """Return the exact square of the radius of the smallest sphere through two, three or four points."""
-    a, *others = ([Fraction(x) for x in corner] for corner in corners)
-    b, *rest = ([x - y for x, y in zip(other, a, strict=True)] for other in others)
-    if not rest:
-        return _dot(b, b) / 4
-    if len(rest) == 1:
-        c = rest[0]
-        normal, third = _cross(b, c), [x - y for x, y in zip(b, c, strict=True)]
-        return _dot(b, b) * _dot(c, c) * _dot(third, third) / (4 * _dot(normal, normal))
-    c, d = rest
-    normals = _cross(c, d), _cross(d, b), _cross(b, c)
-    squares = _dot(b, b), _dot(c, c), _dot(d, d)
-    center = [sum(square * normal[i] for square, normal in zip(squares, normals, strict=True)) for i in range(3)]
-    return _dot(center, center) / (4 * _dot(b, normals[0]) ** 2)
-
-
-def _dot(p: Any, q: Any) -> Fraction:
-    return sum((x * y for x, y in zip(p, q, strict=True)), Fraction(0))
-
-
-def _cross(p: list[Fraction], q: list[Fraction]) -> list[Fraction]:
-    return [p[i - 2] * q[i - 1] - p[i - 1] * q[i - 2] for i in range(3)]
 
 
 # ---- one shape -----------------------------------------------------------------------------------
