@@ -127,8 +127,7 @@ def geometry_of(value: Any, what: str | None = None, *, flatten: Flatten = None)
 
 def geometry_of_rows(features: Rows | Mixture) -> NDArray[Any]:
     """(n,) geometry of rows, one kind after the other."""
-    made: NDArray[Any] = np.concatenate([shapely_of(rows.geometry) for rows in parts_of(features)])
-    return made
+    return np.concatenate([shapely_of(rows.geometry) for rows in parts_of(features)])
 
 
 def shapely_of(geometry: Geometry | NDArray[Any] | None) -> NDArray[Any]:
@@ -199,8 +198,7 @@ def to_networkx(
         (VoronoiMap, _of_voronoi),
     ]
     maker = next(maker for kind, maker in makers if isinstance(value, kind))
-    made: networkx.Graph[int] = maker(_library(), value)
-    return made
+    return maker(_library(), value)
 
 
 def _library() -> Any:

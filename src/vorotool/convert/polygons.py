@@ -59,8 +59,7 @@ def _polygons_in(source: Any, name: str) -> PolygonSet:
         raise unexpected(source, f"polygons; for an image use vorotool.outlines({name})")
     source = items_of(source)
     if getattr(source, "ndim", 0) == 2 and getattr(source, "dtype", None) == np.dtype(bool):  # of NumPy or xarray
-        outlined: PolygonSet = resolved("engines.label_images.outlines:outlines")(source)
-        return outlined
+        return resolved("engines.label_images.outlines:outlines")(source)
     held = held_features(source)
     if held is not None:
         polygons = _of_features(held)

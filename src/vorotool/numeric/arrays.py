@@ -65,8 +65,7 @@ def dots(u: NDArray[Any], v: NDArray[Any]) -> NDArray[Any]:
 
 def crosses(u: NDArray[Any], v: NDArray[Any]) -> NDArray[Any]:
     """Twice the signed areas of the triangles of vectors of the plane, along the last axis."""
-    doubled: NDArray[Any] = u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
-    return doubled
+    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
 
 
 def norms(ways: NDArray[Any]) -> Floats:
@@ -101,8 +100,7 @@ def ranks_of(chosen: NDArray[Any], count: int, dtype: DTypeLike = np.int64) -> N
 def ranges(first: NDArray[Any], lengths: Lengths) -> Indices:
     """Indices of the items of chosen rows, row after row: first, first + 1, … of each."""
     starts = starts_of(lengths)
-    made: Indices = np.arange(starts[-1]) + np.repeat(first - starts[:-1], lengths)
-    return made
+    return np.arange(starts[-1]) + np.repeat(first - starts[:-1], lengths)
 
 
 def following(starts: NDArray[Any]) -> Indices:

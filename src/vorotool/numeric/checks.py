@@ -93,8 +93,8 @@ def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = 
 
 def is_masked_array(values: Any) -> TypeGuard[np.ma.MaskedArray[Any, Any]]:
     """Whether values are in a masked array."""
-    module = sys.modules.get("numpy.ma")
-    return module is not None and isinstance(values, module.MaskedArray)
+    # another thread may be importing the module: then there are none
+    return isinstance(values, getattr(sys.modules.get("numpy.ma"), "MaskedArray", ()))
 
 
 MOST_SHOWN = 6

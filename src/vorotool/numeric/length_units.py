@@ -135,8 +135,7 @@ def own_unit(value: Any) -> str | None:
     """Return the unit that a value states, or what it was made of."""
     while value is not None and not hasattr(value, "unit"):
         value = next((getattr(value, name) for name in ("polygons", "skeleton", "path") if hasattr(value, name)), None)
-    unit: str | None = getattr(value, "unit", None)
-    return unit
+    return getattr(value, "unit", None)
 
 
 def unit_of_crs(crs: Any) -> InputUnit | None:

@@ -130,10 +130,9 @@ def alpha_complex(
     _check_rule(rule)
     if is_of_space(points):
         refuse_in_space(rule=None if rule == "corrected" else rule)
-        made: SpaceAlphaComplex = resolved(f"{IN_SPACE}:space_complex")(
+        return resolved(f"{IN_SPACE}:space_complex")(
             points, strict=strict, allow_empty=allow_empty, threads=threads, progress=progress
         )
-        return made
     how: Any = {"strict": strict, "allow_empty": allow_empty, "threads": threads, "progress": progress}
     return plane_complex(points, rule=rule, **how)
 
@@ -286,8 +285,7 @@ def alpha_curves(family: AlphaComplex | SpaceAlphaComplex, *, progress: Progress
     """
     check_value(family, "family", "AlphaComplex", "SpaceAlphaComplex")
     if not isinstance(family, AlphaComplex):
-        in_space: Table = resolved(f"{IN_SPACE}:space_curves")(family, progress=progress)
-        return in_space
+        return resolved(f"{IN_SPACE}:space_curves")(family, progress=progress)
     if family.rule != "corrected":
         raise UsageError("curves and the automatic radius need the corrected rule: leave out rule=printed")
     count = len(family.spectrum)

@@ -165,8 +165,7 @@ def alpha_shape(
         own = None if rule == "corrected" else rule
         refuse_in_space(hole_threshold=hole_threshold, region_threshold=region_threshold, rule=own)
         how: dict[str, Any] = {"strict": strict, "allow_empty": allow_empty, "threads": threads, "progress": progress}
-        made: SpaceAlphaShape = resolved(f"{IN_SPACE}:space_shape")(points, radius, regions=regions, **how)
-        return made
+        return resolved(f"{IN_SPACE}:space_shape")(points, radius, regions=regions, **how)
     if isinstance(points, AlphaComplex):
         family = points
     else:

@@ -142,8 +142,7 @@ def _squares(places: Floats) -> tuple[Floats, Floats]:
 
 def _dot(p: Floats, q: Floats) -> Floats:
     """Scalar products of (3, n) vectors."""
-    products: Floats = p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-    return products
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 
 
 def _square_of_cross(b: Floats, c: Floats) -> tuple[Floats, Floats]:

@@ -99,8 +99,7 @@ def _set_of(polygons: Any) -> PolygonSet:
     """Give a set of polygons, made of anything else that holds them."""
     if isinstance(polygons, PolygonSet):
         return polygons
-    made: PolygonSet = resolved("convert.polygons:as_polygons")(polygons)
-    return made
+    return resolved("convert.polygons:as_polygons")(polygons)
 
 
 def graph_for_skeletons(polygons: Any, *, strict: bool = False, **run: Unpack[Run]) -> PlanarGraph:

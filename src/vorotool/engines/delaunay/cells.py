@@ -118,10 +118,7 @@ def voronoi_cells(
     ['POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))', 'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))']
     """
     if not isinstance(points, Triangulation) and is_of_space(points):
-        of_space: SpaceCellSet = resolved(f"{_IN_SPACE}:space_cells")(
-            points, frame=frame, clip=clip, threads=threads, progress=progress
-        )
-        return of_space
+        return resolved(f"{_IN_SPACE}:space_cells")(points, frame=frame, clip=clip, threads=threads, progress=progress)
     mesh = points if isinstance(points, Triangulation) else triangulated(points, threads=threads, progress=progress)
     if not np.isfinite(mesh.points).all():
         raise InputError("a coordinate of the triangulation is not finite")

@@ -288,8 +288,7 @@ def _arrays(
 ) -> dict[str, Any]:
     """Take the arcs in some faces out of a diagram: all or those of the skeleton, complete, within bounds, joined."""
     place = *shapes.graph.origin, shapes.graph.scale
-    made: dict[str, Any] = shapes.diagram.skeleton(groups, clipped, *how, *place, wanted.threads, wanted.progress)
-    return made
+    return shapes.diagram.skeleton(groups, clipped, *how, *place, wanted.threads, wanted.progress)
 
 
 def whole_sampled_diagram(shapes: SampledShapes, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:

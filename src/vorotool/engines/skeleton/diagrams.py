@@ -231,8 +231,7 @@ def diagram_of_all(
     graph_of = graph_for_skeletons if features == "together" else together
     graph = graph_of(polygons, strict=strict, **run)
     if gap:
-        made: ElementDiagram = resolved(f"{_SHORTENED}:elements_of_graph")(graph, gap, **run)
-        return made
+        return resolved(f"{_SHORTENED}:elements_of_graph")(graph, gap, **run)
     return diagram_of_graph(graph, interior_only=interior_only, **run)
 
 
@@ -254,8 +253,7 @@ def skeleton_in(
 def _skeleton_of(diagram: AnyDiagram, *, complete: bool, **wanted: Any) -> Skeleton:
     if isinstance(diagram, ShapeDiagram):
         return skeleton_of(diagram, **wanted)
-    made: Skeleton = resolved(f"{_SHORTENED}:skeleton_of_elements")(diagram, complete=complete, **wanted)
-    return made
+    return resolved(f"{_SHORTENED}:skeleton_of_elements")(diagram, complete=complete, **wanted)
 
 
 def all_edges(diagram: AnyDiagram, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:

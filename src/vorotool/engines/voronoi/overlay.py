@@ -471,8 +471,7 @@ def _extend_to_circles(low: Floats, high: Floats, center: Floats, radius: float)
 def _are_within(places: Floats, low: Floats, high: Floats) -> NDArray[np.bool_]:
     """(n,) whether places are between two corners, and not on a side: NumPy is slow along short rows."""
     x, y = places.T
-    is_within: NDArray[np.bool_] = (x > low[0]) & (y > low[1]) & (x < high[0]) & (y < high[1])
-    return is_within
+    return (x > low[0]) & (y > low[1]) & (x < high[0]) & (y < high[1])
 
 
 def _all_of(pairs: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -82,8 +82,7 @@ def places_at(control: Floats, t: Floats) -> Floats:
     a, b, c, d = np.moveaxis(control, 1, 0)
     t = t[:, None]
     u = 1 - t
-    places: Floats = u * u * u * a + 3 * t * u * (u * b + t * c) + t * t * t * d
-    return places
+    return u * u * u * a + 3 * t * u * (u * b + t * c) + t * t * t * d
 
 
 def cubic_polylines(control: Floats, tolerance: float | Floats) -> tuple[Floats, NDArray[np.int64]]:
@@ -165,5 +164,4 @@ def _halved(start: Floats, end: Floats, center: Floats, is_left: NDArray[np.bool
         scale = radius[:, None] / norms(middle)
         ways[:, step // 2 :: step] = scale[..., None] * middle
         step //= 2
-    places: Floats = center[:, None] + ways[:, 1:-1]
-    return places
+    return center[:, None] + ways[:, 1:-1]

@@ -60,8 +60,7 @@ def angle_of(x: ArrayLike, y: ArrayLike) -> Floats:
     length, small = hypotenuse(x, y), np.minimum(np.abs(x), np.abs(y))
     angle = inverse_sine(np.divide(small, length, out=np.zeros_like(length), where=length > 0))
     angle = np.where(np.abs(y) > np.abs(x), PI / 2 - angle, angle)
-    signed: Floats = np.copysign(np.where(np.signbit(x), PI - angle, angle), y)
-    return signed
+    return np.copysign(np.where(np.signbit(x), PI - angle, angle), y)
 
 
 def cosine_and_sine(angle: ArrayLike) -> tuple[Floats, Floats]:
@@ -113,8 +112,7 @@ def _by_halves(z: Floats, sign: int) -> Floats:
     for coefficient in reversed(_coefficients(sign)):
         total *= square
         total += coefficient
-    result: Floats = (factor * z * total).reshape(shape)
-    return result
+    return (factor * z * total).reshape(shape)
 
 
 def _coefficients(sign: int) -> list[float]:

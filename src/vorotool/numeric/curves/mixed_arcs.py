@@ -43,8 +43,7 @@ class MixedArcs(Columns):
     @property
     def is_circle(self) -> NDArray[np.bool_]:
         """(n,) whether each is a circular arc."""
-        is_circle: NDArray[np.bool_] = ~np.isnan(self.center[:, 0])
-        return is_circle
+        return ~np.isnan(self.center[:, 0])
 
     @cached_property
     def lengths(self) -> Floats:
@@ -114,8 +113,7 @@ def _angles_of(sine: Floats, cosine: Floats) -> Floats:
     """Angles up to a quarter turn."""
     is_large = sine > _LARGE
     angle = inverse_sine(np.where(is_large, cosine, sine))
-    made: Floats = np.where(is_large, PI / 2 - angle, angle)
-    return made
+    return np.where(is_large, PI / 2 - angle, angle)
 
 
 def _segments_of(sine: Floats, cosine: Floats) -> Floats:
@@ -139,8 +137,7 @@ def areas_beside(source: Floats, control: Floats, target: Floats, center: Floats
     triangle = (crosses(a, b)) / 2
     u, v = control - source, target - source
     beside = (crosses(u, v)) / 3
-    areas: Floats = triangle + np.where(np.isnan(beside), 0, beside)
-    return areas
+    return triangle + np.where(np.isnan(beside), 0, beside)
 
 
 def lengths_of(source: Floats, control: Floats, target: Floats) -> Floats:
@@ -166,5 +163,4 @@ def _rise(s0: Floats, s1: Floats, step: Floats) -> Floats:
     same = s0 * s1
     products = (w0 + w1) / 2 + (s0 + s1) * (s0 + s1) / (2 * (w0 + w1))
     outer = np.where(same > 0, (1 + s0 * s0 + s1 * s1) / (w0 * w1 + same), w0 * w1 - same)
-    rise: Floats = step * products + inverse_sinh(np.nan_to_num(step * (1 + outer) / (w0 + w1)))
-    return rise
+    return step * products + inverse_sinh(np.nan_to_num(step * (1 + outer) / (w0 + w1)))

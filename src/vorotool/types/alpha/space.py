@@ -108,8 +108,7 @@ class SpaceAlphaComplex(Value, RankedRadii, Tabular):
         if not len(self.mesh):
             return self.mesh.planar
         t, k = np.divmod(self.facet, 4)
-        triangles: NDArray[np.int32] = self.mesh.tetrahedra[t[:, None], FACES[k]]
-        return triangles
+        return self.mesh.tetrahedra[t[:, None], FACES[k]]
 
     @cached_property
     def sides(self) -> NDArray[np.int32]:
@@ -122,8 +121,7 @@ class SpaceAlphaComplex(Value, RankedRadii, Tabular):
         """Return the corners of the points, edges, triangles or tetrahedra; of points those without duplicates."""
         if what == "points":
             return np.flatnonzero(~self.mesh.is_duplicate).astype(np.int32)[:, None]
-        corners: NDArray[np.int32] = getattr(self, _checked(what))
-        return corners
+        return getattr(self, _checked(what))
 
     def ranks(self, what: str) -> NDArray[np.int32]:
         """Return the (k, 3) ranks of r_min, r_mid and r_max of all `simplices`; -1 for r_min of points, which is 0."""
@@ -143,8 +141,7 @@ class SpaceAlphaComplex(Value, RankedRadii, Tabular):
 
     def radii(self, what: str) -> Floats:
         """Return the (k, 3) radii r_min, r_mid and r_max of all `simplices`; infinite where there is none."""
-        radii: Floats = np.concatenate([self.spectrum, [np.inf, 0.0]])[self.ranks(what)]
-        return radii
+        return np.concatenate([self.spectrum, [np.inf, 0.0]])[self.ranks(what)]
 
     def classes(self, what: str, r: Radius) -> NDArray[np.uint8]:
         """Return the indices in `CLASSES` of all `simplices` in the shape of r."""
@@ -283,8 +280,7 @@ class SpaceAlphaShape(Value, Tabular):
     @property
     def inside(self) -> Booleans:
         """(t,) whether each tetrahedron is in the shape."""
-        inside: Booleans = self.region >= 0
-        return inside
+        return self.region >= 0
 
     @property
     def tetrahedra(self) -> NDArray[np.int32]:
@@ -294,13 +290,11 @@ class SpaceAlphaShape(Value, Tabular):
     @cached_property
     def surface_index(self) -> Indices:
         """Return the triangles of the family that bound one tetrahedron of the shape."""
-        found: Indices = np.flatnonzero(self._sides_inside.sum(axis=1) == 1)
-        return found
+        return np.flatnonzero(self._sides_inside.sum(axis=1) == 1)
 
     @cached_property
     def _sides_inside(self) -> Booleans:
-        inside: Booleans = np.append(self.inside, False)[self.family.sides]
-        return inside
+        return np.append(self.inside, False)[self.family.sides]
 
     @cached_property
     def surface(self) -> NDArray[np.int32]:
@@ -442,8 +436,7 @@ class SpaceAlphaShape(Value, Tabular):
         )
 
     def _matrix(self, what: str | None) -> NDArray[np.int32]:
-        matrix: NDArray[np.int32] = getattr(self, what or "surface")
-        return matrix
+        return getattr(self, what or "surface")
 
     def _summary(self) -> str:
         sizes = counted(len(self.points), "point"), counted(self.region_count, "region")

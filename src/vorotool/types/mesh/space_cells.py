@@ -131,25 +131,21 @@ class SpaceCellSet(OfPoints, Tabular):
 
         The error is about 2e-15 times the cube of a cell's diameter.
         """
-        volumes: Floats = self._measures["volumes"]
-        return volumes
+        return self._measures["volumes"]
 
     @cached_property
     def areas(self) -> Floats:
         """Return the (n,) areas of the surfaces of the cells, 0 of empty ones."""
-        areas: Floats = self._measures["areas"]
-        return areas
+        return self._measures["areas"]
 
     @cached_property
     def face_areas(self) -> Floats:
         """Return the (f,) areas of the faces."""
-        areas: Floats = self._measures["face_areas"]
-        return areas
+        return self._measures["face_areas"]
 
     @cached_property
     def _measures(self) -> dict[str, Any]:
-        measures: dict[str, Any] = resolved("engines.delaunay.space_cells:measures_of")(self)
-        return measures
+        return resolved("engines.delaunay.space_cells:measures_of")(self)
 
     @cached_property
     def neighbor_counts(self) -> NDArray[np.int64]:
