@@ -16,7 +16,7 @@ class Writer(NamedTuple):
     function: str
     """``module:name`` within the package."""
     takes: tuple[str, ...] = ("fmt", "what")
-    """Options that it has, of these and ``flatten``."""
+    """Options that it has, of these, ``flatten`` and ``product``."""
 
 
 class Format(NamedTuple):
@@ -48,7 +48,7 @@ class Format(NamedTuple):
 
 
 _GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten",))
-_DXF = Writer("formats.drawing.dxf_writer:write_dxf", ("what",))
+_DXF = Writer("formats.drawing.dxf_writer:write_dxf", ("product",))
 _ALL = (
     Format("png", "PNG", is_text=False, is_image=True),
     Format("tiff", "TIFF", ("tif", "tiff"), is_text=False, is_image=True),

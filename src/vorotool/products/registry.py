@@ -407,7 +407,7 @@ def write_product(
             write_product(taker, value, product, source, flatten=flatten)
         return
     writer = writer or (GENERAL if is_of(value, *_IN_PLACE) else product.own.get(fmt, GENERAL))
-    given = {"fmt": fmt, "what": product.what, "flatten": flatten}
+    given = {"fmt": fmt, "what": product.what, "flatten": flatten, "product": product}
     resolved(writer.function)(out, value, **{name: given[name] for name in writer.takes})
 
 

@@ -80,7 +80,7 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
         [[2, 2], [1, 1]]
         """
         seeds, frame = self.seeds, self.frame
-        if seeds is not None and frame is not None:
+        if seeds is not None:
             last = 2 * frame.y + frame.height - 1  # y of a seed becomes last - y
             seeds = replace(seeds, y=last * seeds.scale - seeds.y)
         return LabelImage(self.labels[::-1], frame, seeds, sides=self.sides)

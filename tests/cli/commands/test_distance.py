@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import ezdxf
 import numpy as np
 import pytest
 import tifffile
@@ -42,6 +43,12 @@ def test_what_is_chosen(run, two):
     assert len(run("distance", *two, "--what", "hausdorff").rows) == 3
     run("distance", *two, "--what", "hausdorff,smallest", "-o", "both.csv")
     assert len(Path("both.hausdorff.csv").read_text().splitlines()) == 4
+
+
+@pytest.mark.parametrize(("what", "lines"), [("distances", 4), ("hausdorff", 3), ("smallest", 1)])
+def test_drawings_have_the_same_lines(run, two, what, lines):
+    run("distance", *two, "--what", what, "-o", "a.dxf")
+    assert len(ezdxf.readfile("a.dxf").modelspace()) == lines
 
 
 def test_standard_input_is_one_of_them(run, two):

@@ -1,8 +1,9 @@
 """Pictures of label images and of slices: outlines, PNG and SVG."""
 
-import itertools
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,10 +16,9 @@ from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool import LimitError, UsageError
 from vorotool.render.canvas.styles import CELLS, PictureStyle, picture_palette
-from vorotool.render.label_images.picture import LabelPicture
-from vorotool.render.label_images.png import disc_radius, picture_bands
+from vorotool.render.label_images.picture import LabelPicture, index_bands
 from vorotool.render.label_images.slices import SlicePicture
-from vorotool.render.label_images.svg import crack_loops
+from vorotool.render.label_images.svg import crack_loops, disc_radius
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import Frame
 from vorotool.types.points.seed_set import SeedSet
@@ -49,20 +49,24 @@ def test_filled_outlines_are_the_labels(labels: np.ndarray) -> None:
 
 PALETTE = picture_palette(4)
 RNG = np.random.default_rng(1)
+LAYERS = ["cells", "diagram", "seeds"]
 LABELS = RNG.integers(0, 6, (40, 31)).astype(np.uint16)
 DIAGRAM = RNG.integers(0, 5, LABELS.shape) == 0
 COLORS = np.array([0, 4, 3, 2, 1, 4])
 SEEDS = SeedSet(RNG.integers(-2, 34, 9) * 4 + 1, RNG.integers(-2, 43, 9) * 4 + 3, np.arange(1, 10), scale=4)
 
 
-def picture(heights: list[int] | None = None, **options: object) -> np.ndarray:
-    cuts = [0, *itertools.accumulate(heights or [len(LABELS)])]
-    pieces = [slice(a, b) for a, b in itertools.pairwise(cuts)]
-    settings = {"diagram": (DIAGRAM[p] for p in pieces), "seeds": SEEDS, **options}
-    bands = picture_bands(
-        (LABELS[p] for p in pieces), shape=LABELS.shape, palette=PALETTE, color_of_label=COLORS, **settings
-    )
-    return np.concatenate(list(bands))
+def picture(
+    *,
+    diagram: np.ndarray | None = DIAGRAM,
+    seeds: SeedSet | None = SEEDS,
+    layers: Sequence[str] = LAYERS,
+    **framed: Frame,
+) -> np.ndarray:
+    image = LabelImage(LABELS, seeds=seeds, **framed)
+    drawn = LabelPicture(image, (np.arange(1, 6), COLORS[1:]), layers, PictureStyle())
+    marks = SimpleNamespace(palette=PALETTE, diagram=diagram, outlines=None, names=None)
+    return np.concatenate(list(index_bands(drawn, marks, layers, [])))
 
 
 def discs(frame: Frame) -> np.ndarray:
@@ -75,17 +79,19 @@ def discs(frame: Frame) -> np.ndarray:
     return hit
 
 
-@pytest.mark.parametrize("frame", [None, Frame(-3, 5, 31, 40)])
-def test_layers_lie_on_each_other(frame: Frame | None) -> None:
+@pytest.mark.parametrize("framed", [{}, {"frame": Frame(-3, 5, 31, 40)}])
+def test_layers_lie_on_each_other(framed: dict[str, Frame]) -> None:
     expected = COLORS[LABELS]
     expected[DIAGRAM] = PALETTE.line
-    expected[discs(frame or Frame(0, 0, 31, 40))] = PALETTE.seed
-    np.testing.assert_array_equal(picture(frame=frame), expected)
+    expected[discs(framed.get("frame", Frame(0, 0, 31, 40)))] = PALETTE.seed
+    np.testing.assert_array_equal(picture(**framed), expected)
 
 
-@pytest.mark.parametrize("heights", [[1] * 40, [39, 1], [3, 17, 0, 20]])
-def test_bands_do_not_matter(heights: list[int]) -> None:
-    np.testing.assert_array_equal(picture(heights), picture())
+@pytest.mark.parametrize("rows", [1, 17, 39])
+def test_bands_do_not_matter(rows: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    expected = picture()
+    monkeypatch.setattr("vorotool.render.label_images.picture.BAND_ROWS", rows)
+    np.testing.assert_array_equal(picture(), expected)
 
 
 def test_layers_are_selectable() -> None:
@@ -93,7 +99,6 @@ def test_layers_are_selectable() -> None:
     np.testing.assert_array_equal(picture(layers=["diagram"]), DIAGRAM * PALETTE.line)
     np.testing.assert_array_equal(picture(layers=["seeds"]), discs(Frame(0, 0, 31, 40)) * PALETTE.seed)
     np.testing.assert_array_equal(picture(diagram=None, seeds=None), COLORS[LABELS])
-    refused(UsageError, "'edges'", picture, layers=["edges"])
 
 
 @pytest.mark.parametrize(

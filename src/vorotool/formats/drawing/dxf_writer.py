@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vorotool.formats.drawing.dxf_reader import UNITS, ezdxf_module
 from vorotool.numeric.arrays import Floats
 from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.products.registry import Product, write_product
 from vorotool.types.alpha.shape import AlphaHull
 from vorotool.types.fields import DOWN, YAxis
 from vorotool.types.skeleton.discs import Discs
@@ -25,7 +26,7 @@ DEPTH = "depth"
 """Layer of the lines in space along points."""
 
 
-def write_dxf(out: BinaryIO, value: Any, *, what: str) -> None:
+def write_dxf(out: BinaryIO, value: Any, *, product: Product) -> None:
     """Write a result on a layer of its name; offset curves on one for each distance."""
     drawing = DxfDrawing(unit=value.unit, y_axis=value.y_axis)
     if isinstance(value, Skeleton | LedOn | SmoothLines | SkeletonPoints):
@@ -39,10 +40,12 @@ def write_dxf(out: BinaryIO, value: Any, *, what: str) -> None:
         AlphaHull: _add_hull,
         Discs: _add_discs,
     }
-    if isinstance(value, SkeletonPoints) and what == "points":
+    if isinstance(value, SkeletonPoints) and product.what == "points":
         _add_points(drawing, value)
+    elif type(value) in own:
+        own[type(value)](drawing, value, product.what)
     else:
-        own.get(type(value), _add_features)(drawing, value, what)
+        _add_features(drawing, value, product)
     drawing.write(out)
 
 
@@ -159,18 +162,16 @@ def _add_points(drawing: DxfDrawing, points: SkeletonPoints) -> None:
 
 
 # ---- what has no curves ----------------------------------------------------------------------------
-def _add_features(drawing: DxfDrawing, value: Any, what: str) -> None:
+def _add_features(drawing: DxfDrawing, value: Any, product: Product) -> None:
     """What a result has as features in GeoJSON."""
     import orjson
 
-    from vorotool.products.registry import parts_of, write_product
-
     text = io.BytesIO()
-    write_product(text, value, parts_of(value)[what], "geojson")
+    write_product(text, value, product, "geojson")
     for feature in orjson.loads(text.getvalue())["features"]:
         own = feature.get("properties") or {}
-        named = own.get("layer" if what == "shape" else "class")
-        _add_geometry(drawing, named if isinstance(named, str) and named else what, feature["geometry"])
+        named = own.get("layer" if product.what == "shape" else "class")
+        _add_geometry(drawing, named if isinstance(named, str) and named else product.what, feature["geometry"])
 
 
 def _add_geometry(drawing: DxfDrawing, layer: str, geometry: Any) -> None:

@@ -42,21 +42,26 @@ def _glyph(letter: str) -> NDArray[np.bool_]:
     return (columns >> np.arange(HEIGHT, dtype=np.uint8)[:, None] & 1).astype(bool)
 
 
+def grown(pixels: NDArray[np.bool_], *, back: bool = True, on: bool = True) -> NDArray[np.bool_]:
+    """Add the pixels before and after each, above and below, corner to corner, too."""
+    made = pixels.copy()
+    for along in (made, made.T):
+        before = along.copy(order="K")
+        if back:
+            along[:-1] |= before[1:]
+        if on:
+            along[1:] |= before[:-1]
+    return made
+
+
 @cache
 def _cells(text: str) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Cells of a text and of its halo, as (n, 2) columns and rows from the middle of its box."""
     ink = np.zeros((HEIGHT + 2, ADVANCE * len(text) + 1), bool)
     for k, letter in enumerate(text):
         ink[1:-1, ADVANCE * k + 1 : ADVANCE * k + 1 + WIDTH] = _glyph(letter)
-    grown = ink.copy()
-    for axis in (0, 1):
-        before = grown.copy()
-        lower, upper = (slice(1, None), slice(None)), (slice(None, -1), slice(None))
-        lower, upper = (lower, upper) if axis == 0 else (lower[::-1], upper[::-1])
-        grown[lower] |= before[upper]
-        grown[upper] |= before[lower]
     middle = np.array([ink.shape[1] // 2, ink.shape[0] // 2])
-    return np.argwhere(ink)[:, ::-1] - middle, np.argwhere(grown & ~ink)[:, ::-1] - middle
+    return np.argwhere(ink)[:, ::-1] - middle, np.argwhere(grown(ink) & ~ink)[:, ::-1] - middle
 
 
 def text_cells(texts: Sequence[str]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.bool_]]:

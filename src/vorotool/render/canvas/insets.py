@@ -168,17 +168,18 @@ class ScaledPage(Page):
     @property
     def size(self) -> str:
         """Attributes of its size."""
-        across, down = (_short(side) for side in self._sides)
+        across, down = (short(side) for side in self._sides)
         return f'width="{across}mm" height="{down}mm"'
 
     @property
     def extent(self) -> str:
         """Its width and height in px, as a viewBox has them."""
-        return f"{_short(self.width)} {_short(self.height)}"
+        return f"{short(self.width)} {short(self.height)}"
 
 
-def _short(number: float) -> str:
-    return f"{number:.6f}".rstrip("0").rstrip(".")
+def short(number: float, decimals: int = 6) -> str:
+    """Write a number with so many decimals at most."""
+    return f"{number:.{decimals}f}".rstrip("0").rstrip(".")
 
 
 def styled_layers(layers: Iterable[Layer], style: PictureStyle) -> list[Layer]:

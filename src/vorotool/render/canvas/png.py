@@ -14,7 +14,7 @@ from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.glyphs import ADVANCE, HEIGHT, text_cells
 from vorotool.render.canvas.insets import PixelPage
 from vorotool.render.canvas.layers import Arcs, CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts
-from vorotool.render.canvas.styles import edge_color
+from vorotool.render.canvas.styles import edge_color, triples
 
 FINE = 4
 """Pixels of the drawing a pixel of the picture, each way: 16 shades."""
@@ -100,7 +100,7 @@ class _Canvas:
         backdrop, ground = self.page.backdrop, self.page.style.ground
         has_alpha = backdrop is None and ground is None
         names = [NOTHING if backdrop is not None or ground is None else ground, *self.colors]
-        palette = np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint16)
+        palette = triples(names).astype(np.uint16)
         for top in range(0, self.page.height, BAND_ROWS):
             fine = self.indices[top * FINE : (top + BAND_ROWS) * FINE]
             rows = len(fine) // FINE

@@ -48,11 +48,12 @@ LARGEST_PALETTE = 256
 _GOLDEN_ANGLE = 0.381966011250105  # of a turn: successive hues never come close soon
 
 
-def _triples(names: Iterable[str]) -> NDArray[np.uint8]:
+def triples(names: Iterable[str]) -> NDArray[np.uint8]:
+    """(n, 3) red, green and blue of colors."""
     return np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint8)
 
 
-LINE_ON_PAPER = _triples([WHITE, LINE])
+LINE_ON_PAPER = triples([WHITE, LINE])
 """Palette of the diagram: an image of 0 and 1 that looks like ink on paper."""
 
 
@@ -126,7 +127,7 @@ def picture_palette(
         raise LimitError(f"{classes} color classes: a palette picture has at most {most}, use {AS_SVG}")
     depth = 4 if len(names) <= 16 else 8
     return PicturePalette(
-        _triples(names), line, seed, depth, halo, own["cells"], own["labels"], own["objects"], has_halos, letter_edge
+        triples(names), line, seed, depth, halo, own["cells"], own["labels"], own["objects"], has_halos, letter_edge
     )
 
 

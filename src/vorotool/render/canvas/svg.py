@@ -17,7 +17,7 @@ from vorotool.numeric.coordinates import current_written
 from vorotool.numeric.curves.flatten import middles_of
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.xml_text import xml_characters
-from vorotool.render.canvas.insets import PixelPage
+from vorotool.render.canvas.insets import PixelPage, short
 from vorotool.render.canvas.layers import (
     Arcs,
     Backdrop,
@@ -175,7 +175,7 @@ class _Commands:
         source, target = (curves.points[end][is_round] for end in curves.pairs.T)
         radii, number = np.unique(hypotenuse(*(source - center).T), return_inverse=True)
         for radius in map(page.length, radii.tolist()):
-            sides = " ".join(_short(side, page.decimals + 1) for side in (radius, radius * page.aspect))
+            sides = " ".join(short(side, page.decimals + 1) for side in (radius, radius * page.aspect))
             self.texts += [f"A{sides} 0 0 {sweep} " for sweep in (0, 1)]
         sweeps = is_left != page.y_up  # 1 is clockwise as seen
         numbers = 4 + 2 * number + np.stack([sweeps, ~sweeps])
@@ -191,7 +191,7 @@ class _Commands:
         first = len(self.texts)
         for command, (x, y) in zip(commands.tolist(), middles.tolist(), strict=True):
             arc = self.texts[command]
-            self.texts.append(f"{arc}{_short(x, decimals)} {_short(y, decimals)}{arc}")
+            self.texts.append(f"{arc}{short(x, decimals)} {short(y, decimals)}{arc}")
         return first + np.arange(len(commands))
 
 
@@ -320,13 +320,13 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
         command = "L"
         if is_arc[k]:
             across = page.length(radii[k])
-            radius, other = (_short(each, page.decimals + 1) for each in (across, across * page.aspect))
+            radius, other = (short(each, page.decimals + 1) for each in (across, across * page.aspect))
             command = f"A{radius} {other} 0 0 {sweeps[k]} "
-        commands.append(f"{command}{_short(x, page.decimals)} {_short(y, page.decimals)}")
+        commands.append(f"{command}{short(x, page.decimals)} {short(y, page.decimals)}")
     paths = []
     for first, last in zip(layer.rings[:-1].tolist(), layer.rings[1:].tolist(), strict=True):
         x, y = start[first].tolist()
-        begin = f"M{_short(x, page.decimals)} {_short(y, page.decimals)}"
+        begin = f"M{short(x, page.decimals)} {short(y, page.decimals)}"
         paths.append(f"{begin}{''.join(commands[first:last])}Z")
     style = _stroke(layer.edge, layer.width)
     if layer.fill is not None:
@@ -347,10 +347,6 @@ def _circles(layer: Circles, page: Page) -> Iterator[bytes]:
 
 def _escaped(text: str) -> str:
     return escape(xml_characters(text))
-
-
-def _short(number: float, decimals: int) -> str:
-    return f"{number:.{decimals}f}".rstrip("0").rstrip(".")
 
 
 _UNSCALED = 'vector-effect="non-scaling-stroke"'

@@ -12,7 +12,7 @@ from vorotool.formats.images.png_writer import write_png
 from vorotool.render.canvas.insets import ADVANCE, box, insets, letter_size, rounded_length
 from vorotool.render.canvas.layers import Backdrop, ImagePage, Layer, Page, Polygons, Texts
 from vorotool.render.canvas.png import layer_bands
-from vorotool.render.canvas.styles import FAINT, WHITE, PictureStyle
+from vorotool.render.canvas.styles import FAINT, WHITE, PictureStyle, triples
 from vorotool.types.skeleton.arc_measures import ThicknessImage
 
 COLORS = 255
@@ -31,7 +31,7 @@ TICKS = 4
 def write_thickness_png(out: BinaryIO, image: ThicknessImage, style: PictureStyle, *, unit: str | None = None) -> None:
     """Draw the pixels in colors from dark, which is thin, to light; a scale bar and the bar of the colors over them."""
     largest = image.largest
-    ground = np.array([list(bytes.fromhex((style.ground or WHITE)[1:]))], dtype=np.uint8)
+    ground = triples([style.ground or WHITE])
     indices, palette = amount_indices(image.values, largest), np.concatenate([ground, scale_colors(COLORS)])
     if not style.has_insets:
         has_alpha = style.ground is None

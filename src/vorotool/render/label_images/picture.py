@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -13,14 +14,16 @@ from vorotool.engines.label_images.names_and_colors import name_places, outermos
 from vorotool.engines.label_images.regions import voronoi_diagram
 from vorotool.formats.images.png_writer import write_png
 from vorotool.frozen import frozen
+from vorotool.numeric.arrays import ranges
 from vorotool.numeric.coordinates import current_written
+from vorotool.render.canvas.glyphs import grown, text_cells
 from vorotool.render.canvas.insets import insets
 from vorotool.render.canvas.layers import Backdrop, ImagePage, Layer, Lines, Page, Points, Polygons, column_texts
 from vorotool.render.canvas.png import layer_bands
-from vorotool.render.canvas.styles import CELLS, EDGE, LINE, SEED, PictureStyle, picture_palette
-from vorotool.render.label_images.png import Names, around, over_image, picture_bands, widened
-from vorotool.render.label_images.svg import aspect_of, has_numbers, write_label_svg
+from vorotool.render.canvas.styles import CELLS, EDGE, LINE, SEED, PicturePalette, PictureStyle, picture_palette
+from vorotool.render.label_images.svg import Names, aspect_of, disc_radius, has_numbers, write_label_svg
 from vorotool.types.images import LabelImage
+from vorotool.types.pixels import Frame
 
 if TYPE_CHECKING:
     from vorotool.products.registry import Product
@@ -176,48 +179,87 @@ def _write_png(out: BinaryIO, picture: LabelPicture) -> None:
         write_png(out, [pixels.reshape(len(pixels), -1)], pixels.shape[:2], rgb=True)
         return
     palette, has_alpha = marks.palette, picture.style.ground is None
-    bands, depth = _indexed(picture, marks, picture.layers, marks.below), palette.bit_depth
+    bands, depth = index_bands(picture, marks, picture.layers, marks.below), palette.bit_depth
     write_png(out, bands, picture.image.shape, bit_depth=depth, palette=palette.colors, has_alpha=has_alpha)
 
 
-def _indexed(picture: LabelPicture, marks: _Marks, layers: Sequence[str], below: _Below) -> Iterator[NDArray[np.uint8]]:
-    """Rows of palette indices of some layers, in bands from top to bottom."""
-    image = picture.image
+def index_bands(
+    picture: LabelPicture, marks: _Marks, layers: Sequence[str], below: _Below
+) -> Iterator[NDArray[np.uint8]]:
+    """Compose rows of palette indices from top to bottom: cells below, lines over them, seeds and names on top."""
+    image, palette = picture.image, marks.palette
     number, color_of_number = _numbering(*picture.colors)
-    starts = range(0, image.shape[0], BAND_ROWS)
-    return picture_bands(
-        (number(image.labels[row : row + BAND_ROWS]) for row in starts),
-        shape=image.shape,
-        palette=marks.palette,
-        color_of_label=color_of_number,
-        diagram=None if marks.diagram is None else (marks.diagram[row : row + BAND_ROWS] for row in starts),
-        marks=below,
-        seeds=image.seeds,
-        outlines=marks.outlines,
-        frame=image.frame,
-        names=marks.names,
-        layers=layers,
-    )
+    classes = color_of_number.astype(np.uint8)
+    has_discs = image.seeds and marks.outlines is None and "seeds" in layers
+    discs = _Discs(image.seeds, image.frame) if image.seeds and has_discs else None
+    letters = _Letters(marks.names, palette) if marks.names is not None and "labels" in layers else None
+    for top in range(0, image.shape[0], BAND_ROWS):
+        band = slice(top, top + BAND_ROWS)
+        labels = number(image.labels[band])
+        made = classes[labels] if "cells" in layers else np.zeros(labels.shape, np.uint8)
+        for value, pixels in below:
+            made[pixels[band]] = value
+        if marks.diagram is not None and "diagram" in layers:
+            made[marks.diagram[band]] = palette.line
+        if marks.outlines is not None and "seeds" in layers:
+            made[marks.outlines[band]] = palette.seed
+        if discs is not None:
+            if palette.has_halos:
+                discs.draw(made, top, palette.halo, wider=1.0)
+            discs.draw(made, top, palette.seed)
+        if letters is not None:
+            letters.draw(made, top)
+        yield made
 
 
 def _pixels(picture: LabelPicture, marks: _Marks) -> NDArray[np.uint8]:
     """(H, W, 3) red, green and blue, with the image beneath, and a legend and a scale bar over them."""
     passes: list[tuple[Sequence[str], _Below]] = [(picture.layers, marks.below)]
     if picture.backdrop is None:
-        pixels: NDArray[np.uint8] = marks.palette.colors[np.concatenate(list(_indexed(picture, marks, *passes[0])))]
+        pixels: NDArray[np.uint8] = marks.palette.colors[np.concatenate(list(index_bands(picture, marks, *passes[0])))]
     else:
         pixels = picture.backdrop.pixels
         if {"cells", "objects"} <= set(picture.layers):  # cells are seen through objects, as the image is through both
             others = [each for each in picture.layers if each != "cells"]
             passes = [(["cells"], marks.borders), (others, marks.below[len(marks.borders) :])]
         for each in passes:
-            pixels = over_image(_indexed(picture, marks, *each), pixels, marks.palette, picture.image.frame)
+            pixels = over_image(index_bands(picture, marks, *each), pixels, marks.palette, picture.image.frame)
     if not picture.style.has_insets:
         return pixels
     page = ImagePage(Backdrop(pixels, bytes))
     over = _insets(picture, page, has_outlines=marks.outlines is not None)
     drawn: NDArray[np.uint8] = np.concatenate(list(layer_bands([], page, insets=over)))
     return drawn.reshape(pixels.shape)
+
+
+def over_image(
+    bands: Iterable[NDArray[np.uint8]], pixels: NDArray[np.uint8], palette: PicturePalette, frame: Frame
+) -> NDArray[np.uint8]:
+    """Draw a picture over an image: areas half see-through, lines and seeds not."""
+    made = pixels.copy()
+    height, width = made.shape[:2]
+    left, right = (min(max(x, 0), width) for x in (frame.x, frame.x + frame.width))
+    row = frame.y
+    for band in bands:
+        top, bottom = (min(max(y, 0), height) for y in (row, row + len(band)))
+        index = band[top - row : bottom - row, left - frame.x : right - frame.x]
+        beneath = made[top:bottom, left:right]
+        color = palette.colors[index]
+        mixed = ((beneath.astype(np.uint16) + color + 1) // 2).astype(np.uint8)
+        is_line = np.isin(index, palette.opaque)
+        beneath[...] = np.where(is_line[..., None], color, np.where(index[..., None] > 0, mixed, beneath))
+        row += len(band)
+    return made
+
+
+def widened(lines: NDArray[np.bool_], width: float) -> NDArray[np.bool_]:
+    """Make lines of a pixel so many pixels wide, to the nearest whole number; of none there is nothing."""
+    if width == 0:
+        return np.zeros_like(lines)
+    made = lines
+    for number in range(1, max(1, round(width))):  # to the left and above first, then to the right and below
+        made = grown(made, back=number % 2 == 1, on=number % 2 == 0)
+    return made
 
 
 class _Marks:
@@ -232,7 +274,7 @@ class _Marks:
         if objects is not None and "seeds" in layers:
             self.outlines = widened(outermost_pixels(objects), style.width_of("seeds"))
         lines = [each for each in (self.diagram, self.outlines) if each is not None]
-        halo = around(np.logical_or.reduce(lines)) if over and lines else None
+        drawn = np.logical_or.reduce(lines) if over and lines else None
         chosen = {layer: color for layer, color in style.colors.items() if layer in layers}
         if style.ground is not None:
             chosen["ground"] = style.ground
@@ -246,8 +288,8 @@ class _Marks:
         self.below = [*self.borders]
         if objects is not None and "objects" in layers:
             self.below.append((self.palette.object, objects.labels != 0))
-        if halo is not None:
-            self.below.append((self.palette.halo, halo))
+        if drawn is not None:  # an edge that shows lines on any ground
+            self.below.append((self.palette.halo, grown(drawn) & ~drawn))
 
 
 def _borders(picture: LabelPicture) -> NDArray[np.bool_] | None:
@@ -274,3 +316,63 @@ def _numbering(
     by_label = np.zeros(largest + 1, classes.dtype)
     by_label[labels] = classes
     return np.asarray, by_label
+
+
+class _Letters:
+    """Pixels of names, sorted by row, so that each band looks at its own only; halos come before letters."""
+
+    def __init__(self, names: Names, palette: PicturePalette) -> None:
+        owner, cells, is_ink = text_cells(names.texts)
+        x, y = (names.places[owner] + cells).T
+        order = np.lexsort((is_ink, y))
+        self.x, self.y = x[order], y[order]
+        self.value = np.where(is_ink[order], palette.ink, palette.letter_edge).astype(np.uint8)
+
+    def draw(self, picture: NDArray[np.uint8], top: int) -> None:
+        """Set the pixels of a band; what is outside is left out."""
+        rows, width = picture.shape
+        part = slice(*np.searchsorted(self.y, [top, top + rows]))
+        x, y, value = self.x[part], self.y[part] - top, self.value[part]
+        inside = (x >= 0) & (x < width)
+        picture[y[inside], x[inside]] = value[inside]
+
+
+class _Discs:
+    """Discs around seeds, sorted by row, so that each band looks at its own only."""
+
+    def __init__(self, seeds: SeedSet, frame: Frame) -> None:
+        x, y = seeds.x / seeds.scale - frame.x, seeds.y / seeds.scale - frame.y
+        self.radius = disc_radius(frame.shape, len(seeds))
+        order = np.argsort(y, kind="stable")
+        self.x, self.y = x[order], y[order]
+
+    def draw(self, picture: NDArray[np.uint8], top: int, value: int, *, wider: float = 0.0) -> None:
+        """Set the pixels whose centers lie in a disc; the smallest discs still mark the nearest pixel."""
+        rows, width = picture.shape
+        radius = self.radius + wider
+        reach = math.ceil(radius) + 1
+        first, last = np.searchsorted(self.y, [top - reach, top + rows + reach])
+        x, y = self.x[first:last], self.y[first:last]
+        self._set(picture, np.floor(x + 0.5), np.floor(x + 0.5), np.floor(y + 0.5) - top, value)
+        for offset in range(-reach, reach + 1):
+            row = np.floor(y) + offset
+            square = radius * radius - np.square(row - y)
+            half = np.sqrt(np.maximum(square, 0.0))
+            hit = square >= 0
+            left, right = np.ceil(x - half)[hit], np.floor(x + half)[hit]
+            self._set(picture, np.maximum(left, 0), np.minimum(right, width - 1), row[hit] - top, value)
+
+    @staticmethod
+    def _set(
+        picture: NDArray[np.uint8],
+        left: NDArray[np.float64],
+        right: NDArray[np.float64],
+        row: NDArray[np.float64],
+        value: int,
+    ) -> None:
+        """Fill spans of pixels, ends included; what is outside the picture is left out."""
+        rows, width = picture.shape
+        inside = (row >= 0) & (row < rows) & (left <= right) & (right >= 0) & (left < width)
+        start = left[inside].astype(np.int64)
+        lengths = right[inside].astype(np.int64) - start + 1
+        picture[np.repeat(row[inside].astype(np.int64), lengths), ranges(start, lengths)] = value

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 from itertools import groupby
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
 from vorotool.products.formats import AS_PNG
-from vorotool.render.canvas.insets import PixelPage
+from vorotool.render.canvas.insets import PixelPage, short
 from vorotool.render.canvas.layers import Layer, Page, checked_layers, halo_width
 from vorotool.render.canvas.styles import EDGE, FAINT, INK, SEED, cell_color, edge_color
 from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element, layer_parts
-from vorotool.render.label_images.png import Names, disc_radius
 from vorotool.types.images import LabelImage
 
 if TYPE_CHECKING:
@@ -30,6 +29,13 @@ LINE_WIDTH = 1.5
 """Px."""
 
 _MARGIN = 0.02
+
+
+class Names(NamedTuple):
+    """Names of regions, and the (k, 2) column and row of the pixel on which each is centered."""
+
+    texts: Sequence[str]
+    places: NDArray[np.int64]
 
 
 def write_label_svg(
@@ -103,26 +109,22 @@ class _Page:
     def corners(self) -> tuple[list[str], list[str]]:
         """Return the page coordinates, across and down, of the lines of the lattice of pixel corners."""
         rows, columns = self.image.shape
-        across = [_short(index * self.scale + self.offset) for index in range(columns + 1)]
-        return across, [_short(index * self.scale_down + self.offset) for index in range(rows + 1)]
+        across = [short(index * self.scale + self.offset, 2) for index in range(columns + 1)]
+        return across, [short(index * self.scale_down + self.offset, 2) for index in range(rows + 1)]
 
     def place(self, x: float, y: float) -> tuple[str, str]:
         """Return the page coordinates of a point given in pixels, whose centers are at integers."""
-        return _short((x + 0.5) * self.scale + self.offset), _short((y + 0.5) * self.scale_down + self.offset)
+        return short((x + 0.5) * self.scale + self.offset, 2), short((y + 0.5) * self.scale_down + self.offset, 2)
 
     def seeds(self) -> NDArray[np.float64]:
         """(k, 2) positions in pixels of the image, of the seeds that lie in it."""
         seeds, frame = self.image.seeds, self.image.frame
-        if seeds is None or frame is None:
+        if seeds is None:
             return np.empty((0, 2))
         places = np.stack([seeds.x / seeds.scale - frame.x, seeds.y / seeds.scale - frame.y], axis=1)
         rows, columns = self.image.shape
         inside = (places >= -0.5) & (places < np.array([columns - 0.5, rows - 0.5]))
         return places[inside.all(axis=1)]
-
-
-def _short(value: float) -> str:
-    return f"{value:.2f}".rstrip("0").rstrip(".")
 
 
 def _cells(page: _Page, color_of_label: Mapping[int, int]) -> Iterator[str]:
@@ -191,7 +193,7 @@ def _numbers(page: _Page, mark_seeds: bool) -> Iterator[str]:
         marked[row, column] = True
     digits = len(str(int(labels.max())))
     size = min(page.scale_down * 0.5, page.scale * min(0.5, 1.3 / max(digits, 1)))
-    style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{_short(size)}"'
+    style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{short(size, 2)}"'
     yield f'<g id="labels" {style} fill="{page.style.of("labels")[0] or INK}">'
     yield from _texts(page, ~marked, size, "")
     yield "</g>"
@@ -214,7 +216,7 @@ def _names(page: _Page, names: Names) -> Iterator[str]:
     """Write a name in each region, with an edge around the letters."""
     spacing = math.sqrt(page.width * page.height / max(len(names.texts), 1))
     size = min(max(spacing / 4, 6.0), 16.0)
-    style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{_short(size)}"'
+    style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{short(size, 2)}"'
     color = page.style.of("labels")[0] or INK
     yield f'<g id="labels" {style} fill="{color}" {halo_style(edge_color(color), size)}>'
     for text, (column, row) in zip(names.texts, names.places.tolist(), strict=True):
@@ -231,8 +233,15 @@ def _discs(page: _Page) -> Iterator[str]:
     yield f'<g id="seeds" fill="{color}"{halo}>'
     for x, y in places.tolist():
         across, down = page.place(x, y)
-        yield f'<circle cx="{across}" cy="{down}" r="{_short(radius)}"/>'
+        yield f'<circle cx="{across}" cy="{down}" r="{short(radius, 2)}"/>'
     yield "</g>"
+
+
+def disc_radius(shape: tuple[int, int], count: int) -> float:
+    """Radius of a seed's disc in pixels: 1/250 of the smaller side, but less where that would fill cells."""
+    height, width = shape
+    spacing = math.sqrt(width * height / max(count, 1))
+    return min(max(1.0, min(shape) / 250), max(0.5, spacing / 8))
 
 
 Loop = list[tuple[int, int]]
