@@ -69,3 +69,13 @@ def test_damaged_pictures_are_refused_by_name(run, photographs, name):
         run(f"tessellate {name} -o out.npy --threshold 9", code=3, says=name)
     (photographs / name).write_bytes(data)
     run(f"tessellate {name} -o c.npy --threshold 9 --max-pixels 6143", code=5)
+
+
+@pytest.mark.parametrize(
+    ("columns", "top", "is_said"), [(4, 500, True), (3, 500, True), (4, 2, False), (5, 500, False)]
+)
+def test_integers_that_may_be_points_are_said_to_be_an_image(run, folder, columns, top, is_said):
+    np.save(folder / "a.npy", np.random.default_rng(1).integers(0, top, (30, columns)))
+    said = "save x and y alone, with shape (n, 2)"
+    assert (said in run("tessellate a.npy -o b.npy").err) == is_said
+    assert (said in run("info a.npy").out) == is_said

@@ -27,6 +27,7 @@ from vorotool.formats.io.arrays import npy_header, npy_values
 from vorotool.formats.io.sources import Source, check_pixels, decoding
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.recognition import GAP, PICTURES
+from vorotool.numeric.coordinates import MOST_AXES
 from vorotool.types.images import Raster
 from vorotool.types.pixels import PixelGrid
 
@@ -46,7 +47,17 @@ def read_image(source: Source, options: ReadOptions) -> Raster:
         "pnm": read_pnm,
         "npy": _read_npy,
     }
-    return Raster(_plain(readers[kind](source, max_pixels)), world_grid(source.name))
+    values = _plain(readers[kind](source, max_pixels))
+    if kind == "npy" and _may_be_points(values):
+        shape = f"the integers in {source.name} have the shape {values.shape}"
+        options.note(f"{shape} and are taken for an image; if they are points, save x and y alone, with shape (n, 2)")
+    return Raster(values, world_grid(source.name))
+
+
+def _may_be_points(values: NDArray[Any]) -> bool:
+    """Whether an array has the sides of a list rather than those of an image of labels."""
+    is_list = values.ndim == 2 and 1 < min(values.shape) <= MOST_AXES < max(values.shape)
+    return is_list and values.dtype.kind in "iu" and bool(values.max() > 1)
 
 
 def _check_page(source: Source, page: int | None) -> None:
