@@ -262,6 +262,17 @@ def test_layers_of_inkscape():
     assert svg(box)[0].properties == {}
 
 
+def test_holes_of_stroked_paths():
+    """Cutting machines follow strokes: a plate with holes is one path of closed parts, which nothing fills."""
+    plate = "M0 0h100v60h-100z M20 20h10v10h-10z M22 22h6v6h-6z"
+    shapes, notes = svg(f'<path d="{plate} M200 0h9v9" fill="none" stroke="red"/>')
+    assert [geometry.area for geometry in to_shapely(shapes)] == [0, 6000 - 100, 36]
+    assert (len(set(shapes.feature.tolist())), shapely.is_valid(to_shapely(shapes)).all()) == (1, True)
+    assert notes == ["a.svg: 3 closed lines without a fill read as polygons"]
+    crossing, _ = svg('<path d="M0 0h9v9h-9z M5 5h9v9h-9z" fill="none" stroke="red"/>')
+    assert [geometry.area for geometry in to_shapely(crossing)] == [81, 81]
+
+
 @pytest.mark.parametrize(
     ("ground", "page", "is_skipped"),
     [

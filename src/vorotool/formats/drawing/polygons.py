@@ -127,13 +127,19 @@ class _Rings:
             for ring in (ring for ring in rings if len(ring) == 2 and shape.is_stroked):
                 self._take(index, ring, LINE)
             return
+        outlines = []
         for curve, points in zip(shape.curves, flat, strict=True):
             ring = _open_end(points)
             if (curve.is_closed or len(ring) < len(points)) and len(ring) > 2:
-                self.outlines += 1
-                self._polygon(index, [ring])
+                outlines.append(ring)
             else:
                 self._take(index, points, LINE)
+        self.outlines += len(outlines)
+        if outlines:
+            from vorotool.formats.drawing.fill_rules import nested_polygons
+
+            for polygon in nested_polygons(outlines):
+                self._polygon(index, polygon)
 
     def _begin(self) -> None:
         """Begin a feature, once the one before has anything."""
