@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.batch.inputs import expand_inputs
+from vorotool.batch.inputs import Input, expand_inputs, pages_of
 from vorotool.convert.sites import Sites
 from vorotool.engines.tessellation.raster_objects import default_objects, foreground_values, numbered_components
 from vorotool.errors import BatchError, InputError, Message, UsageError, VorotoolError
@@ -23,7 +23,7 @@ from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.source import NpyVolume, ZarrVolume
 from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.jobs.inputs import check_streams, is_several
-from vorotool.jobs.options import Options
+from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.refusals import refuse
 from vorotool.jobs.terminal import escaped, tell
 from vorotool.numeric.crs import crs_name
@@ -53,16 +53,17 @@ _TYPES = {bool: "truth", int: "integer", float: "number", str: "text"}
 
 def describe_inputs(options: Options) -> None:
     """Print how each input is read; of several, one that cannot be read ends nothing."""
-    names = _named_by(options)
-    if not names:
+    named = _named_by(options)
+    if not named:
         raise UsageError("no input given: name a file, a folder, or - for standard input")
-    check_streams(("the input", name) for name in names)
-    failed = 0
-    for name in names:
+    check_streams(("the input", each.source) for each in named)
+    failed, is_of_pages = 0, options.page == ALL_PAGES
+    for each in pages_of(named) if is_of_pages else named:
+        chosen = changed(options, page=each.page) if is_of_pages else options
         try:
-            told = described(name, options)
+            told = described(each.path or each.source, chosen) | {"input": each.source}
         except VorotoolError as error:
-            if len(names) == 1 or isinstance(error, UsageError):
+            if len(named) == 1 or isinstance(error, UsageError):
                 raise
             tell(f"error: {error.typed}")
             failed += 1
@@ -70,21 +71,20 @@ def describe_inputs(options: Options) -> None:
         with open_output("-") as out:
             out.write(as_json(told) if options.json else as_text(told))
     if failed:
-        raise BatchError(f"{failed} of {len(names)} inputs cannot be read")
+        raise BatchError(f"{failed} of {len(named)} inputs cannot be read")
 
 
-def _named_by(options: Options) -> list[str]:
-    """Return names of files: those given, and those that folders and patterns stand for."""
-    names: list[str] = []
+def _named_by(options: Options) -> list[Input]:
+    """Return files: those given, and those that folders and patterns stand for."""
+    named: list[Input] = []
     for name in options.inputs:
         if not is_several(name):
-            names.append(name)
+            named.append(Input(name, name))
             continue
-        found = expand_inputs(
+        named += expand_inputs(
             [name], extensions=NAMES_WITH[None], follow=options.follow, note=lambda text: tell(f"note: {text}")
         )
-        names += [each.source for each in found]
-    return names
+    return named
 
 
 def described(path: str, options: Options) -> Description:

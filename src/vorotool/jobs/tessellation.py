@@ -427,5 +427,5 @@ def _seeds_of_features(o: Options, polygons: PolygonSet, frame: Frame) -> SeedSe
     if len(missing):
         shown = ", ".join([*map(str, missing[:MOST_NAMED].tolist()), *(["…"] if len(missing) > MOST_NAMED else [])])
         number = f"{len(missing)} of {len(features)}"
-        warn(f"{number} features have no cell, because they are small, covered or outside: {shown}")
+        warn(f"{number} features without a cell, because they are small, covered or outside: {shown}")
     return replace(seeds, properties={name: [column[k] for k in known] for name, column in polygons.properties.items()})

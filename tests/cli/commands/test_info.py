@@ -27,6 +27,29 @@ def info(run):
     return call
 
 
+def test_each_page_is_told(run, info, tmp_path):
+    tifffile.imwrite(tmp_path / "stack.tif", np.eye(9, dtype=np.uint8) * np.array([[[1]], [[7]]], np.uint8))
+    tifffile.imwrite(tmp_path / "one.tif", np.eye(9, dtype=np.uint8))
+    run("info stack.tif", code=3, says="or --page all")
+    told = info("stack.tif one.tif --page all")
+    assert [each["input"] for each in told] == ["stack.tif, page 0", "stack.tif, page 1", "one.tif, page 0"]
+    assert [each["kind"] for each in told] == ["mask", "label image", "mask"]
+    assert run("info stack.tif --page all").out.startswith("stack.tif, page 0\n")
+
+
+def test_an_archive_with_an_image_is_not_a_table(run, tmp_path):
+    np.savez(tmp_path / "a.npz", np.eye(9))
+    run("info a.npz", code=3, says="arr_0.npy has the shape (9, 9); save an image or points as NPY")
+
+
+def test_features_without_geometry_are_named_alike_by_all(run, tmp_path):
+    feature = '{"type": "Feature", "properties": {}, "geometry": %s}'
+    shapes = ", ".join(feature % each for each in ('{"type": "Point", "coordinates": [1, 2]}', "null"))
+    (tmp_path / "a.geojson").write_text('{"type": "FeatureCollection", "features": [%s]}' % shapes)
+    for command in ("voronoi a.geojson", "distance a.geojson a.geojson"):
+        assert "1 feature without geometry kept, and empty" in run(command).err
+
+
 # ---- against other libraries ---------------------------------------------------------------------
 def test_points(info, tmp_path):
     (tmp_path / "a.csv").write_text("lon,name,lat,n\n7.5,Ulm,48.25,1\n-3,,40,2\n")

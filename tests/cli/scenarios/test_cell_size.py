@@ -92,7 +92,7 @@ def test_allocation_lines_up_with_a_mask(run, folder_of_data):
 
 def test_small_features_are_told_of(run, tmp_path):
     write(tmp_path / "in.geojson", [shapely.box(0, 0, 100, 100), shapely.box(3, 3, 4, 4), shapely.box(30, 30, 50, 50)])
-    words = "warning: 2 of 3 features have no cell, because they are small, covered or outside: 2, 3"
+    words = "warning: 2 of 3 features without a cell, because they are small, covered or outside: 2, 3"
     run("tessellate in.geojson --cell-size 10 -o out.tif", says=words)
     labels, *_ = read(tmp_path / "out.tif")
     assert (labels == 1).all()

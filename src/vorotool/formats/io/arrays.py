@@ -201,6 +201,10 @@ def _column(name: str, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, options
         version = np.lib.format.read_magic(member)
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
         shape, _, dtype = read(member)
+        if len(shape) in (2, 3) and dtype.kind in "biuf":
+            raise InputError(
+                f"{name}: {entry.filename} has the shape {shape}; save an image or points as NPY, with numpy.save"
+            )
         if len(shape) != 1 or dtype.kind not in "biufU" or dtype.itemsize == 0:
             raise InputError(
                 f"{name}: {entry.filename} is of type {dtype} and shape {shape}; a table has 1-D columns of numbers or "

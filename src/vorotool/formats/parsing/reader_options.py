@@ -70,7 +70,7 @@ class ReadOptions:
     def note_empty(self, name: str, features: int) -> None:
         """Say how many sites have no geometry, if any."""
         if features:
-            self.note(f"{name}: {counted(features, 'feature')} without geometry, hence with an empty cell")
+            self.note(f"{name}: {counted(features, 'feature')} without geometry kept, and empty")
 
     def note_curves(self, name: str, curves: int) -> None:
         """Say how many curves were flattened, if any."""
