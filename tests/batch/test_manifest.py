@@ -9,7 +9,7 @@ import pytest
 from support.refusals import refused
 from vorotool import OutputError
 from vorotool.batch.manifest import Manifest, digest_of_values, read_history
-from vorotool.batch.tasks import Outcome, Task, carry_out, digest_of
+from vorotool.batch.workers import Outcome, Task, carry_out, digest_of
 
 DONE = Outcome(digest="d", outputs={"out/x/a.csv": "e"}, unit="um", warnings=("moved",))
 

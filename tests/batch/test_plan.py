@@ -8,7 +8,7 @@ from support.refusals import refused
 from vorotool import OutputError, UsageError
 from vorotool.batch.inputs import Input
 from vorotool.batch.plan import check_outputs, output_paths, share
-from vorotool.batch.tasks import Task
+from vorotool.batch.workers import Task
 
 
 def test_names_of_outputs():

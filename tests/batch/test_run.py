@@ -5,7 +5,7 @@ from pathlib import Path
 
 from vorotool.batch.manifest import Manifest
 from vorotool.batch.run import run_tasks
-from vorotool.batch.tasks import Outcome, Task
+from vorotool.batch.workers import Outcome, Task
 from vorotool.formats.io.temporaries import _host
 
 TASKS = [Task(name, (f"out/{name}",)) for name in "abcde"]

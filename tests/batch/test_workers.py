@@ -86,7 +86,7 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path):
     written(tmp_path, "sleep")
     script = (
         "import sys\nfrom pathlib import Path\nfrom support.processes.batch_jobs import obey\n"
-        "from vorotool.batch.tasks import Task\n"
+        "from vorotool.batch.workers import Task\n"
         "from vorotool.batch.workers import local_results\n"
         "list(local_results(obey, iter([(0, Task('0.txt', ('out/0.txt',)))]), jobs=1))"
     )

@@ -26,8 +26,7 @@ from skimage.measure import find_contours
 from timing import timed
 
 import vorotool
-from vorotool.batch.tasks import Outcome, Task
-from vorotool.batch.workers import local_results
+from vorotool.batch.workers import Outcome, Task, local_results
 from vorotool.engines.label_images.outlines import simplified_polygons
 from vorotool.formats.images.png_writer import write_png
 from vorotool.formats.io.sources import Source

@@ -80,7 +80,7 @@ def test_a_batch_whose_worker_dies_goes_on(tmp_path):
         "import os\n"
         "from pathlib import Path\n"
         "from vorotool.batch.workers import local_results\n"
-        "from vorotool.batch.tasks import Outcome, Task\n"
+        "from vorotool.batch.workers import Outcome, Task\n"
         "from support_of_test import work\n"
         "if __name__ == '__main__':\n"
         "    tasks = enumerate(Task(str(n), ()) for n in range(6))\n"
@@ -88,7 +88,7 @@ def test_a_batch_whose_worker_dies_goes_on(tmp_path):
     )
     (tmp_path / "run.py").write_text(script)
     (tmp_path / "support_of_test.py").write_text(
-        "import os\nfrom vorotool.batch.tasks import Outcome\n"
+        "import os\nfrom vorotool.batch.workers import Outcome\n"
         "def work(task):\n"
         "    if task.file == '2':\n        os._exit(7)\n"
         "    return Outcome()\n"

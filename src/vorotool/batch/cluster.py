@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool import __version__
-from vorotool.batch.tasks import Outcome, Process, Task, carry_out, keep_busy
+from vorotool.batch.workers import Outcome, Process, Task, carry_out, keep_busy
 from vorotool.errors import OutputError, UsageError, VorotoolError
 from vorotool.formats.zarr.writer import open_array, write_chunks
 

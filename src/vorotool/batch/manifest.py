@@ -11,7 +11,7 @@ from pathlib import Path, PurePath
 from typing import Any, BinaryIO
 
 from vorotool import __version__
-from vorotool.batch.tasks import Outcome, Task
+from vorotool.batch.workers import Outcome, Task
 from vorotool.errors import OutputError
 from vorotool.formats.io.atomic_output import explained, make_folder
 

@@ -15,7 +15,7 @@ from vorotool import __version__
 from vorotool.batch.inputs import Input, expand_inputs, pages_of, read_names
 from vorotool.batch.manifest import RECORD_ENDING, Manifest, digest_of_values, read_history
 from vorotool.batch.tables import TABLE_FORMATS, JointTable, name_fields
-from vorotool.batch.tasks import Task, digest_of
+from vorotool.batch.workers import Task, digest_of
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.sources import file_of, without_gz

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from vorotool.batch.tasks import Outcome, Task
+from vorotool.batch.workers import Outcome, Task
 from vorotool.errors import InputError, Message, UsageError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.text.tables import safe_text

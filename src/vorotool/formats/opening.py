@@ -24,7 +24,7 @@ from vorotool.types.fields import y_axis_of
 
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
-    from vorotool.formats.images.band_reader import TiffRows, ZarrRows
+    from vorotool.formats.images.image_header import TiffRows, ZarrRows
     from vorotool.types.images import Raster
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.polygons.polygon_set import PolygonSet
@@ -99,7 +99,7 @@ class Opened:
             **options,
         )
         if self.array is not None:
-            from vorotool.formats.images.band_reader import read_rows
+            from vorotool.formats.images.image_header import read_rows
 
             refuse_for_images(given, self.layer)
             if told is not None:
@@ -132,7 +132,7 @@ def open_tiff(name: str, input_format: str | None = None, page: int | None = Non
         return None
     from pathlib import Path
 
-    from vorotool.formats.images.band_reader import TiffRows
+    from vorotool.formats.images.image_header import TiffRows
 
     rows = TiffRows(name, str(Path(name).absolute()), page)
     return rows if rows.is_plain else None
@@ -157,7 +157,7 @@ def open_zarr(name: str, input_format: str | None = None, page: int | None = Non
         raise InputError(f"{name} has a single page: {option(f'--page {page}')} does not exist")
     from pathlib import Path
 
-    from vorotool.formats.images.band_reader import ZarrRows
+    from vorotool.formats.images.image_header import ZarrRows
 
     return ZarrRows(name, str(Path(name).absolute()))
 

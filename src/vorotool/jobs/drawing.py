@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.gis.feature_table import Features
-from vorotool.formats.images.band_reader import read_rows
+from vorotool.formats.images.image_header import read_rows
 from vorotool.formats.images.label_images import label_image_of
 from vorotool.formats.io.sources import NPY, Source, read_source, reading
 from vorotool.formats.opening import image_source, open_zarr, read_recognized

@@ -67,7 +67,7 @@ class Stream:
     def write(self, out: Any, fmt: Any, parts: Iterator[NDArray[Any]], count: int) -> None:
         """Write parts of so many rows or slices to a file."""
         is_flat = isinstance(self.frame, Frame)
-        writer = "images.label_images:write_label_image" if is_flat else "volumes.writer:write_volume"
+        writer = "images.label_images:write_label_image" if is_flat else "images.tiff_writer:write_volume"
         shape = (count, *self.frame.shape[1:])
         resolved(f"formats.{writer}")(out, parts, shape=shape, dtype=self.dtype, fmt=fmt, **self.about)
 

@@ -49,7 +49,7 @@ from vorotool.types.polygons.polygon_set import PolygonSet
 
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.streamed_image import StreamedImage
-    from vorotool.formats.images.band_reader import TiffRows, ZarrRows
+    from vorotool.formats.images.image_header import TiffRows, ZarrRows
     from vorotool.formats.opening import Opened
     from vorotool.numeric.length_units import InputUnit
     from vorotool.render.label_images.picture import LabelPicture

@@ -1,4 +1,4 @@
-"""Tables and vectors in units of the world: of ``--pixel-size``, which scales them, or of ``--spacing``."""
+"""Units of the world, which ``--pixel-size`` scales tables and vectors to, or ``--spacing``; and what is pruned."""
 
 from __future__ import annotations
 
@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeVar
 
 from vorotool.errors import UsageError
 from vorotool.jobs.options import Measured, Options, changed
-from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
-from vorotool.jobs.pruning_choice import Pruning
 from vorotool.numeric.numbers import nearest_double
 from vorotool.products.formats import FORMATS
 from vorotool.products.options import flag, options_of
@@ -23,6 +21,36 @@ if TYPE_CHECKING:
     from vorotool.jobs.targets import Target
     from vorotool.types.pixels import PixelSides
     from vorotool.types.table import Table
+    from vorotool.typing import Criterion
+
+CRITERIA: tuple[Criterion, ...] = ("angle", "chord", "scale", "length", "ratio")
+"""As `vorotool.types.skeleton.critical_values` has them, which ``--help`` does not import."""
+LENGTHS = ("chord", "length")
+"""Criteria whose thresholds are lengths."""
+
+
+class Pruning(NamedTuple):
+    """What is removed: a criterion and a threshold, or nothing; ``name`` is what was asked for."""
+
+    name: str
+    criterion: str | None = None
+    threshold: Any = 0.0  # a float, once lengths with a unit are in pixels
+
+    def stats(self) -> dict[str, Any]:
+        """What statistics say of it."""
+        return {"name": self.name} | ({} if self.criterion is None else {self.criterion: self.threshold})
+
+
+def chosen_pruning(asked: Pruning | None, *, is_mask: bool) -> Pruning:
+    """What to remove: masks are pruned by default, polygons are not."""
+    if asked is not None and asked.name != "mask":
+        return asked
+    if asked is None and not is_mask:
+        return Pruning("none")
+    from vorotool.engines.pruning.pruning import default_pruning_for_masks
+
+    return Pruning("mask", *default_pruning_for_masks())
+
 
 Value = TypeVar("Value")
 Number = TypeVar("Number", bound="float | Fraction")
@@ -93,7 +121,7 @@ def lengths_in_steps(o: Options) -> Options:
     names = (name for name, row in options_of(o.command).items() if row.type in _IN_STEPS)
     others: dict[str, Any] = {name: _in_steps(getattr(o, name), step) for name in names}
     prune: Pruning | None = o.prune
-    if prune is not None and prune.criterion in PRUNED_LENGTHS:
+    if prune is not None and prune.criterion in LENGTHS:
         others["prune"] = prune._replace(threshold=_in_steps(prune.threshold, step))
     return changed(o, **others, pixel_size=size._replace(factor=step))
 

@@ -110,7 +110,7 @@ _TESSELLATE = (
 
 # ---- tessellate, of volumes ----------------------------------------------------------------------
 _STACKS = "tiff npy zarr"
-_VOXELS = Writer("formats.volumes.writer:write_values", ("fmt",))
+_VOXELS = Writer("formats.images.tiff_writer:write_values", ("fmt",))
 _SLICES = {fmt: (*layers[:1], *(name for name in layers[1:] if name != "objects")) for fmt, layers in _COLORED.items()}
 _VOLUMES = (
     _product("labels", "LabelVolume", _STACKS, own=dict.fromkeys(("tiff", "npy"), _VOXELS), has_page=True),

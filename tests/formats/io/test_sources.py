@@ -8,7 +8,7 @@ import pytest
 
 from support.readers.sources import bands_of
 from support.refusals import refused
-from vorotool.batch.tasks import digest_of
+from vorotool.batch.workers import digest_of
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting, read_source
 

@@ -16,10 +16,10 @@ from support.few import few
 from support.readers.written import bytes_of
 from support.refusals import refused
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.formats.volumes import writer
+from vorotool.formats.images import tiff_writer as writer
+from vorotool.formats.images.tiff_writer import write_volume
 from vorotool.formats.volumes.opening import open_volume, read_volume
 from vorotool.formats.volumes.tiff_stack import ome_stack
-from vorotool.formats.volumes.writer import write_volume
 from vorotool.jobs.description import describe_inputs
 from vorotool.jobs.options import Options
 from vorotool.types.volumes.volume import VoxelGrid

@@ -20,9 +20,8 @@ from support.refusals import refused
 from vorotool.errors import LimitError
 from vorotool.formats.images.png_writer import write_png
 from vorotool.render.canvas import svg as layers_svg
-from vorotool.render.canvas.glyphs import text_cells
 from vorotool.render.canvas.layers import Lines, Page, Points, Polygons, Texts, bounds_of
-from vorotool.render.canvas.png import check_picture_size, layer_bands
+from vorotool.render.canvas.png import check_picture_size, layer_bands, text_cells
 from vorotool.render.canvas.styles import CELLS, LINE, SEED, picture_palette
 from vorotool.render.canvas.svg import write_layers_svg
 

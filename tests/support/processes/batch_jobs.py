@@ -5,7 +5,7 @@ import signal
 import time
 from pathlib import Path
 
-from vorotool.batch.tasks import Outcome, Task
+from vorotool.batch.workers import Outcome, Task
 from vorotool.formats.io.atomic_output import open_output
 
 LONG = 600.0

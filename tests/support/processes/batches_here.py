@@ -2,7 +2,7 @@
 
 import pickle
 
-from vorotool.batch.tasks import carry_out
+from vorotool.batch.workers import carry_out
 
 
 def results_here(process, tasks, *, jobs):

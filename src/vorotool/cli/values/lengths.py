@@ -12,8 +12,7 @@ from vorotool.cli.values import UnexpectedError
 from vorotool.cli.values.numbers import decimal
 from vorotool.errors import UsageError
 from vorotool.jobs.options import Measured
-from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning
-from vorotool.jobs.units import AUTO, AUTO_SPACING, PixelSize
+from vorotool.jobs.units import AUTO, AUTO_SPACING, CRITERIA, LENGTHS, PixelSize, Pruning
 from vorotool.numeric.length_units import METERS, is_known
 
 if TYPE_CHECKING:

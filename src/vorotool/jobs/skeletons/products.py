@@ -18,12 +18,15 @@ from vorotool.jobs.job import Results
 from vorotool.jobs.options import Options, Place
 from vorotool.jobs.outlined_images import read_polygons
 from vorotool.jobs.pixel_sizes import placed_backdrop, written_grid
-from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.run_log import Run, parameters_of
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import (
+    CRITERIA,
+    LENGTHS,
     Amount,
+    Pruning,
     box_amounts,
+    chosen_pruning,
     in_units,
     length_in_units,
     lengths_among,

@@ -7,8 +7,7 @@ from typing import Any
 
 from vorotool.products.options.inputs import FRAME, INPUT
 from vorotool.products.options.method import METHOD
-from vorotool.products.options.output import CHECKS, MANY, OUTPUT
-from vorotool.products.options.pictures import PICTURES
+from vorotool.products.options.output import CHECKS, MANY, OUTPUT, PICTURES
 from vorotool.products.options.row import Option
 
 GROUPS: dict[str, tuple[Option, ...]] = {

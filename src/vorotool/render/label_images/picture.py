@@ -16,10 +16,9 @@ from vorotool.formats.images.png_writer import write_png
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import ranges
 from vorotool.numeric.coordinates import current_written
-from vorotool.render.canvas.glyphs import grown, text_cells
 from vorotool.render.canvas.insets import insets
 from vorotool.render.canvas.layers import Backdrop, ImagePage, Layer, Lines, Page, Points, Polygons, column_texts
-from vorotool.render.canvas.png import layer_bands
+from vorotool.render.canvas.png import grown, layer_bands, text_cells
 from vorotool.render.canvas.styles import CELLS, EDGE, LINE, SEED, PicturePalette, PictureStyle, picture_palette
 from vorotool.render.label_images.svg import Names, aspect_of, disc_radius, has_numbers, write_label_svg
 from vorotool.types.images import LabelImage
