@@ -17,7 +17,7 @@ from vorotool.engines.alpha.alpha_hull import (
 from vorotool.engines.alpha.alpha_shape import (
     alpha_shape as alpha_shape,
 )
-from vorotool.engines.alpha.persistence import (
+from vorotool.engines.alpha.alpha_shape import (
     persistence as persistence,
 )
 from vorotool.engines.alpha.verify_alpha import (
@@ -57,16 +57,16 @@ from vorotool.engines.delaunay.delaunay import (
     verify_triangulation as verify_triangulation,
 )
 from vorotool.engines.delaunay.proximity import (
+    cell_statistics as cell_statistics,
+)
+from vorotool.engines.delaunay.proximity import (
     proximity_graph as proximity_graph,
 )
 from vorotool.engines.delaunay.proximity import (
-    verify_proximity_graph as verify_proximity_graph,
-)
-from vorotool.engines.delaunay.site_table import (
-    cell_statistics as cell_statistics,
-)
-from vorotool.engines.delaunay.site_table import (
     site_table as site_table,
+)
+from vorotool.engines.delaunay.proximity import (
+    verify_proximity_graph as verify_proximity_graph,
 )
 from vorotool.engines.digital.comparison import (
     compare_digital as compare_digital,
@@ -278,9 +278,6 @@ from vorotool.types.mesh.cells import (
 from vorotool.types.mesh.cells import (
     ProximityGraph as ProximityGraph,
 )
-from vorotool.types.mesh.space_cells import (
-    SpaceCellSet as SpaceCellSet,
-)
 from vorotool.types.mesh.tables import (
     CellStatistics as CellStatistics,
 )
@@ -292,6 +289,9 @@ from vorotool.types.mesh.tables import (
 )
 from vorotool.types.mesh.tables import (
     triangle_table as triangle_table,
+)
+from vorotool.types.mesh.tetrahedralization import (
+    SpaceCellSet as SpaceCellSet,
 )
 from vorotool.types.mesh.tetrahedralization import (
     Tetrahedralization as Tetrahedralization,
@@ -326,9 +326,6 @@ from vorotool.types.polygons.planar_graph import (
 from vorotool.types.polygons.polygon_set import (
     PolygonSet as PolygonSet,
 )
-from vorotool.types.skeleton.critical_values import (
-    CriticalValues as CriticalValues,
-)
 from vorotool.types.skeleton.discs import (
     Discs as Discs,
 )
@@ -352,6 +349,9 @@ from vorotool.types.skeleton.offsets import (
 )
 from vorotool.types.skeleton.points_along import (
     SkeletonPoints as SkeletonPoints,
+)
+from vorotool.types.skeleton.skeleton import (
+    CriticalValues as CriticalValues,
 )
 from vorotool.types.skeleton.skeleton import (
     Skeleton as Skeleton,

@@ -9,7 +9,7 @@ import pytest
 from vorotool import _core, skeleton_exact
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi
 from vorotool.engines.skeleton.parts import core_skeleton
-from vorotool.types.skeleton.critical_values import CRITERIA
+from vorotool.types.skeleton.skeleton import CRITERIA
 
 TRIANGLE = [[0, 0], [4, 0], [0, 4]]
 SIDES = [[0, 1], [1, 2], [2, 0]]

@@ -6,7 +6,7 @@ from fuzz.runner import of_families
 from support.families.skeleton_shapes import FAMILIES
 from support.oracles.pruning_oracle import disagreement, thresholds
 from vorotool import VorotoolError, critical_values, prune, skeleton_exact, verify_pruning
-from vorotool.types.skeleton.critical_values import CRITERIA
+from vorotool.types.skeleton.skeleton import CRITERIA
 
 MOST_ARCS = 150
 """Brute force is quadratic."""

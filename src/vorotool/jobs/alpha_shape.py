@@ -10,8 +10,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.engines.alpha.alpha_complex import alpha_curves, alpha_edges
-from vorotool.engines.alpha.alpha_shape import chosen_radius, unjoined
-from vorotool.engines.alpha.persistence import persistence
+from vorotool.engines.alpha.alpha_shape import chosen_radius, persistence, unjoined
 from vorotool.errors import warn
 from vorotool.jobs.inputs import JobInput, check_columns, read_sites, read_space, triangulated
 from vorotool.jobs.job import Results

@@ -99,7 +99,7 @@ class DrawnInput(Results):
         return _described(self._value)[2]
 
     def _check_labels(self, image: LabelImage, fmt: str) -> None:
-        from vorotool.engines.label_images.names_and_colors import object_colors
+        from vorotool.engines.label_images.regions import object_colors
         from vorotool.render.label_images.svg import check_size
 
         run, o = self.run, self.options

@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from vorotool.render.drawing import Drawing
     from vorotool.render.looks import World
     from vorotool.types.mesh.cells import CellSet
-    from vorotool.types.mesh.space_cells import SpaceCellSet
     from vorotool.types.mesh.tables import CellStatistics
+    from vorotool.types.mesh.tetrahedralization import SpaceCellSet
     from vorotool.types.mesh.triangulation import DigitalComparison
     from vorotool.types.points.seed_set import SeedSet
 
@@ -145,13 +145,13 @@ class MeshProducts(Results):
             return self.value(what)
         if what != "table" or fmt == "node":
             return super().written(what, fmt)
-        table: Any = self.call("engines.delaunay.site_table:site_table", self.mesh, self.cells, phase=None)
+        table: Any = self.call("engines.delaunay.proximity:site_table", self.mesh, self.cells, phase=None)
         return table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
 
     @cached_property
     def _statistics_in_units(self) -> CellStatistics:
         """Measures of cells, decided in the units of the input, in those of files."""
-        o, function = self.options, "engines.delaunay.site_table:statistics_of"
+        o, function = self.options, "engines.delaunay.proximity:statistics_of"
         has_region = o.frame is not None or o.clip is not None
         cells = self.cells
         found: CellStatistics = self.call(function, self.mesh, cells, phase="statistics", has_region=has_region)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from vorotool.typing import Criterion
 
 CRITERIA: tuple[Criterion, ...] = ("angle", "chord", "scale", "length", "ratio")
-"""As `vorotool.types.skeleton.critical_values` has them, which ``--help`` does not import."""
+"""As `vorotool.types.skeleton.skeleton` has them, which ``--help`` does not import."""
 LENGTHS = ("chord", "length")
 """Criteria whose thresholds are lengths."""
 

@@ -295,7 +295,7 @@ class _Value(Results):
         """Prepare the picture."""
         value, o = self._value, self.options
         if is_of(value, "LabelImage"):
-            from vorotool.engines.label_images.names_and_colors import object_colors
+            from vorotool.engines.label_images.regions import object_colors
             from vorotool.render.label_images.picture import label_picture
 
             colors = object_colors(value, threads=o.threads)

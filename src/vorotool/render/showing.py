@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.convert.extras import needed
-from vorotool.engines.label_images.names_and_colors import object_colors
+from vorotool.engines.label_images.regions import object_colors
 from vorotool.errors import UsageError
 from vorotool.formats.images.png_writer import write_png
 from vorotool.numeric.crs import is_geographic

@@ -8,7 +8,7 @@ from math import ceil, floor, gcd, isfinite, lcm, sqrt
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.frozen import frozen
@@ -18,6 +18,30 @@ from vorotool.types.fields import DOWN, UP, YAxis
 
 if TYPE_CHECKING:
     from vorotool.types.box import Box
+
+
+class Elements:
+    """A value that is an image or a volume: what takes an array takes it."""
+
+    def _array(self) -> NDArray[Any]:
+        raise NotImplementedError
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+        return np.array(self._array(), dtype=dtype, copy=copy)
+
+    def __getitem__(self, place: Any) -> Any:
+        return self._array()[place]
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of the pixels or voxels."""
+        return self._array().dtype
+
+    @property
+    def ndim(self) -> int:
+        """Number of axes."""
+        return self._array().ndim
+
 
 Form = Literal["tiff", "imagej", "ome", "map"]
 Transform = tuple[float, float, float, float, float, float]

@@ -15,8 +15,8 @@ from vorotool.numeric.arrays import Floats
 from vorotool.numeric.checks import is_equal
 from vorotool.numeric.crs import crs_name
 from vorotool.products.formats import resolved
-from vorotool.types.elements import Elements
 from vorotool.types.fields import UNSTATED, Record, YAxis
+from vorotool.types.pixels import Elements
 
 if TYPE_CHECKING:
     import geopandas

@@ -17,9 +17,8 @@ from support.oracles.outline_oracle import (
     unit_sides,
 )
 from vorotool import tessellate
-from vorotool.engines.label_images.names_and_colors import label_places, name_places, object_colors
 from vorotool.engines.label_images.outlines import gray_level, outlines
-from vorotool.engines.label_images.regions import measure_regions
+from vorotool.engines.label_images.regions import label_places, measure_regions, name_places, object_colors
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.errors import LimitError, UsageError
 from vorotool.types.images import LabelImage

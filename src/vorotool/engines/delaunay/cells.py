@@ -27,13 +27,12 @@ from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.points.point_set import known_of_points
 
 if TYPE_CHECKING:
-    from vorotool.types.mesh.space_cells import SpaceCellSet
-    from vorotool.types.mesh.tetrahedralization import Tetrahedralization
+    from vorotool.types.mesh.tetrahedralization import SpaceCellSet, Tetrahedralization
     from vorotool.types.points.point_set import VolumePoints
     from vorotool.types.volumes.volume import VolumeSeeds
     from vorotool.typing import FrameLike, HasGeoInterface, MeshLike, PolygonsLike
 
-_IN_SPACE = "engines.delaunay.space_cells"
+_IN_SPACE = "engines.delaunay.tetrahedralization"
 """What makes and checks cells in space."""
 
 
@@ -280,7 +279,7 @@ def verify_cells(cells: CellSet | SpaceCellSet, *, threads: int = 0, progress: P
     vorotool.errors.VerificationError: vertex (2, 2) of cell 1 is nearer to site 0 by more than rounding explains
     """
     check_value(cells, "cells", "CellSet", "SpaceCellSet")
-    find_fault = resolved(f"{_IN_SPACE}:fault") if is_of(cells, "SpaceCellSet") else _fault
+    find_fault = resolved(f"{_IN_SPACE}:cells_fault") if is_of(cells, "SpaceCellSet") else _fault
     fault = find_fault(cells, threads, progress)
     if fault is not None:
         raise VerificationError(fault)

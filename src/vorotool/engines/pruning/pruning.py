@@ -20,8 +20,7 @@ from vorotool.numeric.curves.inverse_functions import inverse_sine
 from vorotool.numeric.numbers import distinct, finite_double, shown_number
 from vorotool.numeric.parallel import Progress, in_threads
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
-from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.skeleton import CRITERIA, ArcProfiles, CriticalValues, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import Criterion

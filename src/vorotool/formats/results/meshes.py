@@ -17,8 +17,7 @@ from vorotool.numeric.arrays import Floats, owners, starts_of, within
 from vorotool.numeric.coordinates import on_grid
 from vorotool.types.features import rows_of
 from vorotool.types.mesh.cells import ProximityGraph
-from vorotool.types.mesh.space_cells import SpaceCellSet
-from vorotool.types.mesh.tetrahedralization import Tetrahedralization
+from vorotool.types.mesh.tetrahedralization import SpaceCellSet, Tetrahedralization
 from vorotool.types.mesh.triangulation import AnyTriangulation, DigitalTriangulation, Triangulation
 from vorotool.types.table import Lookup
 

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.label_images.names_and_colors import name_places, outermost_pixels, seed_objects
-from vorotool.engines.label_images.regions import voronoi_diagram
+from vorotool.engines.label_images.regions import name_places, outermost_pixels, seed_objects, voronoi_diagram
 from vorotool.formats.images.png_writer import write_png
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import ranges

@@ -30,8 +30,7 @@ from vorotool.types.mesh.cells import CellSet
 from vorotool.types.mesh.tetrahedralization import Tetrahedralization, scaled_norms
 from vorotool.types.pixels import SQUARE, PixelSides
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
-from vorotool.types.skeleton.critical_values import ArcProfiles, CriticalValues
-from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.skeleton import ArcProfiles, CriticalValues, Skeleton
 from vorotool.types.table import Table
 from vorotool.types.voronoi.tables import cell_rings
 from vorotool.types.voronoi.voronoi_map import VoronoiMap

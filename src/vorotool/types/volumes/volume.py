@@ -15,10 +15,9 @@ from vorotool.numeric.checks import whole_numbers
 from vorotool.numeric.length_units import unit_name
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
-from vorotool.types.elements import Elements
 from vorotool.types.fields import record
 from vorotool.types.images import check_labels
-from vorotool.types.pixels import ALIKE, MAX_SIDE, PixelSides, check_frame
+from vorotool.types.pixels import ALIKE, MAX_SIDE, Elements, PixelSides, check_frame
 from vorotool.types.points.seed_set import Seeds
 from vorotool.types.values import Graph, Tabular, Value
 
