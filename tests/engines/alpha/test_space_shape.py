@@ -209,8 +209,8 @@ def test_faults_are_found():
     first = int(np.argmax(shape.inside))
     region = shape.region.copy()
     region[first] = -1
-    fails(f"tetrahedron {first} is not in the shape, but its radius is at most r", replace(shape, region=region))
-    fails("is in the shape, but its radius is greater than r", replace(shape, r=0.2))
+    fails(f"tetrahedron {first} is not in the shape, but its circumradius is at most r", replace(shape, region=region))
+    fails("is in the shape, but its circumradius is greater than r", replace(shape, r=0.2))
     region = np.where(shape.region >= 0, 5, -1).astype(np.int32)
     fails("regions, but 6 are numbered", replace(shape, region=region))
     for name, message in (("triangle_min", "triangle .* is .*, but should be"), ("edge_min", "edge .* but should be")):

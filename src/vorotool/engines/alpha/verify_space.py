@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.delaunay.delaunay import verify_triangulation
 from vorotool.errors import VerificationError
-from vorotool.numeric.arrays import Booleans, Floats, dots
+from vorotool.numeric.arrays import Booleans, Floats, connected_roots, dots
+from vorotool.numeric.numbers import distinct
 from vorotool.numeric.parallel import Progress
 from vorotool.types.alpha.complex import CLASSES
 from vorotool.types.alpha.radii import Radius
@@ -32,34 +34,42 @@ def verify_space_shape(shape: SpaceAlphaShape, *, threads: int = 0, progress: Pr
     triangles, of_tetrahedra = _triangles(family)
     edges, of_triangles = _edges(family, triangles)
     tetrahedra = at_most(family.points, family.tetrahedra, shape.r)
-    _same("tetrahedron", shape.inside, tetrahedra)
+    check_inside("tetrahedron", shape.inside, tetrahedra)
     around = np.zeros((len(triangles), 2), dtype=np.int64)  # tetrahedra in the shape, and all
     np.add.at(around, of_tetrahedra, np.stack([np.repeat(tetrahedra, 4), np.ones(4 * len(tetrahedra), bool)], axis=1))
     held = (around[:, 0] > 0) | (
-        ~_cut(family.points, triangles[of_tetrahedra], _opposite(family), len(triangles), of_tetrahedra, _is_in_ball)
+        ~cut_balls(
+            family.points,
+            triangles[of_tetrahedra],
+            family.tetrahedra.reshape(-1),
+            len(triangles),
+            of_tetrahedra,
+            _is_in_ball,
+        )
         & at_most(family.points, triangles, shape.r)
     )
     bounds = np.where(around[:, 0] == 0, held, np.where(around.min(axis=1) < 2, 2, 3))
     _check_classes(shape.triangle_classes, family.triangles, triangles, bounds, "triangle")
     edge_held = np.zeros(len(edges), dtype=bool)
     edge_held[of_triangles[np.repeat(held, 3)]] = True
-    apexes = _apexes(family, triangles)
-    edge_held |= ~_cut(
-        family.points, edges[of_triangles], apexes, len(edges), of_triangles, _is_in_diametral_ball
+    edge_held |= ~cut_balls(
+        family.points, edges[of_triangles], triangles.reshape(-1), len(edges), of_triangles, is_in_diametral_ball
     ) & at_most(family.points, edges, shape.r)
     _check_edges(shape, edges, edge_held, tetrahedra)
-    _check_regions(shape)
+    t, k = np.nonzero(family.mesh.neighbors >= 0)
+    neighbors = family.mesh.neighbors[t, k]
+    check_regions(shape, t, neighbors, "tetrahedra", f"{shape.region_count} are numbered")
     check_surface(shape)
 
 
-def _same(name: str, given: Booleans, expected: Booleans) -> None:
+def check_inside(name: str, given: Booleans, expected: Booleans) -> None:
+    """Compare which simplices are in a shape with those whose circumradius is at most r."""
     wrong = np.flatnonzero(given != expected)
     if wrong.size:
-        t = int(wrong[0])
-        words = "is in the shape, but its radius is greater than r"
-        if not given[t]:
-            words = "is not in the shape, but its radius is at most r"
-        raise VerificationError(f"{name} {t} {words}")
+        words = "in the shape, but its circumradius is greater than r"
+        if not given[wrong[0]]:
+            words = "not in the shape, but its circumradius is at most r"
+        raise VerificationError(f"{name} {wrong[0]} is {words}")
 
 
 def _unique(rows: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.intp]]:
@@ -75,21 +85,11 @@ def _triangles(family: SpaceAlphaComplex) -> tuple[NDArray[np.int32], NDArray[np
     return _unique(family.tetrahedra[:, _CORNERS].reshape(-1, 3))
 
 
-def _opposite(family: SpaceAlphaComplex) -> NDArray[np.int32]:
-    """The corner opposite to each face of each tetrahedron."""
-    return family.tetrahedra.reshape(-1)
-
-
 def _edges(family: SpaceAlphaComplex, triangles: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.intp]]:
     """All edges, sorted, and which of them the sides of the triangles are."""
     if not len(triangles):
         return _unique(family.mesh.edges)[0], np.empty(0, dtype=np.intp)
     return _unique(triangles[:, [[1, 2], [0, 2], [0, 1]]].reshape(-1, 2))
-
-
-def _apexes(_family: SpaceAlphaComplex, triangles: NDArray[np.int32]) -> NDArray[np.int32]:
-    """The corner opposite to each side of each triangle."""
-    return triangles.reshape(-1)
 
 
 # ---- exact comparisons ---------------------------------------------------------------------------
@@ -174,7 +174,7 @@ def _minus(p: list[Fraction], q: list[Fraction]) -> list[Fraction]:
     return [x - y for x, y in zip(p, q, strict=True)]
 
 
-def _cut(
+def cut_balls(
     points: Floats,
     corners: NDArray[np.int32],
     apexes: NDArray[np.int32],
@@ -220,7 +220,8 @@ def _powers(places: Floats) -> tuple[Floats, Floats]:
     return power, np.where(known, doubt, inf)
 
 
-def _is_in_diametral_ball(places: list[list[float]]) -> bool:
+def is_in_diametral_ball(places: list[list[float]]) -> bool:
+    """Tell exactly whether the third place is strictly inside the ball on the first two as diameter."""
     a, b, p = ([Fraction(x) for x in place] for place in places)
     return sum((x - z) * (y - z) for x, y, z in zip(a, b, p, strict=True)) < 0
 
@@ -274,24 +275,16 @@ def _find(edges: NDArray[np.int32], pairs: NDArray[np.int32]) -> NDArray[np.intp
     return np.searchsorted(keys, wanted)
 
 
-def _check_regions(shape: SpaceAlphaShape) -> None:
-    """Regions are joined through triangles, and joined to nothing else."""
-    neighbors, region = shape.family.mesh.neighbors, shape.region
-    t, k = np.nonzero((neighbors >= 0) & shape.inside[:, None])
-    u = neighbors[t, k]
-    t, u = t[shape.inside[u]], u[shape.inside[u]]
-    if (region[t] != region[u]).any():
-        raise VerificationError("neighboring tetrahedra in the shape have different regions")
-    leader = np.arange(len(region))  # by spreading the smallest number of neighbors, doubling the reach each time
-    while True:
-        before = leader.copy()
-        np.minimum.at(leader, t, before[u])
-        leader = leader[leader]
-        if np.array_equal(leader, before):
-            break
-    connected = len(np.unique(leader[shape.inside]))
-    if connected != shape.region_count or len(np.unique(region[shape.inside])) != connected:
-        raise VerificationError(f"the tetrahedra form {connected} regions, but {shape.region_count} are numbered")
+def check_regions(shape: Any, t: NDArray[np.integer], u: NDArray[np.integer], kind: str, told: str) -> None:
+    """Regions of a shape are joined as its simplices t and u are, and joined to nothing else."""
+    inside, region = shape.inside, shape.region
+    both = inside[t] & inside[u]
+    pairs = np.stack([t[both], u[both]], axis=1)
+    if (region[pairs[:, 0]] != region[pairs[:, 1]]).any():
+        raise VerificationError(f"neighboring {kind} in the shape have different regions")
+    connected = len(distinct(connected_roots(pairs, len(region))[inside]))
+    if connected != shape.region_count or len(distinct(region[inside])) != connected:
+        raise VerificationError(f"the {kind} form {connected} regions, but {told}")
 
 
 def check_surface(shape: SpaceAlphaShape) -> None:
