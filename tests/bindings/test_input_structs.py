@@ -68,7 +68,9 @@ def test_a_graph_that_is_none_is_refused(changed, message):
 def test_only_a_checker_takes_a_diagram_with_wrong_indices():
     diagram = segment_voronoi(TRIANGLE, SIDES)
     for name, value in (("edges", 99), ("edge_sites", -1), ("vertex_sites", 6), ("vertex_starts", 99), ("segments", 3)):
-        getattr(diagram, name)[-1] += value - getattr(diagram, name)[-1]
+        changed = getattr(diagram, name).copy()
+        changed[-1] = value
+        object.__setattr__(diagram, name, changed)
         core = core_diagram(diagram, rows([[1, 0]] * 3))
         assert isinstance(_core.segment_voronoi.find_fault(core, 1, None), str)
         with pytest.raises(ValueError, match="out of range"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from vorotool.convert.sites import as_sites
 from vorotool.engines.from_skeleton.largest_discs import Axis, Candidates, bernstein_roots, check_count
 from vorotool.engines.skeleton.diagrams import diagram_of_all, skeleton_in
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import Floats, Numbers, crosses, dots, mask_of, starts_of
+from vorotool.numeric.arrays import Floats, Numbers, crosses, dots, mask_of
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress
@@ -114,8 +115,8 @@ def _discs_in(diagram: Any, region: PolygonSet, count: int, threads: int, progre
     skeleton = skeleton_in(
         diagram, side="exterior", features="together", frame=frame, threads=threads, progress=progress
     )
-    found, rank = _Space(skeleton, region, threads).largest(count)
-    return _with_feet(skeleton, found, rank, region)
+    space = _Space(skeleton, region, threads)
+    return replace(space.discs(*space.largest(count), local=False), within=region)
 
 
 class _Space(Axis):
@@ -164,6 +165,13 @@ class _Space(Axis):
         at_corners = Candidates(corners, radius, np.zeros(len(corners), dtype=np.intp), none, none)
         return self._crossings.joined(at_corners)
 
+    def _touched(self, found: Candidates) -> tuple[Numbers, NDArray[np.int32]]:
+        """Discs and all elements that each touches, ascending."""
+        tree = shapely.STRtree(shapely.linestrings(self.sites.ends))
+        disc, site = tree.query(shapely.points(found.xy), predicate="dwithin", distance=found.radius + self.rounding)
+        order = np.lexsort((site, disc))
+        return disc[order], site[order].astype(np.int32)
+
     def _on_border(self) -> Candidates:
         """Places inside arcs where they cross the border of the region."""
         skeleton = self.skeleton
@@ -186,27 +194,3 @@ class _Space(Axis):
         kept = np.flatnonzero((share >= 0) & (share <= 1) & ~is_node)
         node = np.full(len(kept), -1, dtype=np.intp)
         return Candidates(xy[kept], found.radius(u)[kept], np.zeros(len(kept), dtype=np.intp), arc[kept], node)
-
-
-def _with_feet(skeleton: Skeleton, found: Candidates, rank: Numbers, region: PolygonSet) -> Discs:
-    """Discs with all elements that they touch: vertices, and edges that they touch between their ends."""
-    axis = Axis(skeleton, np.full(len(skeleton), -1, dtype=np.intp), 1)
-    tree = shapely.STRtree(shapely.linestrings(axis.sites.ends))
-    disc, site = tree.query(shapely.points(found.xy), predicate="dwithin", distance=found.radius + axis.rounding)
-    order = np.lexsort((site, disc))
-    disc, site = disc[order], site[order].astype(np.int32)
-    kept = axis.distinct(disc, site)
-    disc, site = disc[kept], site[kept]
-    return Discs(
-        found.xy,
-        found.radius,
-        np.full(len(found), -1, dtype=np.int32),
-        (rank + 1).astype(np.int32),
-        starts_of(np.bincount(disc, minlength=len(found))),
-        axis.sites.feet(site, found.xy[disc]),
-        site,
-        skeleton.site_table,
-        skeleton.polygons,
-        features="together",
-        within=region,
-    )

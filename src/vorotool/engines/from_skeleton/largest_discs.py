@@ -355,7 +355,7 @@ class Axis:
         return Discs(
             found.xy,
             found.radius,
-            self.skeleton.polygon[found.arc],
+            np.append(self.skeleton.polygon, np.int32(-1))[found.arc],  # of what is on no arc: none
             (rank + 1).astype(np.int32),
             starts_of(np.bincount(disc, minlength=len(found))),
             self.sites.feet(site, found.xy[disc]),
