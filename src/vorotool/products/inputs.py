@@ -66,14 +66,14 @@ _ALL = (
     _of_maps("csv-wkt", reader="feature_table:features_of_rows", has=""),
     _of(
         "geojson",
-        points="formats.points.json:read_geojson",
+        points="formats.points.tables:read_geojson",
         polygons="formats.polygons.json:read_geojson",
         sites="formats.polygons.json:read_geojson_sites",
     ),
     _of_maps("wkt", reader="feature_table:features_of_texts", has=""),
     _of(
         "json",
-        points="formats.points.json:read_json",
+        points="formats.points.tables:read_json",
         polygons="formats.polygons.json:read_json",
         sites="formats.polygons.json:read_sites",
         skeleton="formats.results.skeleton_files:read_skeleton",
@@ -83,7 +83,7 @@ _ALL = (
     _of(
         "jsonl",
         *("jsonl", "ndjson", "geojsonl", "geojsons"),
-        points="formats.points.json:read_json",
+        points="formats.points.tables:read_json",
         polygons="formats.polygons.json:read_json",
         sites="formats.polygons.json:read_sites",
     ),

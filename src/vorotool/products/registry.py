@@ -146,7 +146,7 @@ _DELAUNAY = (
 # ---- delaunay, of points in space ----------------------------------------------------------------
 _SOLIDS = Writer("formats.results.meshes:write_solid", ("fmt", "what"))
 _SOLID = dict.fromkeys(("obj", "ply", "stl", "vtu"), _SOLIDS)
-_SPACE_LAYERS = _pictures("hull edges points labels", "render.layers.space:space")
+_SPACE_LAYERS = _pictures("hull edges points labels", "render.layers.mesh:space")
 _TETRAHEDRA = _product("tetrahedra", "Tetrahedralization", f"{_TABLES} npy vtu", _SPACE_LAYERS, "hull edges points",
     own=_SOLID, has_page=True, usual_for=("vtu",))
 _HULL = _product("hull", "Tetrahedralization", f"{_TABLES} npy obj ply stl vtu", _SPACE_LAYERS, "hull", own=_SOLID,
@@ -176,7 +176,7 @@ _HULL_LAYERS = _SHAPE_LAYERS._replace(drawn_by="render.layers.mesh:hull")
 _EDGES = ("AlphaShape", "csv tsv json geojson npz npy", _SHAPE_LAYERS)
 _POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE_LAYERS)
 _GENERAL = ("AlphaShape", "geojson wkt", _SHAPE_LAYERS)
-_SURFACES = _pictures("surface edges points labels", "render.layers.space:surface")
+_SURFACES = _pictures("surface edges points labels", "render.layers.mesh:surface")
 _SURFACE = _product("surface", "SpaceAlphaShape", f"{_TABLES} npy obj ply stl vtu", _SURFACES, "surface", own=_SOLID,
     has_page=True, usual_for=("ply", "stl"))
 _SHAPE_TETRAHEDRA = _product("tetrahedra", "SpaceAlphaShape", f"{_TABLES} npy vtu", own=_SOLID, has_page=True,

@@ -9,7 +9,7 @@ import shapely
 import vorotool
 from support.documents import ROOT
 from vorotool.render.canvas.layers import page_of
-from vorotool.render.layers.space import seen, space_layers, surface_layers
+from vorotool.render.layers.mesh import seen, space_layers, surface_layers
 
 RNG = np.random.default_rng(3)
 BALL = RNG.normal(size=(80, 3)) * [3, 1, 2]

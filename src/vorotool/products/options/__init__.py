@@ -5,8 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from vorotool.products.options.inputs import FRAME, INPUT
-from vorotool.products.options.method import METHOD
+from vorotool.products.options.inputs import FRAME, INPUT, METHOD
 from vorotool.products.options.output import CHECKS, MANY, OUTPUT, PICTURES
 from vorotool.products.options.row import Option
 
