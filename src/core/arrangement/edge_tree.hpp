@@ -88,6 +88,7 @@ class EdgeTree {
   bool edges_of(std::size_t i, std::size_t j, const Meet& meet) const {
     for (std::size_t p = i * leaf; p < std::min((i + 1) * leaf, edges_.size()); ++p) {
       const Box box = box_of(edges_[p]);
+      if (i != j && !touch(box, levels_[0][j])) continue;
       for (std::size_t q = std::max(p + 1, j * leaf); q < std::min((j + 1) * leaf, edges_.size()); ++q) {
         if (touch(box, box_of(edges_[q])) && !meet(p, q)) return false;
       }

@@ -248,6 +248,9 @@ class WithParts(_Places):
 class Curved(_Places):
     """A value of curves, which are flattened where there are none."""
 
+    _plain: ClassVar[str | None] = None
+    """The part of which rows have the same geometry, and columns that are quickly made."""
+
     def to_shapely(self, *, flatten: Flatten = None) -> NDArray[Any]:
         """Return the geometry of each row, in order, with lines instead of curves.
 
@@ -274,7 +277,7 @@ class Curved(_Places):
         >>> vorotool.offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5]).to_shapely()[0].area
         3.0
         """
-        return resolved(_GEOMETRY)(self, flatten=flatten)
+        return resolved(_GEOMETRY)(self, self._plain, flatten=flatten)
 
     def to_geopandas(self, *, flatten: Flatten = None) -> geopandas.GeoDataFrame:
         """Return the geometry and the columns that go with it, which needs geopandas.

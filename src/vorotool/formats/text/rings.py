@@ -66,7 +66,8 @@ Rings = tuple[Floats, Nesting]
 def _compact(points: Floats, nesting: Nesting) -> Rings:
     """Leave out vertices that repeat the one before, rings of two vertices, and polygons without a shell."""
     rings, polygons, cells = nesting
-    kept = (points != points[following(rings)]).any(axis=1)
+    (x, y), after = points.T, following(rings)
+    kept = (x != x[after]) | (y != y[after])
     sizes = np.add.reduceat(kept, rings[:-1]) if len(rings) > 1 else np.zeros(0, dtype=np.int64)
     if kept.all() and (sizes > 2).all():
         return points, nesting

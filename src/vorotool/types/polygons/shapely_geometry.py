@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool import _core
 from vorotool.errors import InputError, element
 from vorotool.frozen import frozen
 from vorotool.numeric.arrays import Indices, owners, ranges, starts_of, within
@@ -101,9 +102,16 @@ def used_shapes(polygons: PolygonSet) -> NDArray[np.object_]:
 
 def with_used_rings(polygons: PolygonSet) -> tuple[PolygonSet, Indices]:
     """Replace the rings of invalid polygons by those of what they bound, see `used_shapes`; and return which."""
-    import shapely
+    invalid = np.flatnonzero(~polygons.is_line)
+    if len(invalid):
+        faults = _core.arrangement.polygon_faults(
+            polygons.xy, polygons.ring_starts, polygons.polygon_starts, is_coverage=False, threads=1, progress=None
+        )
+        invalid = invalid[faults[invalid] != 0]
+    if len(invalid):
+        import shapely
 
-    invalid = np.flatnonzero(~polygons.is_line & ~shapely.is_valid(to_shapely(polygons)))
+        invalid = invalid[~shapely.is_valid(to_shapely(polygons)[invalid])]
     if not len(invalid):
         return polygons, invalid
     shapes = used_shapes(RingArrays.of(polygons).taken(invalid)[0].polygons(polygons, invalid))
