@@ -72,16 +72,80 @@ bool is_counter_clockwise(std::span<const Point> ring) {
   return orient2d(ring[(first + n - 1) % n], ring[first], ring[(first + 1) % n]) > 0;
 }
 
+// A ring as chains along which neither coordinate turns back: none meets itself, and the box of a part of one has the
+// ends of the part as corners, so that pairs of parts whose boxes meet are halved until they are edges.
+class MonotoneChains {
+ public:
+  explicit MonotoneChains(std::span<const Point> ring) : ring_(ring) {
+    int right = 0, up = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point &a = ring[i], &b = vertex(i + 1);
+      const int x = (a.x < b.x) - (b.x < a.x), y = (a.y < b.y) - (b.y < a.y);
+      if (i == 0 || x * right < 0 || y * up < 0) {
+        starts_.push_back(i);
+        right = up = 0;
+      }
+      if (x != 0) right = x;
+      if (y != 0) up = y;
+    }
+  }
+
+  std::size_t size() const { return starts_.size(); }
+
+  // Calls fits(i, j) with i < j for edges of different chains whose boxes meet, until it returns false.
+  template <class Fits>
+  bool all_pairs(const Fits& fits) const {
+    for (std::size_t c = 0; c < size(); ++c) {
+      for (std::size_t d = c + 1; d < size(); ++d) {
+        if (!between(starts_[c], starts_[c + 1], starts_[d], d + 1 < size() ? starts_[d + 1] : ring_.size(),
+                     fits)) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  const Point& vertex(std::size_t i) const { return ring_[i < ring_.size() ? i : 0]; }
+
+  static bool meet_along(double a, double b, double c, double d) {
+    return std::min(a, b) <= std::max(c, d) && std::min(c, d) <= std::max(a, b);
+  }
+
+  template <class Fits>
+  bool between(std::size_t i, std::size_t i_end, std::size_t j, std::size_t j_end, const Fits& fits) const {
+    const Point &a = vertex(i), &b = vertex(i_end), &c = vertex(j), &d = vertex(j_end);
+    if (!meet_along(a.x, b.x, c.x, d.x) || !meet_along(a.y, b.y, c.y, d.y)) return true;
+    if (i_end - i == 1 && j_end - j == 1) return fits(i, j);
+    if (i_end - i >= j_end - j) {
+      const std::size_t middle = i + (i_end - i) / 2;
+      return between(i, middle, j, j_end, fits) && between(middle, i_end, j, j_end, fits);
+    }
+    const std::size_t middle = j + (j_end - j) / 2;
+    return between(i, i_end, j, middle, fits) && between(i, i_end, middle, j_end, fits);
+  }
+
+  std::span<const Point> ring_;
+  std::vector<std::size_t> starts_;
+};
+
+// All pairs of so many chains are looked at.
+constexpr std::size_t few_chains = 64;
+
 bool is_simple(std::span<const Point> ring) {
   const std::size_t n = ring.size();
-  std::vector<Edge> edges;
-  edges.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) edges.push_back({ring[i], ring[(i + 1) % n]});
-  return EdgeTree(edges).all_pairs([&](std::size_t i, std::size_t j) {
-    const Edge &e = edges[i], &f = edges[j];
+  const auto edge = [&](std::size_t i) { return Edge{ring[i], ring[i + 1 < n ? i + 1 : 0]}; };
+  const auto fits = [&](std::size_t i, std::size_t j) {
+    const Edge e = edge(i), f = edge(j);
     if (j == i + 1 || (i == 0 && j == n - 1)) return !meet_badly(e, f);
     return e.a != f.a && e.a != f.b && e.b != f.a && e.b != f.b && !meet(e, f);
-  });
+  };
+  if (const MonotoneChains chains(ring); chains.size() <= few_chains) return chains.all_pairs(fits);
+  std::vector<Edge> edges;
+  edges.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) edges.push_back(edge(i));
+  return EdgeTree(edges).all_pairs(fits);
 }
 
 bool is_sound(std::span<const Point> ring) {

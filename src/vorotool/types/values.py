@@ -249,7 +249,7 @@ class Curved(_Places):
     """A value of curves, which are flattened where there are none."""
 
     _plain: ClassVar[str | None] = None
-    """The part of which rows have the same geometry, and columns that are quickly made."""
+    """The part of which rows have the same geometry, and no columns."""
 
     def to_shapely(self, *, flatten: Flatten = None) -> NDArray[Any]:
         """Return the geometry of each row, in order, with lines instead of curves.

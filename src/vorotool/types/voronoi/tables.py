@@ -65,7 +65,13 @@ def cell_rings(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indi
 
 def cell_polygons(cells: VoronoiMap, tolerance: float | None) -> NDArray[Any]:
     """(s,) each cell as a polygon or multipolygon of shapely; what two cells share is the same in both, bit for bit."""
-    return resolved("convert.frames:shapely_of")(map_features(cells, "cells", tolerance).geometry)
+    return resolved("convert.frames:shapely_of")(cell_areas(cells, tolerance))
+
+
+def cell_areas(cells: VoronoiMap, tolerance: float | None) -> Areas:
+    """Return each cell with polylines for curves."""
+    points, start = cell_rings(cells, tolerance)
+    return Areas(points, Nesting(start, cells.polygon_starts, cells.cell_starts))
 
 
 def map_features(cells: VoronoiMap, what: str | None, tolerance: float | None) -> Rows:
@@ -73,8 +79,9 @@ def map_features(cells: VoronoiMap, what: str | None, tolerance: float | None) -
     every = np.arange(len(cells))
     if what == "edges":
         return _borders(cells, tolerance)
-    points, start = cell_rings(cells, tolerance)
-    areas = Areas(points, Nesting(start, cells.polygon_starts, cells.cell_starts))
+    areas = cell_areas(cells, tolerance)
+    if what == VoronoiMap._plain:
+        return Rows({}, {}, cells, every, areas)
     if what is None:
         return Rows(cell_table(cells), {}, cells, every, areas)
     further = dict(cells.other_columns)

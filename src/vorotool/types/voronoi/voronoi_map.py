@@ -101,7 +101,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     """
 
     maker = "voronoi"
-    _plain = "cells"
+    _plain = "shapes"
 
     vertices: Floats = f.position("vertices", 2)
     radius: Floats = f.length("vertices")
