@@ -115,8 +115,13 @@ def test_messages_say_what_helps(run, folder, line, code, says):
 
 
 def test_a_file_whose_name_begins_like_an_option_is_found(run, folder):
-    (folder / "-x.csv").write_text("x,y\n1,2\n3,4\n")
-    for command in ("info", "delaunay"):
-        run(f"{command} -x.csv", code=2, says="No such option '-x'. For the file of this name write ./-x.csv")
-        run(f"{command} ./-x.csv")
+    for name in ("-x.csv", "-d.csv", "-1.csv"):  # no option, one of another command, and a number
+        (folder / name).write_text("x,y\n1,2\n3,4\n")
+        for command in ("info", "delaunay"):
+            run(
+                f"{command} {name}",
+                code=2,
+                says=f"{name} is taken for an option: for the file of this name write ./{name}",
+            )
+            run(f"{command} ./{name}")
     assert "file" not in run("delaunay -y.csv", code=2).err

@@ -159,12 +159,11 @@ def _run(arguments: list[str] | None) -> int:
 
 def _told(error: Exception | KeyboardInterrupt, arguments: list[str]) -> int:
     """Say what is wrong; the exit code."""
-    if isinstance(error, click.NoSuchOption):
+    if isinstance(error, click.UsageError) and isinstance(error.__context__ or error, click.NoSuchOption):
         files = [each for each in arguments if each.startswith("-") and os.path.lexists(each)]
         if files:
-            error = click.UsageError(
-                f"{error.format_message()} For the file of this name write ./{files[0]}", error.ctx
-            )
+            said = f"{files[0]} is taken for an option: for the file of this name write ./{files[0]}"
+            error = click.UsageError(said, error.ctx)
     if isinstance(error, click.exceptions.Exit):
         return error.exit_code
     if isinstance(error, KeyboardInterrupt | BrokenPipeError):
