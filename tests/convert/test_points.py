@@ -164,7 +164,7 @@ def test_what_is_no_place(source):
         (np.zeros(2), r"one point is \[\[x, y\]\]"),
         (np.zeros((9, 9)), r"vorotool.seeds_from_raster\(sites\)"),
         (np.zeros((2, 2, 2)), r"\(2, 2, 2\)"),
-        ([[1, 2], [3]], "expected an .* array of numbers"),
+        ([[1, 2], [3]], r"expected an .* array of numbers.* point \[0\] has 2 numbers and point \[1\] 1$"),
         (np.array([[1 + 1j, 2]]), "these have type complex128"),
         ([[1, np.nan]], r"point \[0\]"),
         (np.ma.array([[1, 2], [3, 4]], mask=[[0, 0], [1, 0]]), "points are masked in part"),

@@ -1,5 +1,6 @@
 """From values to what is written of them."""
 
+import numpy as np
 import pytest
 
 import vorotool
@@ -73,6 +74,7 @@ def test_what_there_is_not(name, fmt, what, message):
 def test_what_is_no_result():
     with pytest.raises(UsageError, match=r"a list cannot be written: give a LabelImage, Table, Triangulation, .* or "):
         vorotool.write([[0, 0]], "a.csv")
+    refused(UsageError, "a ndarray cannot be written", vorotool.write, np.eye(3), "a.png")
     refused(UsageError, "PointSet", vorotool.to_geojson, vorotool.PointSet([[0, 0]]))
 
 

@@ -199,6 +199,7 @@ WITHOUT = (vorotool.PointSet([[0, 0], [4, 1]]), MESH.table(), vorotool.cell_stat
 @pytest.mark.parametrize("value", WITHOUT, ids=lambda value: type(value).__name__)
 @pytest.mark.parametrize("options", [{}, {"label_by": "name"}, {"scale_bar": True}], ids=str)
 def test_what_has_no_picture_is_refused(tmp_path, value, options):
-    with pytest.raises(vorotool.UsageError, match=f"a {type(value).__name__} has no picture"):
+    said = "cannot be written" if isinstance(value, vorotool.PointSet) else "has no picture: write it as a table"
+    with pytest.raises(vorotool.UsageError, match=f"a {type(value).__name__} {said}"):
         vorotool.write(value, tmp_path / "a.svg", **options)
     assert not (tmp_path / "a.svg").exists()

@@ -83,7 +83,10 @@ def _checked(source: Any, name: str, shapes: str) -> NDArray[Any]:
     if isinstance(source, Mapping | str | bytes) or not (isinstance(source, Iterable) or hasattr(source, "__array__")):
         raise unexpected(source, expected)
     pairs = source if hasattr(source, "dtype") else _pairs(source)
-    array = number_array(pairs, "point", f"expected {expected}, but got {described(source)}")
+    try:
+        array = number_array(pairs, "point", f"expected {expected}, but got {described(source)}")
+    except InputError as error:
+        raise InputError(f"{error.marked}{_unevenness(pairs)}") from None
     shape = array.shape
     if array.size == 0 or (array.ndim == 2 and shape[1] == 2):
         return pairs if is_masked_array(pairs) else array
@@ -97,6 +100,13 @@ def _checked(source: Any, name: str, shapes: str) -> NDArray[Any]:
     if array.ndim == 2 and min(shape) > MOST_AXES:
         raise InputError(f"{said}: for an image use vorotool.seeds_from_raster({name})")
     raise InputError(said)
+
+
+def _unevenness(items: Any) -> str:
+    """Name the first item of a list that has another number of coordinates than the first, if there is one."""
+    counts = [len(each) if isinstance(each, list | tuple) else 1 for each in items] if isinstance(items, list) else []
+    other = next((k for k, count in enumerate(counts) if count != counts[0]), None)
+    return "" if other is None else f", in which point [0] has {counts[0]} numbers and point [{other}] {counts[other]}"
 
 
 def _pairs(source: Any) -> Any:

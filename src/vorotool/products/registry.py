@@ -411,12 +411,18 @@ def write_product(
     resolved(writer.function)(out, value, **{name: given[name] for name in writer.takes})
 
 
-def chosen_part(value: Any, fmt: str, what: str | None) -> Product:
-    """Choose what of a value is written."""
-    parts, name = parts_of(value), type(value).__name__
+def known_parts(value: Any) -> dict[str, Product]:
+    """Give the parts of a value that can be written or drawn, or refuse one that is none of ours."""
+    parts = parts_of(value)
     if not parts:
         *others, last = public_types()
-        raise UsageError(f"a {name} cannot be written: give a {', '.join(others)} or {last}")
+        raise UsageError(f"a {type(value).__name__} cannot be written: give a {', '.join(others)} or {last}")
+    return parts
+
+
+def chosen_part(value: Any, fmt: str, what: str | None) -> Product:
+    """Choose what of a value is written."""
+    parts, name = known_parts(value), type(value).__name__
     if what is not None and not (isinstance(what, str) and what in parts):
         instead = f"use {' or '.join(parts)}" if len(parts) > 1 else "leave it out"
         shown = resolved("numeric.numbers:shown_number")(what)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, Protocol
 from vorotool.errors import UsageError
 from vorotool.numeric.numbers import shown_number
 from vorotool.products.formats import resolved
-from vorotool.products.registry import Product, is_of, parts_of
+from vorotool.products.registry import Product, is_of, known_parts, parts_of
 from vorotool.render.looks import Looks, World, styled_page
 
 if TYPE_CHECKING:
@@ -160,7 +160,7 @@ def drawing_of(
 
 def drawn_part(value: Any, what: str | None) -> Product:
     """Choose the result that the picture of a value shows."""
-    drawn = {name: each for name, each in parts_of(value).items() if each.drawn_by}
+    drawn = {name: each for name, each in known_parts(value).items() if each.drawn_by}
     if not drawn:
         raise UsageError(f"a {type(value).__name__} has no picture: write it as a table")
     chosen = what or next(iter(drawn))
