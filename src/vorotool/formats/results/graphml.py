@@ -5,11 +5,11 @@ networkx takes 4 times as long for 90,000 edges, once its graph is made (`tests/
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache
 from typing import Any, BinaryIO
 from xml.sax.saxutils import escape, quoteattr
-
-import numpy as np
 
 from vorotool.convert.tables import listed
 from vorotool.formats.results.features import line_column
@@ -22,6 +22,7 @@ from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.skeleton.tables import SkeletonGraph, skeleton_graph
 
 _NODE_KEYS = {"x": "double", "y": "double", "r": "double", "degree": "long"}
+_LARGEST = sys.float_info.max
 _HEAD = (
     '<?xml version="1.0" encoding="UTF-8"?>\n'
     '<graphml xmlns="http://graphml.graphdrawing.org/xmlns" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"\n'
@@ -57,7 +58,7 @@ def write_graphml(
         shape = RowShape(('<node id="', *between, "</data></node>\n"))
         write_rows(out, columns, shape)
     columns = [
-        Column("", _openings(graph, by, values)),
+        Column("", list(_openings(graph, by, values, kinds))),
         line_column(Lines(graph.points, graph.start), "wkt"),
     ]
     shape = RowShape(("", "", "</data></edge>\n"), "", "LINESTRING EMPTY")
@@ -65,29 +66,35 @@ def write_graphml(
     out.write(b"</graph>\n</graphml>\n")
 
 
-def _openings(graph: SkeletonGraph, by: str, values: Mapping[str, list[Any]]) -> list[str]:
+def _openings(
+    graph: SkeletonGraph, by: str, values: Mapping[str, list[Any]], kinds: Mapping[str, str]
+) -> Iterator[str]:
     """One text an edge, up to its first point."""
-    keys = [(f'<data key="e{number}">', _kind(column)) for number, column in enumerate(values.values())]
-    last = f'<data key="e{len(keys)}">'
-    texts, precision = [], current_written().how.precision
+    data = [_elements(f'<data key="e{n}">', column, kinds[name]) for n, (name, column) in enumerate(values.items())]
     ends = (graph.edges[by].tolist(), graph.source.tolist(), graph.target.tolist())
-    for number, source, target, *row in zip(*ends, *values.values(), strict=True):
-        data = "".join(
-            f"{key}{_text(value, kind, precision)}</data>"
-            for (key, kind), value in zip(keys, row, strict=True)
-            if value is not None
-        )
-        texts.append(f'<edge id="{number}" source="{source}" target="{target}">{data}{last}')
-    return texts
+    for number, source, target, *row in zip(*ends, *data, strict=True):
+        yield f'<edge id="{number}" source="{source}" target="{target}">{"".join(row)}<data key="e{len(data)}">'
 
 
-def _text(value: Any, kind: str, precision: int) -> str:
+def _elements(start: str, values: list[Any], kind: str) -> Iterator[str]:
+    """Return the elements of a column, empty where there is no value."""
+    precision = current_written().how.precision
+    text: Callable[[Any], str] = str if kind == "long" else json_text
     if kind == "double":
-        return f"{value:.{precision}g}" if precision else repr(float(value)).removesuffix(".0")
-    if kind == "string":
-        text = value if isinstance(value, str) else json_text(value)
-        return escape(xml_characters(text), {"\r": "&#13;"})  # which parsers would take for the end of a line
-    return json_text(value)
+        text = (lambda value: f"{value:.{precision}g}") if precision else _shortest
+    elif kind == "string":
+        text = lru_cache(_escaped) if {type(value) for value in values} <= {str, type(None)} else _escaped
+    return ("" if value is None else f"{start}{text(value)}</data>" for value in values)
+
+
+def _shortest(value: float) -> str:
+    """Return the shortest digits that read back as a number."""
+    return repr(float(value)).removesuffix(".0")
+
+
+def _escaped(value: Any) -> str:
+    text = value if isinstance(value, str) else json_text(value)
+    return escape(xml_characters(text), {"\r": "&#13;"})  # which parsers would take for the end of a line
 
 
 def _kind(values: list[Any]) -> str:
@@ -95,6 +102,6 @@ def _kind(values: list[Any]) -> str:
     kinds = {type(value) for value in values if value is not None}
     if kinds <= {int} and all(value is None or -(2**63) <= value < 2**63 for value in values):
         return "long"
-    if kinds <= {int, float} and all(value is None or np.isfinite(value) for value in values):
+    if kinds <= {int, float} and all(value is None or abs(value) <= _LARGEST for value in values):
         return "double"
     return "boolean" if kinds == {bool} else "string"
