@@ -8,7 +8,7 @@ import pytest
 
 from support.refusals import refused
 from vorotool import OutputError
-from vorotool.batch.manifest import Manifest, digest_of_values, read_history
+from vorotool.batch.records import Manifest, digest_of_values, read_history
 from vorotool.batch.workers import Outcome, Task, carry_out, digest_of
 
 DONE = Outcome(digest="d", outputs={"out/x/a.csv": "e"}, unit="um", warnings=("moved",))
@@ -88,7 +88,7 @@ def test_lines_that_are_none_of_ours(tmp_path, text):
 
 
 def test_lines_of_any_length(tmp_path, monkeypatch):
-    monkeypatch.setattr("vorotool.batch.manifest.LONGEST_LINE", len(line()) + 2)
+    monkeypatch.setattr("vorotool.batch.records.LONGEST_LINE", len(line()) + 2)
     for size in range(3 * len(line())):
         text = f"{'x' * size}\n{line()}\n{'x' * size}{line(input='b')}\n"
         (tmp_path / "m").write_text(text)

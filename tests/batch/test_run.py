@@ -3,7 +3,7 @@
 import fcntl
 from pathlib import Path
 
-from vorotool.batch.manifest import Manifest
+from vorotool.batch.records import Manifest
 from vorotool.batch.run import run_tasks
 from vorotool.batch.workers import Outcome, Task
 from vorotool.formats.io.temporaries import _host

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from support.readers.written import bytes_of, rows_of
-from vorotool.batch.tables import join_tables
+from vorotool.batch.records import join_tables
 from vorotool.formats.text.tables import write_table
 from vorotool.types.table import Table
 

@@ -15,7 +15,7 @@ PATTERNS = {
     "formats.points.columns:DECIMAL_COMMA": f"{DIGITS},{DIGITS}!",
     "formats.text.tables:_NUMBER": f"{DIGITS}!",
     "batch.inputs:_NUMBER": f"{DIGITS}!",
-    "batch.tables:_RECORD": DIGITS,
+    "batch.records:_RECORD": DIGITS,
     "formats.recognition:_SVG": "\n" * 300_000,
     "formats.drawing.svg_shapes:_LENGTH": f"{DIGITS}!",
     "formats.drawing.svg_shapes:_NUMBERS": f"{DIGITS}!",

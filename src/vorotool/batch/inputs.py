@@ -11,7 +11,7 @@ from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator
 from pathlib import Path
 
-from vorotool.batch.manifest import RECORD_ENDING
+from vorotool.batch.records import RECORD_ENDING
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.sources import GZIP, file_of, output_name, without_gz

@@ -13,8 +13,15 @@ from typing import Any
 
 from vorotool import __version__
 from vorotool.batch.inputs import Input, expand_inputs, pages_of, read_names
-from vorotool.batch.manifest import RECORD_ENDING, Manifest, digest_of_values, read_history
-from vorotool.batch.tables import TABLE_FORMATS, JointTable, name_fields
+from vorotool.batch.records import (
+    RECORD_ENDING,
+    TABLE_FORMATS,
+    JointTable,
+    Manifest,
+    digest_of_values,
+    name_fields,
+    read_history,
+)
 from vorotool.batch.workers import Task, digest_of
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind

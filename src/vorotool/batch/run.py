@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from vorotool.batch import workers
-from vorotool.batch.manifest import Manifest
 from vorotool.batch.plan import Plan, check_inside, plan_batch
+from vorotool.batch.records import Manifest
 from vorotool.batch.workers import Outcome, Results, Task, digest_of, is_done
 from vorotool.errors import BatchError, Message
 from vorotool.formats.io import atomic_output

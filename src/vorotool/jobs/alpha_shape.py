@@ -34,8 +34,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vorotool.render.drawing import Drawing, Plot
-    from vorotool.render.looks import World
+    from vorotool.render.drawing import Drawing, Plot, World
     from vorotool.types.alpha.complex import AlphaComplex
     from vorotool.types.alpha.shape import AlphaHull
     from vorotool.types.alpha.space import SpaceAlphaComplex, SpaceAlphaShape
@@ -65,12 +64,7 @@ class ShapeProducts(Results):
         if self.has_shape:
             self.shape = self._shape()
             if self.radius is None and not self.is_unjoined:
-                regions = "one region" if o.regions in (None, 1) else f"at most {o.regions} regions"
-                r = radius_text(self.shape.r)
-                if o.pixel_size is not None:
-                    length = length_in_units(o.pixel_size, nearest_double(self.shape.r))
-                    r = f"{r} ({length:g}{unit_text(o.pixel_size)})"
-                run.note(f"r = {r}, the smallest radius whose shape is {regions} covering every point")
+                _note_radius(run, o, self.shape.r)
 
     @cached_property
     def world(self) -> World:
@@ -244,6 +238,15 @@ class ShapeProducts(Results):
         }
 
 
+def _note_radius(run: Run, o: Options, r: Radius) -> None:
+    """Say which radius was found."""
+    regions = "one region" if o.regions in (None, 1) else f"at most {o.regions} regions"
+    text = radius_text(r)
+    if o.pixel_size is not None:
+        text = f"{text} ({length_in_units(o.pixel_size, nearest_double(r)):g}{unit_text(o.pixel_size)})"
+    run.note(f"r = {text}, the smallest radius whose shape is {regions} covering every point")
+
+
 def radius_text(r: Radius) -> str:
     """Write a radius with which the same shape is found again: a double's shortest digits, a fraction's all."""
     if not isinstance(r, Fraction):
@@ -280,9 +283,7 @@ class SpaceShapeProducts(Results):
         self.family: SpaceAlphaComplex = self.call("engines.alpha.alpha_complex:alpha_complex", mesh, **how)
         self.has_shape = bool(set(options.what) & OF_ONE_SHAPE)
         if self.has_shape and self.radius is None and unjoined(self.family) is None:
-            regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"
-            r = radius_text(self.shape.r)
-            run.note(f"r = {r}, the smallest radius whose shape is {regions} covering every point")
+            _note_radius(run, options, self.shape.r)
 
     @cached_property
     def shape(self) -> SpaceAlphaShape:

@@ -25,8 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from vorotool.render.canvas.layers import Backdrop, Page
-    from vorotool.render.drawing import Picture, Wanted
-    from vorotool.render.looks import World
+    from vorotool.render.drawing import Picture, Wanted, World
 
 
 def options_of_line(command: str, given: Mapping[str, Any], sources: Mapping[str, str]) -> Options:
@@ -178,7 +177,7 @@ class Results:
     @cached_property
     def world(self) -> World:
         """Where what is drawn lies: in space nowhere, since pictures are as seen from far away."""
-        from vorotool.render.looks import World
+        from vorotool.render.drawing import World
 
         return World()
 

@@ -20,7 +20,7 @@ from vorotool.products.registry import OF_ONE_SHAPE, OF_SPACE, PRODUCTS, Product
 
 if TYPE_CHECKING:
     from vorotool.jobs.units import PixelSize
-    from vorotool.render.looks import Looks
+    from vorotool.render.drawing import Looks
 
 Place = tuple[float, float]
 ALL_PAGES = -1
@@ -131,7 +131,7 @@ class Options:
     @property
     def looks(self) -> Looks:
         """The looks of pictures."""
-        from vorotool.render.looks import Looks
+        from vorotool.render.drawing import Looks
 
         return Looks._make(getattr(self, name) for name in Looks._fields)
 

@@ -10,7 +10,7 @@ from vorotool.jobs.inputs import check_column
 from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.length_units import InputUnit, ratio, unit_name, unit_of_crs
 from vorotool.products.registry import is_of
-from vorotool.render.looks import World
+from vorotool.render.drawing import World
 from vorotool.types.values import input_of
 
 if TYPE_CHECKING:

@@ -207,7 +207,7 @@ def _check_styles(o: Options, layers: Sequence[str], usual: Sequence[str]) -> No
     """Refuse colors and widths of layers that no picture has or shows; the scale bar has a color, too."""
     if not o.colors and not o.line_widths:
         return
-    from vorotool.render.looks import SCALE_BAR
+    from vorotool.render.drawing import SCALE_BAR
 
     shown = o.layers or [each for each in usual if each in layers]
     drawn = list(dict.fromkeys([*shown, *(["labels"] if o.label_by is not None else [])]))

@@ -52,8 +52,8 @@ if TYPE_CHECKING:
     from vorotool.formats.images.image_header import TiffRows, ZarrRows
     from vorotool.formats.opening import Opened
     from vorotool.numeric.length_units import InputUnit
+    from vorotool.render.drawing import World
     from vorotool.render.label_images.picture import LabelPicture
-    from vorotool.render.looks import World
 
 LARGE = 2**24
 """Pixels from which an image that can be read in bands is not held: a seed in memory takes some 40 bytes."""

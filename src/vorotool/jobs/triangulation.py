@@ -28,8 +28,7 @@ from vorotool.products.formats import resolved
 from vorotool.products.registry import is_of
 
 if TYPE_CHECKING:
-    from vorotool.render.drawing import Drawing
-    from vorotool.render.looks import World
+    from vorotool.render.drawing import Drawing, World
     from vorotool.types.mesh.cells import CellSet
     from vorotool.types.mesh.tables import CellStatistics
     from vorotool.types.mesh.tetrahedralization import SpaceCellSet

@@ -38,8 +38,8 @@ from vorotool.types.pixels import Frame, PixelSides
 from vorotool.types.volumes.volume import VolumeSeeds, VoxelGrid
 
 if TYPE_CHECKING:
+    from vorotool.render.drawing import World
     from vorotool.render.label_images.picture import LabelPicture
-    from vorotool.render.looks import World
 
 _OF_VOLUMES = ("seeds", "connectivity", "threshold", "invert", "min_area", "fill_holes")
 """Options that images and volumes have, and points have not."""

@@ -35,7 +35,7 @@ from vorotool.types.voronoi.voronoi_map import VoronoiMap
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
     from vorotool.jobs.outlined_images import ReadPolygons
-    from vorotool.render.looks import World
+    from vorotool.render.drawing import World
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.discs import Discs
 

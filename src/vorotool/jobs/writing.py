@@ -20,8 +20,7 @@ from vorotool.numeric.coordinates import writing
 from vorotool.numeric.numbers import Flatten, checked_flatten, shown_number, whole_number
 from vorotool.products.formats import PICTURES, format_named
 from vorotool.products.registry import VOLUME_PRODUCTS, Product, chosen_part, is_of, parts_of, write_product
-from vorotool.render.drawing import Picture, Plot, drawn_part
-from vorotool.render.looks import World, check_layers, looks_of
+from vorotool.render.drawing import Picture, Plot, World, check_layers, drawn_part, looks_of
 from vorotool.types.fields import Record, is_up, with_y_axis, y_axis_of
 from vorotool.types.pixels import MAX_SIDE
 

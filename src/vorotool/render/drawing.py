@@ -1,22 +1,207 @@
-"""Pictures of values: layers on a page, label images and plots, each as SVG or PNG."""
+"""Pictures of values: their looks and their pages; layers, label images and plots, each as SVG or PNG."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, Protocol
 
 from vorotool.errors import UsageError
+from vorotool.numeric.length_units import METERS
 from vorotool.numeric.numbers import shown_number
 from vorotool.products.formats import resolved
 from vorotool.products.registry import Product, is_of, known_parts, parts_of
-from vorotool.render.looks import Looks, World, styled_page
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     from vorotool.render.canvas.layers import Backdrop, Layer, Page
+    from vorotool.render.canvas.styles import PictureStyle, ScaleBar
+    from vorotool.types.box import Sides
+
+DRAWING_UNITS = ("nm", "um", "mm", "cm", "dm", "m", "km", "in", "ft", "yd")
+"""Those of ``--unit``."""
+
+
+LARGEST_WIDTH = 1e6
+"""Px of a line."""
+
+
+SCALE_BAR = "scale-bar"
+"""What the color of the scale bar is chosen by, as that of a layer."""
+
+
+class Scale(NamedTuple):
+    """A scale: millimeters of paper a unit, or a ratio, 1 to a number."""
+
+    number: float
+    is_ratio: bool
+
+
+class Looks(NamedTuple):
+    """What is chosen of the looks of pictures, by the names of the options."""
+
+    scale: Scale | None = None
+    drawing_unit: str | None = None  # of the input, if it names none
+    background: str | None = None  # `#rrggbb` or `none`
+    colors: tuple[tuple[str, str], ...] = ()
+    line_widths: tuple[tuple[str, float], ...] = ()
+    label_by: str | None = None  # column that names objects
+    legend: bool = False  # it is drawn
+    scale_bar: bool = False  # it is drawn
+    aspect: float | None = None  # px of a unit of y for each of a unit of x
+    extent: str | None = None  # what the page of an image's result shows
+
+    def style(self, scale_bar: ScaleBar | None = None) -> PictureStyle:
+        """What is chosen, as what draws takes it, with the lengths that a scale bar may have."""
+        from vorotool.render.canvas.styles import WHITE, PictureStyle
+
+        ground = WHITE if self.background is None else self.background
+        return PictureStyle(
+            None if ground == "none" else ground,
+            dict(self.colors),
+            dict(self.line_widths),
+            has_legend=self.legend,
+            scale_bar=scale_bar if self.scale_bar else None,
+            label_by=self.label_by,
+        )
+
+
+def looks_of(
+    *, color: Mapping[str, str] | None, line_width: Mapping[str, float] | None, background: str | None
+) -> dict[str, Any]:
+    """Give the looks that the library is asked for, by names of options; see `vorotool.write`."""
+    from vorotool.numeric.numbers import finite_double
+
+    ground = (
+        background
+        if background is None or (isinstance(background, str) and background == "none")
+        else _color(background, "background")
+    )
+    colors = tuple((layer, _color(each, f"color of {layer}")) for layer, each in _by_layer(color, "color"))
+    widths = tuple(
+        (layer, finite_double(each, f"line_width of {layer}")) for layer, each in _by_layer(line_width, "line_width")
+    )
+    for layer, width in widths:
+        if not 0 <= width < LARGEST_WIDTH:
+            raise UsageError(f"invalid line_width of {layer} {width}: expected a number of px from 0 on")
+    return {"background": ground, "colors": colors, "line_widths": widths}
+
+
+def _by_layer(given: Any, name: str) -> list[tuple[str, Any]]:
+    """Give the layers of a mapping, and what is said of each."""
+    from vorotool.numeric.numbers import shown_number
+
+    if given is None:
+        return []
+    if not isinstance(given, Mapping) or not all(isinstance(layer, str) for layer in given):
+        raise UsageError(
+            f"invalid {name} {shown_number(given)}: expected a mapping from layers, such as {{'seeds': …}}"
+        )
+    return list(given.items())
+
+
+def _color(text: object, what: str) -> str:
+    code = color_code(text) if isinstance(text, str) else None
+    if code is None:
+        raise UsageError(f"invalid {what} {text!r}: expected a color such as '#aa3344' or 'navy'")
+    return code
+
+
+def check_layers(looks: Looks, drawn: Sequence[str]) -> None:
+    """Refuse colors and widths of layers that a picture has not."""
+    from vorotool.render.canvas.styles import DRAWN_AS
+
+    known = [*dict.fromkeys([*drawn, *(DRAWN_AS[layer] for layer in drawn if layer in DRAWN_AS)])]
+    for option, chosen in (("color", looks.colors), ("line_width", looks.line_widths)):
+        for layer, _ in chosen:
+            if layer not in known:
+                raise UsageError(
+                    f"invalid {option} of {shown_number(layer)}: expected a layer of the picture, {', '.join(known)}"
+                )
+
+
+class World(NamedTuple):
+    """Where what is drawn lies."""
+
+    scale_bar: ScaleBar | None = None  # what lengths are written in
+    millimeters: Fraction | None = None  # of 1 in the coordinates of the data, for pictures to scale
+    aspect: float = 1.0  # px of a unit of y for each of a unit of x
+    frame: Sides | None = None  # what is shown instead of the bounds: the image that the data come from, or --frame
+    page: Sides | None = None  # what pictures to scale show instead: --frame, or the page of the drawing
+    is_paper: bool = False  # SVG is 1:1 where nothing else says
+
+
+def _check_places(page: Page, data: Sides) -> None:
+    """Refuse a page that is so small beside the data that their places on it are no numbers."""
+    import numpy as np
+
+    with np.errstate(over="ignore", invalid="ignore"):
+        corners = page.place(np.array(data).reshape(2, 2))
+    if not np.isfinite(corners).all():
+        raise UsageError("the frame is too small for coordinates of this size: use a larger one")
+
+
+def styled_page(page: Page, looks: Looks, world: World, fmt: str = "svg") -> Page:
+    """Give the page of a picture as the options say."""
+    from vorotool.render.canvas.layers import MARGIN, Page
+
+    if page.backdrop is None:
+        frame = None if looks.extent == "data" else world.frame
+        bounds = page.bounds if frame is None else frame
+        aspect = world.aspect if looks.aspect is None else looks.aspect
+        margin = MARGIN if frame is None else 0.0
+        paper, data = _paper(page.y_up, (bounds, margin), looks, world, fmt), page.bounds
+        if paper is not None:
+            page = paper
+        elif frame is not None or aspect != 1:
+            page = Page(bounds, width=page.width, y_up=page.y_up, aspect=aspect, margin=margin)
+        _check_places(page, data)
+    page.style = looks.style(world.scale_bar)
+    return page
+
+
+def _paper(y_up: bool, shown: tuple[Sides, float], looks: Looks, world: World, fmt: str) -> Page | None:
+    """Return the page of a picture to scale: as the options say, else 1:1 of a drawing that fits a page."""
+    from vorotool.render.canvas.insets import ScaledPage
+
+    is_chosen = looks.scale is not None or looks.drawing_unit is not None
+    if not is_chosen and not (world.is_paper and fmt == "svg"):
+        return None
+    bounds, margin = (world.page, 0.0) if looks.extent != "data" and world.page is not None else shown
+    try:
+        return ScaledPage(bounds, y_up=y_up, millimeters=_millimeters(looks, world.millimeters), margin=margin)
+    except UsageError:
+        if is_chosen:
+            raise
+    return None
+
+
+def color_code(text: str) -> str | None:
+    """Give a color, ``#rrggbb`` or a name as in CSS, as ``#rrggbb``; None if it is none."""
+    from PIL import ImageColor
+
+    try:
+        rgb: tuple[int, ...] = ImageColor.getrgb(text.strip().lower())
+    except ValueError:
+        return None
+    return "#" + "".join(f"{channel:02x}" for channel in rgb) if len(rgb) == 3 else None
+
+
+def _millimeters(looks: Looks, own: Fraction | None) -> float:
+    """Millimeters of paper a unit of the data."""
+    if looks.scale is not None and not looks.scale.is_ratio:
+        return looks.scale.number
+    if looks.drawing_unit is not None:
+        own = METERS[looks.drawing_unit] * 1000
+    if own is None:
+        raise UsageError(
+            f"--scale 1:N needs the unit of the input, which states none: add --unit ({', '.join(DRAWING_UNITS)}), or "
+            "use --scale S, millimeters per unit"
+        )
+    return float(own if looks.scale is None else own / Fraction(looks.scale.number))
 
 
 class Wanted(NamedTuple):

@@ -43,7 +43,7 @@ def saved(tmp_path, **arrays):
     [
         ({"x": np.zeros(2), "y": np.zeros(3)}, "is not a table: it holds arrays of 2 to 3 values"),
         ({}, "is not a table: it holds no arrays"),
-        ({"x": np.zeros((2, 2)), "y": np.zeros(2)}, r"x\.npy is of type float64 and shape \(2, 2\)"),
+        ({"x": np.zeros((2, 2)), "y": np.zeros(2)}, r"x\.npy has the shape \(2, 2\)"),
         ({"x": np.array([None]), "y": np.zeros(1)}, r"x\.npy is of type object"),
         ({"x": np.zeros(2), "y": np.array([1, np.nan])}, "row 2"),
         ({"x": np.array(["a"]), "y": np.zeros(1)}, "row 1"),

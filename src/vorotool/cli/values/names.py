@@ -11,7 +11,7 @@ from vorotool.cli.values import UnexpectedError
 from vorotool.errors import meant
 
 if TYPE_CHECKING:
-    from vorotool.render.looks import Scale
+    from vorotool.render.drawing import Scale
 
 SPELLINGS = (("colour", "color"), ("centre", "center"), ("neighbour", "neighbor"))
 """British spellings of what users type, and ours."""
@@ -74,7 +74,7 @@ def image(text: str) -> str:
 def scale(text: str) -> Scale:
     """Return ``S``, millimeters a unit, or ``1:N``."""
     from vorotool.cli.values.numbers import number_or_nan
-    from vorotool.render.looks import Scale
+    from vorotool.render.drawing import Scale
 
     one, colon, rest = text.partition(":")
     number = number_or_nan(rest if colon else one)
@@ -85,7 +85,7 @@ def scale(text: str) -> Scale:
 
 def color(text: str) -> str:
     """Return a color, ``#rrggbb`` or a name as in CSS, as ``#rrggbb``."""
-    from vorotool.render.looks import color_code
+    from vorotool.render.drawing import color_code
 
     code = color_code(text)
     if code is None:

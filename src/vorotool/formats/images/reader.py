@@ -101,12 +101,12 @@ _WHITE = 255
 
 def picture_and_grid(source: Source, options: ReadOptions) -> tuple[NDArray[np.uint8], PixelGrid | None]:
     """Read an image as a screen shows it, and what its file says of its pixels."""
-    if source.format != "tiff" or tiff_reader.tiff_pages(source) == 1:
-        options = replace(options, page=None)
-    image = read_image(source, options)
-    palette, is_inverted = png_palette(source) if source.format == "png" else None, False
+    page, palette, is_inverted = None, None, False
     if source.format == "tiff":
-        palette, is_inverted = tiff_reader.shown_colors(source, options.page)
+        page, palette, is_inverted = tiff_reader.shown_colors(source, options.page)
+    image = read_image(source, replace(options, page=page))
+    if source.format == "png":
+        palette = png_palette(source)
     pixels = _as_seen(image.values, palette)
     return ~pixels if is_inverted else pixels, image.grid
 

@@ -24,12 +24,6 @@ _WHITE_IS_ZERO, _PALETTE = 0, 3
 _PILLOW_MODES = {"1", "L", "P", "LA", "RGB", "RGBA", "I;16", "I;16B"}
 
 
-def tiff_pages(source: Source) -> int:
-    """Count the pages."""
-    with opened_tiff(source.name, io.BytesIO(source.data)) as file, decoding(source.name, "TIFF"):
-        return count_pages(file)
-
-
 def count_pages(file: Any) -> int:
     """Count the pages of a file; if all others are smaller copies or masks of the first, it has one."""
     count = len(file.pages)
@@ -74,14 +68,14 @@ def page_grid(name: str, file: Any, page: Any) -> PageGrid:
     return replace(about, note=note)
 
 
-def shown_colors(source: Source, page: int | None) -> tuple[NDArray[np.uint8] | None, bool]:
-    """Give the (n, 3) colors of the indices of a page with a palette, and whether a screen inverts its values."""
-    with opened_tiff(source.name, io.BytesIO(source.data)) as file:
+def shown_colors(source: Source, page: int | None) -> tuple[int | None, NDArray[np.uint8] | None, bool]:
+    """Give the page, None of the only one, the (n, 3) colors of its indices, and whether a screen inverts values."""
+    with opened_tiff(source.name, io.BytesIO(source.data)) as file, decoding(source.name, "TIFF"):
+        page = None if count_pages(file) == 1 else page
         chosen = page_of(file, source.name, page)
-        with decoding(source.name, "TIFF"):
-            colors = chosen.colormap if chosen.photometric == _PALETTE else None
+        colors = chosen.colormap if chosen.photometric == _PALETTE else None
     palette = None if colors is None else np.ascontiguousarray((colors.T >> 8).astype(np.uint8))
-    return palette, chosen.photometric == _WHITE_IS_ZERO
+    return page, palette, chosen.photometric == _WHITE_IS_ZERO
 
 
 def page_layout(name: str, size: int, page: Any) -> TiffLayout:

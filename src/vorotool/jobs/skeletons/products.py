@@ -42,8 +42,7 @@ from vorotool.types.skeleton.skeleton import EXTERIOR, Skeleton
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.diagrams import FeatureSkeleton
     from vorotool.engines.skeleton.exact import ShapeDiagram
-    from vorotool.render.drawing import Drawing, Plot
-    from vorotool.render.looks import World
+    from vorotool.render.drawing import Drawing, Plot, World
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.arc_measures import ThicknessImage
     from vorotool.types.skeleton.discs import Discs
