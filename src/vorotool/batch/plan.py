@@ -190,6 +190,7 @@ def _table_format(option: str, path: str, fmt: str | None = None) -> str:
 def _collected(o: Options, fmt: str) -> str:
     """Return the result whose rows are collected: one of --what, if that is a table, else `table`."""
     formats = {what: each.formats for what, each in o.products.items()}
+    option = "--table-inputs" if o.table is None else "--table"
     has_what, has_outputs = "what" in o.sources, o.out_dir is not None or o.output is not None
     if not has_what or "table" in o.what:
         results = ["table"]
@@ -200,13 +201,13 @@ def _collected(o: Options, fmt: str) -> str:
         results = list(o.what)
     if (has_what and not has_outputs and len(o.what) > 1) or len(results) > 1:
         raise UsageError(
-            f"--what {','.join(o.what)}: --table collects the rows of one result; other results need -o FILE or "
+            f"--what {','.join(o.what)}: {option} collects the rows of one result; other results need -o FILE or "
             "--out-dir DIR"
         )
     (what,) = results
     if fmt not in formats.get(what, ()) or (fmt == "json" and what in _NO_ROWS):
         possible = [name for name, each in formats.items() if "csv" in each]
-        raise UsageError(f"--table cannot collect {what} as {fmt.upper()}: use --what {', '.join(possible)} as CSV")
+        raise UsageError(f"{option} cannot collect {what} as {fmt.upper()}: use --what {', '.join(possible)} as CSV")
     return what
 
 

@@ -284,8 +284,9 @@ def _warn_missing(lines: Centerlines) -> None:
     has_ids = ids is not None and all(ids[k] is not None for k in missing.tolist())
     named = [str(ids[k] if ids is not None and has_ids else k + 1) for k in missing[:MOST_NAMED].tolist()]
     more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
-    what = "ids" if has_ids else "numbers"
-    warn(f"{len(missing)} of {total} polygons have no centerline: {what} {', '.join(named)}{more}")
+    has, noun = ("has", "") if len(missing) == 1 else ("have", "s")
+    what = f"id{noun}" if has_ids else f"number{noun}"
+    warn(f"{len(missing)} of {total} polygons {has} no centerline: {what} {', '.join(named)}{more}")
 
 
 def _no_path(skeleton: Skeleton, start: Place | None, end: Place | None, *, is_apart: bool) -> str:
