@@ -93,6 +93,8 @@ def test_any_encoding_of_the_terminal_will_do(tmp_path, encoding):
 @pytest.mark.parametrize(
     ("line", "code", "says"),
     [
+        ("delaunay https://example.com/a.csv", 3, "nothing is read from the network: download it first"),
+        ("delaunay file:///tmp/none.csv", 3, "give its path, without file://"),
         ("tessellate none.csv", 3, "none.csv: there is no such file"),  # that the output is binary does not matter
         ("tessellate two/a.csv", 2, "redirect with -f png, or print text with -f text"),
         ("tessellate two/a.csv --volume", 2, "name a file with -o, or redirect with -f tiff\n"),

@@ -120,7 +120,7 @@ def explained_reading(name: str) -> Iterator[None]:
     try:
         yield
     except FileNotFoundError:
-        raise InputError(f"{name}: there is no such file; check the path ({_place(name)})") from None
+        raise InputError(f"{name}: there is no such file; {_advice(name)}") from None
     except IsADirectoryError:
         raise InputError(f"{name} is a directory: name the files in it, for example {name}/*") from None
     except PermissionError:
@@ -189,11 +189,16 @@ def copy_stream(name: str, out: BinaryIO) -> None:
             shutil.copyfileobj(file, out)
 
 
-def _place(name: str) -> str:
+def _advice(name: str) -> str:
     from pathlib import Path
 
+    if name.startswith("file://"):
+        return "give its path, without file://"
+    if "://" in name:
+        return "nothing is read from the network: download it first"
     parent = Path(name).parent
-    return f"looked in {parent.resolve()}" if parent.is_dir() else f"the folder {parent} does not exist either"
+    place = f"looked in {parent.resolve()}" if parent.is_dir() else f"the folder {parent} does not exist either"
+    return f"check the path ({place})"
 
 
 def check_nesting(text: str | bytes, limit: int = NESTING_LIMIT, name: str = "the text") -> None:
