@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/flat_map.hpp"
 #include "core/base/indices.hpp"
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
@@ -28,89 +29,86 @@ using Ends = std::array<std::int32_t, 2>;
 inline constexpr std::array<std::array<std::uint8_t, 4>, 4> side_between{
     {{7, 0, 1, 2}, {0, 7, 3, 4}, {1, 3, 7, 5}, {2, 4, 5, 7}}};
 
-// The edges from one vertex to later ones, of which the cells around it have several sides each. Edges and sides are
-// words: twice the later end, and 1 where it is cut.
-class VertexEdges {
+// Memory for edges from the vertices of a block to later ones. Words have an end in their upper half.
+struct BlockEdges {
+  // Slots of a vertex, which has some eight edges to later ones where points are random; what finds none goes to a map.
+  static constexpr int window_bits = 5;
+  static constexpr std::size_t window = std::size_t{1} << window_bits, most_tries = 16;
+
+  void reset(std::size_t vertices) {
+    slots.assign(window * vertices, 0);
+    more = base::FlatMap();
+    grow(4 * vertices);
+    std::fill(is_cut.begin(), is_cut.end(), std::uint8_t{0});
+  }
+
+  void grow(std::size_t size) {
+    if (edges.size() < size) edges.resize(size), is_cut.resize(size);
+  }
+
+  std::vector<std::uint64_t> slots;  // [vertices][window] with numbers of edges, from 1; 0 is empty
+  base::FlatMap more;                // the same by the vertex and the end
+  std::vector<std::uint64_t> edges;  // with the vertices of the block, and room for more
+  std::vector<std::uint8_t> is_cut;  // of them
+};
+
+// Numbers edges in the order in which they first come. What it has of the memory is in registers.
+class EdgeNumbers {
  public:
-  // Forgets all; there is room for so many sides.
-  void reset(std::size_t most) {
-    count_ = 0;
-    if (sides_.size() > most) return;
-    for (std::vector<std::uint32_t>* each : {&sides_, &places_, &edges_, &sorted_, &order_})
-      each->resize(2 * most + 1);
+  explicit EdgeNumbers(BlockEdges& block)
+      : block_(block), slots_(block.slots.data()), edges_(block.edges.data()), is_cut_(block.is_cut.data()) {}
+
+  std::uint32_t count() const { return count_; }
+
+  // Makes room for so many edges more.
+  void reserve(std::size_t more) {
+    if (count_ + more < block_.edges.size()) return;
+    block_.grow(2 * block_.edges.size() + more);
+    edges_ = block_.edges.data(), is_cut_ = block_.is_cut.data();
   }
 
-  void add(std::int32_t end, unsigned is_cut) {
-    sides_[count_++] = 2 * static_cast<std::uint32_t>(end) | is_cut;
-  }
-
-  // The edges in the order of their ends.
-  std::span<const std::uint32_t> find() {
-    const int bits = static_cast<int>(std::bit_width(count_));
-    const std::size_t last = (std::size_t{1} << bits) - 1;
-    slots_.assign(last + 1, none);
-    std::uint64_t* const slots = slots_.data();
-    std::uint32_t* const edges = edges_.data();
-    std::uint32_t distinct = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const std::uint32_t side = sides_[i], end = side / 2;
-      std::size_t at = end * 0x9e3779b1U >> (32 - bits);
-      while (is_another(slots[at], end)) at = (at + 1) & last;
-      const std::uint64_t slot = slots[at];
-      const bool is_new = slot == none;
-      const std::uint32_t place = is_new ? distinct : static_cast<std::uint32_t>(slot);
-      slots[at] = std::uint64_t{end} << 32 | place;
-      edges[distinct] = side & ~1U;  // it is the last one, or none
-      edges[place] |= side & 1U;
-      places_[i] = place;
-      distinct += static_cast<std::uint32_t>(is_new);
-    }
-    sort(distinct);
-    return std::span(sorted_).first(distinct);
-  }
-
-  // Writes which edge each side is; gives the end of what is written.
-  std::uint8_t* write_places(std::uint8_t* out) const {
-    for (std::size_t i = 0; i < count_; ++i) *out++ = static_cast<std::uint8_t>(order_[places_[i]]);
-    return out;
+  // The number of the edge between a vertex of the block and a later one; the last bit of `cut` is its.
+  std::uint32_t find(std::uint32_t vertex, std::uint32_t end, unsigned cut) {
+    std::uint64_t* slot = slots_ + BlockEdges::window * vertex + place_of(end);
+    if (is_another(*slot, end)) [[unlikely]]
+      slot = search(block_, vertex, end);
+    // Without a branch, since one of five is new and which ones cannot be foreseen.
+    const auto is_new = static_cast<std::uint32_t>(*slot == 0);
+    const std::uint32_t number = static_cast<std::uint32_t>(*slot) - 1 + ((0 - is_new) & (count_ + 1));
+    const std::uint64_t upper = std::uint64_t{end} << 32;
+    *slot = upper | (number + 1);
+    edges_[count_] = upper | vertex;  // it is the last one, or none
+    is_cut_[number] |= static_cast<std::uint8_t>(cut & 1U);
+    count_ += is_new;
+    return number;
   }
 
  private:
-  static constexpr std::size_t few = 32;
-  static constexpr std::uint64_t none = ~std::uint64_t{0};
+  static std::size_t place_of(std::uint32_t end) {
+    return end * 0x9e3779b1U >> (32 - BlockEdges::window_bits);
+  }
 
-  // Whether a slot is taken by another end: one branch, since products of 32 bits are 0 only where a factor is.
   static bool is_another(std::uint64_t slot, std::uint32_t end) {
-    const auto taken = static_cast<std::uint32_t>(slot >> 32);
-    return std::uint64_t{taken - end} * (taken + 1U) != 0;
+    return (static_cast<unsigned>(slot != 0) & static_cast<unsigned>(slot >> 32 != end)) != 0;
   }
 
-  // Each edge goes behind those with lesser ends, which few edges count without a branch.
-  void sort(std::size_t count) {
-    if (count <= few) {
-      const std::uint32_t* const edges = edges_.data();
-      for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t edge = edges[k];
-        std::uint32_t less = 0;
-        for (std::size_t i = 0; i < count; ++i) less += static_cast<std::uint32_t>(edges[i] < edge);
-        order_[k] = less;
-      }
-    } else {
-      std::iota(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(count), 0U);
-      std::sort(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(count),
-                [this](std::uint32_t p, std::uint32_t q) { return edges_[p] < edges_[q]; });
-      for (std::size_t k = 0; k < count; ++k) order_[sorted_[k]] = static_cast<std::uint32_t>(k);
+  [[gnu::noinline]] static std::uint64_t* search(BlockEdges& block, std::uint32_t vertex, std::uint32_t end) {
+    std::uint64_t* const slots = block.slots.data() + BlockEdges::window * vertex;
+    std::size_t at = place_of(end);
+    for (std::size_t tries = 1; tries < BlockEdges::most_tries; ++tries) {
+      at = (at + 1) % BlockEdges::window;
+      if (!is_another(slots[at], end)) return &slots[at];
     }
-    for (std::size_t k = 0; k < count; ++k) sorted_[order_[k]] = edges_[k];
+    return &block.more[(std::uint64_t{vertex} + 1) << 32 | end];
   }
 
-  std::size_t count_ = 0;                      // of sides
-  std::vector<std::uint32_t> sides_, places_;  // of sides; their edges in the order in which they come
-  std::vector<std::uint32_t> edges_, sorted_, order_;  // of edges in this order, and where each goes
-  std::vector<std::uint64_t> slots_;                   // ends, and places of edges
+  BlockEdges& block_;
+  std::uint64_t *slots_, *edges_;
+  std::uint8_t* is_cut_;
+  std::uint32_t count_ = 0;
 };
 
-// The corners of a cell in the order of their vertices.
+// The corners of a cell in the order of their vertices, and its sides in the order of these.
 template <std::size_t width>
 class CornerOrder {
  public:
@@ -126,16 +124,34 @@ class CornerOrder {
     for (std::size_t k = 0; k < width; ++k) word_ = static_cast<std::uint8_t>(word_ | k << 2 * place[k]);
   }
 
-  std::size_t operator[](std::size_t place) const { return std::size_t{word_} >> 2 * place & 3; }
+  std::size_t operator[](std::size_t place) const { return corner(word_, place); }
+
+  // Bits of sides, as side_between numbers them by the corners, by the places of the corners.
+  unsigned sides(unsigned by_corners) const { return sides_by_places[word_][by_corners]; }
 
  private:
+  static constexpr std::size_t corner(std::size_t word, std::size_t place) { return word >> 2 * place & 3; }
+
+  static constexpr auto sides_by_places = [] {
+    std::array<std::array<std::uint8_t, 64>, 256> all{};
+    for (std::size_t word = 0; word < all.size(); ++word) {
+      for (std::size_t p = 0; p < width; ++p) {
+        for (std::size_t q = p + 1; q < width; ++q) {
+          const unsigned side = side_between[corner(word, p)][corner(word, q)];
+          for (unsigned bits = 0; bits < 64; ++bits)
+            all[word][bits] =
+                static_cast<std::uint8_t>(all[word][bits] | (bits >> side & 1U) << side_between[p][q]);
+        }
+      }
+    }
+    return all;
+  }();
+
   std::uint8_t word_;
 };
 
-// The cells at each vertex but those of which it is the last corner: all that have an edge to a later vertex. Those of
-// which it is the first corner come first, then those of which it is the second, and so on: they have one side to a later
-// vertex less each. Vertices are numbered so that cells next to each other have near ones. They are found in blocks of
-// vertices, which no two threads share.
+// An edge belongs to the block of its first vertex. Vertices are numbered so that cells next to each other have near
+// ones: most cells have all their edges in one block. Blocks are shared by no two threads.
 template <std::size_t width>
 class EdgeStars {
  public:
@@ -146,129 +162,131 @@ class EdgeStars {
       : vertices_(vertices),
         threads_(threads),
         passes_(passes),
-        shift_(std::max(12, static_cast<int>(std::bit_width(vertices)) - 11)),
+        shift_(std::max(12, static_cast<int>(std::bit_width(vertices)) - 13)),
         block_start_((vertices >> shift_) + 2),
-        order_(cells.size()),
-        end_(places * vertices),
         side_start_(block_start_.size()),
-        edge_start_(vertices + 1) {
+        edge_start_(block_start_.size()),
+        order_(cells.size()),
+        wide_(blocks()) {
     gather(cells);
   }
 
   struct Edges {
-    LargeArray<Ends> ends;            // in increasing order, the smaller one first
+    LargeArray<Ends> ends;  // by blocks, in the order in which they first come; the smaller one first
     LargeArray<std::uint8_t> is_cut;  // by one of the cells around it
   };
 
   // The edges; cut(t) has the bits of the sides of a cell that it cuts.
   template <class Cut>
   Edges find(std::span<const Cell> cells, const Cut& cut) {
-    edge_ = LargeArray<std::uint8_t>(side_start_.back());
-    std::vector<std::vector<std::uint32_t>> found(blocks());  // twice the later end, and whether it is cut
-    for_blocks([&](std::size_t block) {
-      sort_block(cells, block);
-      found[block].reserve((block_start_[block + 1] - block_start_[block]) / 2);
-      VertexEdges edges;
-      std::uint8_t* next = edge_.data() + side_start_[block];
-      for (std::size_t v = first_of(block); v < first_of(block + 1); ++v) {
-        gather_sides(v, cells, cut, edges);
-        const auto sorted = edges.find();
-        found[block].insert(found[block].end(), sorted.begin(), sorted.end());
-        edge_start_[v + 1] = static_cast<std::uint32_t>(sorted.size());
-        next = edges.write_places(next);
-      }
-    });
+    edge_ = LargeArray<std::uint16_t>(side_start_.back());
+    std::vector<Words> found(blocks());
+    const std::size_t grain = std::clamp<std::size_t>(blocks() / 64, 1, 8);  // blocks with one memory
+    base::for_pieces(
+        blocks(), grain, threads_, passes_.next(), [&](std::size_t, std::size_t begin, std::size_t end) {
+          BlockEdges memory;
+          for (std::size_t block = begin; block < end; ++block) {
+            found[block] = number_edges(block, cells, cut, memory, edge_.data() + side_start_[block]);
+            if (found[block].size() > std::size_t{1} << 16) {
+              wide_[block].resize(side_start_[block + 1] - side_start_[block]);
+              number_edges(block, cells, cut, memory, wide_[block].data());
+            }
+            edge_start_[block + 1] = found[block].size();
+          }
+        });
     std::partial_sum(edge_start_.begin(), edge_start_.end(), edge_start_.begin());
     return write(found);
   }
 
-  // Calls body.start(first, last) for the edges first ... last - 1 from each vertex, body.visit(place, t, order, edges)
-  // for the cells around them, and body.end(first, last): the vertex is at this place in the order of the corners, and
-  // first + edges[j] is the edge to the j-th of the corners behind it. end_of(t, k) is the number of a corner. Each block
-  // has a body.
-  template <class EndOf, class MakeBody>
-  void visit(const LargeArray<Ends>& edges, const EndOf& end_of, const MakeBody& make_body) const {
+  // Calls body.start(first, last) for the edges first ... last - 1 of each block, body.visit(t, order, in_block, edges)
+  // for the cells of which it has some, and body.end(first, last). Bits of in_block are the places in the order of the
+  // corners from which edges to the corners behind them are in the block: these are first + *edges++, one after the
+  // other. Each block has a body.
+  template <class MakeBody>
+  void visit(const MakeBody& make_body) const {
     for_blocks([&](std::size_t block) {
       auto body = make_body();
-      const std::uint8_t* next = edge_.data() + side_start_[block];
-      for (std::size_t v = first_of(block); v < first_of(block + 1); ++v) {
-        const std::size_t first = edge_start_[v], last = edge_start_[v + 1];
-        const auto search = [&](std::int32_t end) {
-          const auto at_end = [](const Ends& edge, std::int32_t wanted) { return edge[1] < wanted; };
-          const Ends* const begin = edges.data() + first;
-          return static_cast<std::size_t>(std::lower_bound(begin, edges.data() + last, end, at_end) - begin);
-        };
-        body.start(first, last);
-        for_members(v, [&](auto place, std::size_t i) {
-          const std::size_t t = members_[i] / 4;
-          const Order order = order_[t];
-          body.prefetch(later_member(i, v) / 4);
-          std::array<std::size_t, places - place> found;
-          for (std::size_t j = 0; j < found.size(); ++j)
-            found[j] = last - first < many ? next[j] : search(end_of(t, order[place + 1 + j]));
-          next += found.size();
-          body.visit(place, t, order, found);
-        });
-        body.end(first, last);
+      body.start(edge_start_[block], edge_start_[block + 1]);
+      const auto visit_cells = [&](const auto* edges) {
+        for_cells(
+            block, [&](std::size_t t, unsigned in_block) { body.visit(t, order_[t], in_block, edges); },
+            [&](std::size_t t) { body.prefetch(t); });
+      };
+      if (wide_[block].empty()) {
+        visit_cells(edge_.data() + side_start_[block]);
+      } else {
+        visit_cells(wide_[block].data());
       }
+      body.end(edge_start_[block], edge_start_[block + 1]);
     });
   }
 
+  // Calls visit(place) for the places of which in_block has bits; the place is a constant.
+  template <class Visit>
+  static void for_places(unsigned in_block, const Visit& visit) {
+    [&]<std::size_t... place>(std::index_sequence<place...>) {
+      ((in_block >> place & 1U ? visit(std::integral_constant<std::size_t, place>()) : void()), ...);
+    }(std::make_index_sequence<places>());
+  }
+
  private:
-  static constexpr std::size_t places = width - 1;                  // in a cell, but the last
+  using Words = std::vector<std::uint64_t>;
+
+  static constexpr std::size_t places = width - 1;  // in a cell, but the last
+  static constexpr std::size_t sides = width * places / 2;
   static constexpr std::size_t least_piece = std::size_t{1} << 16;  // cells: some milliseconds
-  static constexpr std::size_t many = 0xff;  // edges of a vertex that bytes do not number
-  static constexpr std::size_t ahead = 32;   // members whose cells are loaded before their turn
+  static constexpr std::size_t ahead = 24;                          // cells that are loaded before their turn
 
   std::size_t blocks() const { return block_start_.size() - 1; }
   std::size_t first_of(std::size_t block) const { return std::min(block << shift_, vertices_); }
-  std::size_t begin_of(std::size_t v) const {
-    return v % (std::size_t{1} << shift_) == 0 ? block_start_[v >> shift_] : end_[places * v - 1];
-  }
-  // In the block of a vertex: the next one may be another thread's.
-  std::uint32_t later_member(std::size_t i, std::size_t v) const {
-    return members_[std::min(i + ahead, block_start_[(v >> shift_) + 1] - 1)];
-  }
 
   template <class Body>
   void for_blocks(const Body& body) const {
     base::parallel_for(blocks(), threads_, body, passes_.next());
   }
 
-  // Calls visit(place, i) for the members of a vertex; the place is a constant.
-  template <class Visit>
-  void for_members(std::size_t v, const Visit& visit) const {
-    std::size_t i = begin_of(v);
-    const auto at_place = [&](auto place) {
-      for (const std::size_t end = end_[places * v + place]; i < end; ++i) visit(place, i);
-    };
-    [&]<std::size_t... place>(std::index_sequence<place...>) {
-      (at_place(std::integral_constant<std::size_t, place>()), ...);
-    }(std::make_index_sequence<places>());
+  // Calls visit(t, in_block) for the cells of a block, and prefetch(t) for those that come some time later.
+  template <class Visit, class Prefetch>
+  void for_cells(std::size_t block, const Visit& visit, const Prefetch& prefetch) const {
+    const std::size_t end = block_start_[block + 1];
+    for (std::size_t i = block_start_[block]; i < end; ++i) {
+      const std::size_t next = cell_[std::min(i + ahead, end - 1)] >> places;
+      __builtin_prefetch(&order_[next]);
+      prefetch(next);
+      visit(cell_[i] >> places, cell_[i] & ((1U << places) - 1));
+    }
   }
 
-  // Members by their blocks.
+  // The cells of each block, with the places that are in it.
   void gather(std::span<const Cell> cells) {
-    const std::size_t grain = std::max(least_piece, cells.size() >> 11);
+    const std::size_t grain = std::max(least_piece, cells.size() >> 9);
     std::vector<std::vector<std::uint32_t>> counts(base::piece_count(cells.size(), grain));
     std::vector<std::vector<std::uint32_t>> sides(counts.size());
     const auto in_pieces = [&](const auto& visit) {
       base::for_pieces(cells.size(), grain, threads_, passes_.next(),
                        [&](std::size_t piece, std::size_t begin, std::size_t end) {
-                         counts[piece].resize(blocks()), sides[piece].resize(blocks());
                          for (std::size_t t = begin; t < end; ++t) {
-                           for (std::size_t place = 0; place < places; ++place) visit(piece, t, place);
+                           std::size_t block = block_of(cells, t, 0);
+                           unsigned in_block = 1;
+                           for (std::size_t place = 1; place < places; ++place) {
+                             const std::size_t next = block_of(cells, t, place);
+                             if (next != block)
+                               visit(piece, t, std::exchange(block, next), std::exchange(in_block, 0));
+                             in_block |= 1U << place;
+                           }
+                           visit(piece, t, block, in_block);
                          }
                        });
     };
-    const auto block_of = [&](std::size_t t, std::size_t place) {
-      return at(cells[t][order_[t][place]]) >> shift_;
-    };
-    in_pieces([&](std::size_t piece, std::size_t t, std::size_t place) {
-      if (place == 0) order_[t] = Order(cells[t]);
-      const std::size_t block = block_of(t, place);
+    base::for_pieces(cells.size(), grain, threads_, passes_.same(),
+                     [&](std::size_t piece, std::size_t begin, std::size_t end) {
+                       counts[piece].resize(blocks()), sides[piece].resize(blocks());
+                       for (std::size_t t = begin; t < end; ++t) order_[t] = Order(cells[t]);
+                     });
+    in_pieces([&](std::size_t piece, std::size_t, std::size_t block, unsigned in_block) {
       ++counts[piece][block];
-      sides[piece][block] += static_cast<std::uint32_t>(places - place);
+      for_places(in_block,
+                 [&](auto place) { sides[piece][block] += static_cast<std::uint32_t>(places - place); });
     });
     std::size_t sum = 0, side_sum = 0;
     for (std::size_t block = 0; block < blocks(); ++block) {
@@ -277,70 +295,71 @@ class EdgeStars {
       for (const auto& side : sides) side_sum += side[block];
     }
     block_start_.back() = sum, side_start_.back() = side_sum;
-    members_ = LargeArray<std::uint32_t>(sum);
-    in_pieces([&](std::size_t piece, std::size_t t, std::size_t place) {
-      members_[counts[piece][block_of(t, place)]++] = static_cast<std::uint32_t>(4 * t + place);
+    cell_ = LargeArray<std::uint32_t>(sum);
+    in_pieces([&](std::size_t piece, std::size_t t, std::size_t block, unsigned in_block) {
+      cell_[counts[piece][block]++] = static_cast<std::uint32_t>(t << places | in_block);
     });
   }
 
-  // By their vertices and places.
-  void sort_block(std::span<const Cell> cells, std::size_t block) {
-    const std::size_t first = first_of(block), count = places * (first_of(block + 1) - first);
-    const std::vector<std::uint32_t> given(members_.data() + block_start_[block],
-                                           members_.data() + block_start_[block + 1]);
-    std::vector<std::uint32_t> group(given.size()), ends(count + 1);
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      const std::size_t t = given[i] / 4, place = given[i] % 4;
-      group[i] = static_cast<std::uint32_t>(places * (at(cells[t][order_[t][place]]) - first) + place);
-      ++ends[group[i] + 1];
-    }
-    ends[0] = static_cast<std::uint32_t>(block_start_[block]);
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    for (std::size_t i = 0; i < given.size(); ++i) members_[ends[group[i]]++] = given[i];
-    std::copy_n(ends.begin(), count, end_.begin() + static_cast<std::ptrdiff_t>(places * first));
+  std::size_t block_of(std::span<const Cell> cells, std::size_t t, std::size_t place) const {
+    return at(cells[t][order_[t][place]]) >> shift_;
   }
 
-  template <class Cut>
-  void gather_sides(std::size_t v, std::span<const Cell> cells, const Cut& cut, VertexEdges& edges) const {
-    edges.reset(places * (end_[places * v + places - 1] - begin_of(v)));
-    for_members(v, [&](auto place, std::size_t i) {
-      const std::size_t t = members_[i] / 4;
+  // The edges of a block, of which the numbers are written for all sides of its cells: words with twice the end, and 1
+  // where it is cut, above the vertex of the block.
+  template <class Cut, class Number>
+  Words number_edges(std::size_t block, std::span<const Cell> cells, const Cut& cut, BlockEdges& memory,
+                     Number* next) const {
+    const std::size_t first = first_of(block);
+    memory.reset(first_of(block + 1) - first);
+    EdgeNumbers numbers(memory);
+    const auto prefetch = [&](std::size_t t) { __builtin_prefetch(&cells[t]); };
+    const auto number_sides = [&](std::size_t t, unsigned in_block) {
       const Order order = order_[t];
-      __builtin_prefetch(&cells[later_member(i, v) / 4]);
-      const unsigned cut_sides = cut(t);
-      for (std::size_t later = place + 1; later < width; ++later) {
-        const std::size_t k = order[place], l = order[later];
-        edges.add(cells[t][l], cut_sides >> side_between[k][l] & 1U);
-      }
-    });
+      const unsigned cut_sides = order.sides(cut(t));
+      std::array<std::uint32_t, width> ends;
+      for (std::size_t place = 0; place < width; ++place)
+        ends[place] = static_cast<std::uint32_t>(cells[t][order[place]]);
+      numbers.reserve(sides);
+      for_places(in_block, [&](auto place) {
+        const auto vertex = static_cast<std::uint32_t>(ends[place] - first);
+        for (std::size_t later = place + 1; later < width; ++later)
+          *next++ =
+              static_cast<Number>(numbers.find(vertex, ends[later], cut_sides >> side_between[place][later]));
+      });
+    };
+    for_cells(block, number_sides, prefetch);
+    Words words(memory.edges.begin(), memory.edges.begin() + numbers.count());
+    for (std::size_t e = 0; e < words.size(); ++e)
+      words[e] = static_cast<std::uint32_t>(words[e]) | (words[e] >> 32 << 1 | memory.is_cut[e]) << 32;
+    return words;
   }
 
-  Edges write(std::vector<std::vector<std::uint32_t>>& found) const {
+  Edges write(std::vector<Words>& found) const {
     Edges edges{LargeArray<Ends>(edge_start_.back()), LargeArray<std::uint8_t>(edge_start_.back())};
     for_blocks([&](std::size_t block) {
-      const std::uint32_t* word = found[block].data();
-      for (std::size_t v = first_of(block); v < first_of(block + 1); ++v) {
-        for (std::size_t e = edge_start_[v]; e < edge_start_[v + 1]; ++e, ++word) {
-          edges.ends[e] = {static_cast<std::int32_t>(v), static_cast<std::int32_t>(*word / 2)};
-          edges.is_cut[e] = *word & 1U;
-        }
+      std::size_t e = edge_start_[block];
+      for (const std::uint64_t word : found[block]) {
+        edges.ends[e] = {static_cast<std::int32_t>(first_of(block) + static_cast<std::uint32_t>(word)),
+                         static_cast<std::int32_t>(word >> 33)};
+        edges.is_cut[e++] = word >> 32 & 1U;
       }
-      std::vector<std::uint32_t>().swap(found[block]);
+      Words().swap(found[block]);
     });
     return edges;
   }
 
   std::size_t vertices_;
   unsigned threads_;
-  base::Passes& passes_;                   // of which gathering takes two, finding two, and a visit one
-  int shift_;                              // a block has so many bits of vertices
-  std::vector<std::size_t> block_start_;   // of members
-  LargeArray<Order> order_;                // [t]
-  LargeArray<std::uint32_t> members_;      // 4 t + place by blocks, then by vertices and places
-  std::vector<std::uint32_t> end_;         // [vertices][places] of their members
-  std::vector<std::size_t> side_start_;    // of blocks
-  LargeArray<std::uint8_t> edge_;          // [sides] of members, in their order: which one of the vertex
-  std::vector<std::uint32_t> edge_start_;  // [vertices + 1]
+  base::Passes& passes_;                  // of which gathering takes two, finding two, and a visit one
+  int shift_;                             // a block has so many bits of vertices
+  std::vector<std::size_t> block_start_;  // of cells
+  std::vector<std::size_t> side_start_;   // of blocks
+  std::vector<std::size_t> edge_start_;   // of blocks
+  LargeArray<Order> order_;               // [t]
+  LargeArray<std::uint32_t> cell_;        // t and the places in the block, by blocks
+  LargeArray<std::uint16_t> edge_;        // [sides] of cells, in their order: which edge of the block
+  std::vector<std::vector<std::uint32_t>> wide_;  // [blocks] the same where the block has too many edges
 };
 
 }  // namespace vorotool::core::tetrahedral_alpha

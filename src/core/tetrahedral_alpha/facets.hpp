@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,9 +18,10 @@ using Row = std::array<std::int32_t, 4>;
 // Facet 4 t + k is that opposite to corner k of tetrahedron t.
 class Facets {
  public:
-  // With the neighbors opposite to the corners, -1 outside; those that do not share the facet are refused.
+  // With the neighbors opposite to the corners, -1 outside; those that do not share the facet are refused. There is at
+  // least one tetrahedron. One of the threads calls `beside` meanwhile.
   Facets(std::span<const Row> tetrahedra, std::span<const Row> neighbors, unsigned threads,
-         const base::Monitor& monitor);
+         const base::Monitor& monitor, const std::function<void()>& beside);
 
   // The same facet of the tetrahedron across: 4 u + l, or -1.
   std::int32_t across(std::int32_t facet) const {
@@ -32,6 +34,9 @@ class Facets {
   base::LargeArray<std::int32_t> find(unsigned threads, const base::Monitor& monitor) const;
 
  private:
+  // Of the tetrahedra begin ... end - 1; gives how many facets are counted as theirs.
+  std::size_t find_places(std::span<const Row> tetrahedra, std::size_t begin, std::size_t end);
+
   std::size_t is_counted(std::size_t facet) const {
     return static_cast<std::size_t>(neighbors_[facet / 4][facet % 4] < static_cast<std::int32_t>(facet / 4));
   }

@@ -51,9 +51,7 @@ class Builder {
         order_(number_vertices(cells, points.size())),
         stars_(std::span<const Cell>(cells_.data(), cells_.size()), order_.size(), threads, passes_),
         scaled_(points, order_, threads, passes_.same()),
-        given_(cells) {
-    if constexpr (width == 4) facets_.emplace(cells, neighbors, threads, passes_.next());
-  }
+        given_(cells) {}
 
   SpaceArrays run() {
     LargeArray<std::uint8_t> cut(cells_.size()), cut_sides(cells_.size());
@@ -86,20 +84,27 @@ class Builder {
   }
 
  private:
-  // Vertices get new numbers, in the order in which they first appear in the cells, so that those near each other come
-  // together. Gives the old ones.
+  // The old numbers of the vertices, by new ones in the order in which they first appear in the cells, so that those near
+  // each other come together.
   std::vector<std::int32_t> number_vertices(std::span<const Cell> cells, std::size_t points) {
     std::vector<std::int32_t> order;
-    place_.assign(points, base::no_index);
-    for (std::size_t t = 0; t < cells.size(); ++t) {
-      for (std::size_t k = 0; k < width; ++k) {
-        std::int32_t& number = place_[at(cells[t][k])];
-        if (number == base::no_index) {
-          number = static_cast<std::int32_t>(order.size());
-          order.push_back(cells[t][k]);
+    const auto number = [&] {
+      place_.assign(points, base::no_index);
+      for (std::size_t t = 0; t < cells.size(); ++t) {
+        for (std::size_t k = 0; k < width; ++k) {
+          std::int32_t& place = place_[at(cells[t][k])];
+          if (place == base::no_index) {
+            place = static_cast<std::int32_t>(order.size());
+            order.push_back(cells[t][k]);
+          }
+          cells_[t][k] = place;
         }
-        cells_[t][k] = number;
       }
+    };
+    if constexpr (width == 4) {
+      facets_.emplace(cells, neighbors_, threads_, passes_.next(), number);
+    } else {
+      number();
     }
     return order;
   }
@@ -207,8 +212,7 @@ class Builder {
     });
     for (LargeArray<std::int32_t>* each : {&out.edge_min, &out.edge_mid, &out.edge_max})
       *each = LargeArray<std::int32_t>(edges_.size());
-    const auto number = [&](std::size_t t, std::size_t k) { return place_[at(given_[t][k])]; };
-    stars_.visit(edges_, number, [&] { return EdgeRanks(*this, edges_, out, ranks, facet_min); });
+    stars_.visit([&] { return EdgeRanks(*this, edges_, out, ranks, facet_min); });
     out.edges = std::move(edges_);
     (width == 4 ? out.tetrahedron_rank : out.triangle_min) = LargeArray<std::int32_t>(count_);
     copy(ranks.rank.data(), (width == 4 ? out.tetrahedron_rank : out.triangle_min).data());
@@ -226,7 +230,7 @@ class Builder {
                });
   }
 
-  // The ranks of the edges from a vertex to later ones, from those of the cells around them.
+  // The ranks of the edges of a block, from those of the cells around them.
   class EdgeRanks {
    public:
     EdgeRanks(const Builder& builder, LargeArray<Ends>& edges, SpaceArrays& out,
@@ -247,25 +251,26 @@ class Builder {
       if constexpr (width > 2) __builtin_prefetch(&rank_[t]);
     }
 
-    template <std::size_t place>
-    void visit(std::integral_constant<std::size_t, place>, std::size_t t, const CornerOrder<width>& order,
-               const std::array<std::size_t, width - 1 - place>& edges) {
-      const std::int32_t own = rank_[t];
+    template <class Number>
+    void visit(std::size_t t, const CornerOrder<width>& order, unsigned in_block, const Number*& edge) {
+      const std::int32_t own = width == 2 ? 0 : rank_[t];
+      std::array<std::int32_t, 4> least{}, most{own, own, own, own};
       if constexpr (width == 4) {
         const std::int32_t* const facet = facet_min_ + 4 * t;
-        std::array<std::int32_t, 4> least{facet[order[0]], facet[order[1]], facet[order[2]], facet[order[3]]};
-        std::array<std::int32_t, 4> most{own, own, own, own};
+        least = {facet[order[0]], facet[order[1]], facet[order[2]], facet[order[3]]};
         if ((least[0] | least[1] | least[2] | least[3]) < 0) mark_outside(least, most);
-        Ranks ranks{0, own, 0, 0};
-        for (std::size_t j = 0; j < edges.size();
-             ++j) {  // the facets opposite to the other corners are at the edge
-          const auto& [p, q] = besides[place][place + 1 + j];
-          ranks[0] = std::min(least[p], least[q]), ranks[2] = ~std::max(most[p], most[q]);
-          add(edges[j], ranks);
-        }
-      } else if constexpr (width == 3) {
-        for (const std::size_t e : edges) add(e, Ranks{own, last_rank_, ~last_rank_, 0});
       }
+      EdgeStars<width>::for_places(in_block, [&](auto place) {
+        for (std::size_t later = place + 1; later < width; ++later) {
+          Ranks ranks{own, last_rank_, ~last_rank_, 0};
+          if constexpr (width == 4) {  // the facets opposite to the other corners are at the edge
+            const auto& [p, q] = besides[place][later];
+            ranks = Ranks{std::min(least[p], least[q]), own, ~std::max(most[p], most[q]), 0};
+          }
+          Ranks& found = found_[*edge++];
+          if constexpr (width > 2) found = ranks < found ? ranks : found;
+        }
+      });
     }
 
     void end(std::size_t first, std::size_t last) {
@@ -295,11 +300,6 @@ class Builder {
       }
     }
 
-    void add(std::size_t edge, const Ranks& ranks) {
-      Ranks& found = found_[edge];
-      found = ranks < found ? ranks : found;
-    }
-
     const Builder& builder_;
     LargeArray<Ends>& edges_;  // which get the old numbers
     SpaceArrays& out_;
@@ -313,13 +313,13 @@ class Builder {
   std::span<const Row> neighbors_;
   unsigned threads_;
   base::Passes passes_;
+  std::optional<Facets> facets_;     // of tetrahedra
   LargeArray<Cell> cells_;           // by the new numbers
   std::vector<std::int32_t> place_;  // the new numbers
   std::vector<std::int32_t> order_;  // the old numbers
   EdgeStars<width> stars_;
   ScaledPoints scaled_;
-  std::span<const Cell> given_;   // by the old numbers
-  std::optional<Facets> facets_;  // of tetrahedra
+  std::span<const Cell> given_;  // by the old numbers
   LargeArray<std::int32_t> facet_;
   LargeArray<Ends> edges_;    // by the new numbers
   LargeArray<double> value_;  // [cells + facets + edges] radii at which shapes change, or left out

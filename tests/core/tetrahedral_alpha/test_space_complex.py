@@ -162,3 +162,24 @@ def test_progress_never_goes_back(decimals):
     _core.tetrahedral_alpha.space_complex(*cells, 1, fractions.append)
     assert fractions == sorted(fractions)
     assert all(0 <= fraction <= 1 for fraction in fractions)
+
+
+def test_edges_of_a_vertex_with_very_many():
+    """A center whose edges alone need more than 16 bits, against the tetrahedra around each edge."""
+    q = np.random.default_rng(8).normal(size=(70_000, 3))
+    mesh, found = complex_of(np.r_[np.zeros((1, 3)), q / np.sqrt((q * q).sum(axis=1))[:, None]], threads=2)
+    assert (np.bincount(found["edges"].ravel()) > 1 << 16).sum() == 1
+    last, rank = len(found["spectrum"]), found["tetrahedron_rank"]
+    ends = np.sort(mesh.tetrahedra[:, [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]], axis=2).reshape(-1, 2)
+    keys = ends[:, 0].astype(np.int64) << 32 | ends[:, 1]
+    edges = found["edges"][:, 0].astype(np.int64) << 32 | found["edges"][:, 1]
+    order = np.argsort(edges)
+    assert np.array_equal(edges[order], np.unique(keys))
+    least, most = np.full(len(order), last), np.full(len(order), -1)
+    place = np.searchsorted(edges[order], keys)
+    np.minimum.at(least, place, np.repeat(rank, 6))
+    np.maximum.at(most, place, np.repeat(rank, 6))
+    assert np.array_equal(found["edge_mid"][order], least)
+    inner = found["edge_max"][order] < last
+    assert np.array_equal(found["edge_max"][order][inner], most[inner])
+    assert (found["edges"][order][~inner] > 0).all()  # on the hull
