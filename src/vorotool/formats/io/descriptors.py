@@ -157,6 +157,11 @@ def number_of(stream: object) -> int | None:
 class _PatientReader(io.FileIO):
     """Waits for what is yet to come where the system would not, as others may have asked of what they share with us."""
 
+    def readinto(self, buffer: Any) -> int:
+        while (count := super().readinto(buffer)) is None:
+            select.select([self], [], [])
+        return count
+
     def readall(self) -> bytes:
         parts = []
         while (part := self.read(READ_BYTES)) != b"":

@@ -30,6 +30,8 @@ MOST_BLANKS = 2**12
 NESTING_LIMIT = 100
 """Levels of brackets; no file of points or polygons has ten."""
 
+Result = TypeVar("Result")
+
 
 @frozen
 class Source:
@@ -144,49 +146,38 @@ def reading(name: str) -> Iterator[None]:
 
 
 def read_bytes(name: str) -> bytes:
-    """Read all that a file holds, or that comes through a stream: each is opened once, and read to its end."""
+    """Read all that a file holds, or that comes through a stream."""
+    return b"".join(_taken(name, lambda file: file.read() or b""))
+
+
+def copy_stream(name: str, out: BinaryIO) -> None:
+    """Copy all that comes through a stream, or is in a file, without holding it."""
+    from shutil import copyfileobj  # it brings compressors
+
+    _taken(name, lambda file: copyfileobj(file, out))
+
+
+def _taken(name: str, take: Callable[[BinaryIO], Result]) -> list[Result]:
+    """Let what a file or a stream is read from be taken to its end, and what is in the buffer of a stream before it."""
     number = 0 if name == STANDARD else descriptor_of(name)
     if number is None:
         with open(name, "rb") as file:
-            return file.read()
+            return [take(file)]
     spoken = STANDARD_INPUT if name == STANDARD else name
-    standard, begun = number_of(sys.stdin), b""
+    standard, made = number_of(sys.stdin), list[Result]()
     try:
         if name == STANDARD or standard == number:
-            begun = sys.stdin.buffer.read() or b""  # with what is in its buffer already
+            made.append(take(sys.stdin.buffer))
             if standard is None or not hasattr(os, "get_blocking") or os.get_blocking(standard):
-                return begun
+                return made
         with open_input(number) as file:
-            return begun + file.read()
+            return [*made, take(file)]
     except IsADirectoryError:
         raise
     except (AttributeError, ValueError):  # None or closed, as under a daemon
         raise InputError(f"{spoken} is closed: name a file instead of {name}") from None
     except OSError as error:
         raise InputError(f"{spoken} cannot be read: {error.strerror}; name a file instead of {name}") from None
-
-
-def copy_stream(name: str, out: BinaryIO) -> None:
-    """Copy all that comes through a stream, or is in a file, without holding it."""
-    import shutil  # it brings compressors
-
-    number = 0 if name == STANDARD else descriptor_of(name)
-    if number is None:
-        with open(name, "rb") as file:
-            shutil.copyfileobj(file, out)
-        return
-    is_standard = name == STANDARD or number_of(sys.stdin) == number
-    try:
-        waits = os.get_blocking(number) if hasattr(os, "get_blocking") else True
-    except OSError:
-        waits = False
-    if not waits or (is_standard and number_of(sys.stdin) is None):
-        out.write(read_bytes(name))  # which waits itself, or says what is wrong
-    elif is_standard:
-        shutil.copyfileobj(sys.stdin.buffer, out)
-    else:
-        with open_input(number) as file:
-            shutil.copyfileobj(file, out)
 
 
 def _advice(name: str) -> str:
@@ -259,8 +250,6 @@ _MOMENT = 0.05
 MOST_UNPACKED = 1 << 29
 """Bytes that any file may become, however small it is."""
 _MOST_TIMES = 100
-
-Result = TypeVar("Result")
 
 
 def check_pixels(name: str, width: int, height: int, max_pixels: int) -> None:

@@ -81,15 +81,14 @@ def _elements(start: str, values: list[Any], kind: str) -> Iterator[str]:
     precision = current_written().how.precision
     text: Callable[[Any], str] = str if kind == "long" else json_text
     if kind == "double":
-        text = (lambda value: f"{value:.{precision}g}") if precision else _shortest
+        text = (
+            (lambda value: f"{value:.{precision}g}")
+            if precision
+            else lambda value: repr(float(value)).removesuffix(".0")
+        )
     elif kind == "string":
         text = lru_cache(_escaped) if {type(value) for value in values} <= {str, type(None)} else _escaped
     return ("" if value is None else f"{start}{text(value)}</data>" for value in values)
-
-
-def _shortest(value: float) -> str:
-    """Return the shortest digits that read back as a number."""
-    return repr(float(value)).removesuffix(".0")
 
 
 def _escaped(value: Any) -> str:

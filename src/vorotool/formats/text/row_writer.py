@@ -100,14 +100,9 @@ def _as_array(column: Any) -> NDArray[Any] | None:
         return column if column.ndim == 1 else None
     values = list(column)
     kinds = {type(value) for value in values}
-    if kinds <= {bool} or kinds <= {float} or (kinds <= {int, float} and _all_short(values)):
+    if kinds <= {bool} or kinds <= {float} or (kinds == {int} and -(2**63) <= min(values) <= max(values) < 2**63):
         return np.array(values)
     return None
-
-
-def _all_short(values: list[int | float]) -> bool:
-    """Whether integers survive in an array: all in int64, and none beside a float."""
-    return all(type(v) is int and -(2**63) <= v < 2**63 for v in values)
 
 
 def _is_absent(value: Any) -> bool:
