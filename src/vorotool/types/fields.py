@@ -54,13 +54,12 @@ class Declared(NamedTuple):
             return None
         if self.shape and self.dtype is not None:
             array: NDArray[Any] = np.ascontiguousarray(given, dtype=self.dtype)
-            widths = self.shape[1:]
-            if array.size == 0 and self.rows_of is None and all(isinstance(width, int) for width in widths):
-                array = array.reshape((0, *widths))  # type: ignore[arg-type]
-            if self.rows_of is None:
-                self._measure(self.shape, array.shape, name, sizes)
-            else:
+            if self.rows_of is not None:
                 self._check_starts(array, name, sizes)
+            else:
+                if array.size == 0 and all(isinstance(width, int) for width in self.shape[1:]):
+                    array = array.reshape((0, *self.shape[1:]))  # type: ignore[arg-type]
+                self._measure(self.shape, array.shape, name, sizes)
             if array.flags.writeable:
                 array = array.view()  # the caller's own array stays as it is
                 array.flags.writeable = False
@@ -79,8 +78,7 @@ class Declared(NamedTuple):
         if not fits:
             wanted = tuple(axis if isinstance(axis, int) else sizes.get(axis, axis) for axis in shape)
             raise InputError(f"{name} must have shape {_text(wanted)}, but has shape {_text(found)}")
-        for axis, size in zip(shape, found, strict=True):
-            sizes[axis] = size
+        sizes.update(zip(shape, found, strict=True))
 
     def _check_starts(self, starts: NDArray[Any], name: str, sizes: dict[Axis, int]) -> None:
         """Check starts of rows: 0 first, the number of items last."""
@@ -192,9 +190,9 @@ class Record:
     _declared: ClassVar[dict[str, Declared]] = {}
 
     def __post_init__(self) -> None:
-        sizes: dict[Axis, int] = {}
+        held, sizes = self.__dict__, dict[Axis, int]()
         for name, own in self._declared.items():
-            object.__setattr__(self, name, own.settle(getattr(self, name), name, sizes))
+            held[name] = own.settle(held[name], name, sizes)
 
 
 YAxis = Literal["up", "down", "none"]
