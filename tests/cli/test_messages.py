@@ -127,3 +127,12 @@ def test_a_file_whose_name_begins_like_an_option_is_found(run, folder):
             )
             run(f"{command} ./{name}")
     assert "file" not in run("delaunay -y.csv", code=2).err
+
+
+@pytest.mark.parametrize("what", ["skeleton", "discs", "necks", "centerline", "table"])
+def test_open_lines_are_advised_what_all_results_take(run, folder, what):
+    (folder / "a.wkt").write_text("LINESTRING (0 0, 9 0, 9 9)\n")
+    said = "open lines have no interior: close them, or use --side exterior for the skeleton around them"
+    run(f"skeleton-exact a.wkt --what {what}", says=said)
+    (folder / "b.wkt").write_text("POLYGON ((0 0, 9 0, 9 9, 0 0))\n")
+    assert "interior" not in run(f"skeleton-exact b.wkt --what {what}").err

@@ -240,7 +240,8 @@ def warn_empty(polygons: PolygonSet, side: str) -> None:
     elif polygons.is_line.all():
         if side == "both":
             return
-        reason = "open lines have no interior: use " + option("--side exterior", 'side="exterior"')
+        exterior = option("--side exterior", 'side="exterior"')
+        reason = f"open lines have no interior: close them, or use {exterior} for the skeleton around them"
     else:
         reason = "no polygon has an area"
     message = Message(f"the interior skeleton is empty: {reason}", Kind.EMPTY_RESULT)
