@@ -62,11 +62,6 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
         check_labels(self, 2, Frame)
 
     @property
-    def shape(self) -> tuple[int, int]:
-        """Rows and columns."""
-        return (self.labels.shape[0], self.labels.shape[1])
-
-    @property
     def y_axis(self) -> YAxis:
         """Direction of y: that of the seeds; without any rows go down."""
         return DOWN if self.seeds is None else self.seeds.y_axis
@@ -84,11 +79,6 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
             last = 2 * frame.y + frame.height - 1  # y of a seed becomes last - y
             seeds = replace(seeds, y=last * seeds.scale - seeds.y)
         return LabelImage(self.labels[::-1], frame, seeds, sides=self.sides)
-
-    @property
-    def crs(self) -> Any:
-        """The ``crs`` member of GeoJSON for the map that the image lies on; None without one."""
-        return None if self.grid is None else self.grid.crs
 
     def _array(self) -> NDArray[Any]:
         return self.labels
@@ -181,16 +171,6 @@ class Raster(Value, Pixels):
     def is_color(self) -> bool:
         """Whether the image has channels."""
         return self.values.ndim == 3
-
-    @property
-    def shape(self) -> tuple[int, int]:
-        """Rows and columns."""
-        return (self.values.shape[0], self.values.shape[1])
-
-    @property
-    def crs(self) -> Any:
-        """The ``crs`` member of GeoJSON for the map that the image lies on; None without one."""
-        return None if self.grid is None else self.grid.crs
 
     def _array(self) -> NDArray[Any]:
         return self.values

@@ -483,6 +483,18 @@ class Pictured:
 class Pixels(Pictured, Elements):
     """A value that is an image."""
 
+    grid: Any
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return self._array().shape[:2]
+
+    @property
+    def crs(self) -> Any:
+        """The ``crs`` member of GeoJSON for the map that the image lies on; None without one."""
+        return None if self.grid is None else self.grid.crs
+
 
 def counted(number: int, noun: str, several: str | None = None) -> str:
     """Return a number with its noun."""

@@ -261,7 +261,8 @@ def _source_fault(graph: PlanarGraph) -> str | None:
         return "a point is not where its vertex is"
     segment = owners(graph.source_count)
     edge = graph.source_edge.astype(np.int64)
-    a, b = vertices[edge].astype(np.int64), vertices[_next_vertices(given)[edge]].astype(np.int64)
+    after = np.where(given.ends_line, np.arange(len(given.xy)), given.following)  # a line ends at its last vertex
+    a, b = vertices[edge].astype(np.int64), vertices[after[edge]].astype(np.int64)
     d = b - a
     reach = np.abs(d).sum(axis=1) // 2 if graph.repairs["moved_edges"] else 0
     for column in (0, 1):
@@ -272,14 +273,6 @@ def _source_fault(graph: PlanarGraph) -> str | None:
             at = int(is_off.argmax())
             return f"segment {segment[at]} is not where edge {edge[at]} runs"
     return _side_fault(graph, given, segment, edge, flat_holes(given, vertices))
-
-
-def _next_vertices(polygons: PolygonSet) -> Any:
-    """The vertex after each one around its ring; a line ends at its last one."""
-    last = (polygons.ring_starts[1:] - 1)[polygons.ring_kind == LINE]
-    after = polygons.following.copy()
-    after[last] = last
-    return after
 
 
 def _side_fault(

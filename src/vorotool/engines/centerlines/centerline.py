@@ -140,7 +140,7 @@ def _path_between(
     path = network.path(last if is_reversed else first, -1 if is_reversed else last, progress)
     if path is None or not len(path.arcs):
         raise InputError(_no_path(skeleton, start, end, is_apart=path is None))
-    path = path.reversed() if is_reversed else path
+    path = path.turned(np.array([is_reversed]))
     line = _made(network, path, skeleton, ends, wanted=(start is None, end is None))
     if not len(line):
         raise InputError(_no_path(skeleton, start, end, is_apart=False))

@@ -42,9 +42,8 @@ HAIR = 2.0**-6
 
 def without_end_pieces(skeleton: Skeleton, **run: Unpack[Run]) -> Skeleton:
     """Leave out the pieces at the ends of branches."""
-    pieces = end_pieces(skeleton, keeps_sides=True)
-    lone, roots = pieces.lone_arcs, pieces.lone_roots
-    kept, arcs = ~pieces.is_removed, skeleton.arcs.copy()
+    is_removed, roots, lone = _end_pieces(skeleton)
+    kept, arcs = ~is_removed, skeleton.arcs.copy()
     length, control = skeleton.length.copy(), skeleton.control.copy()
     kept[lone], length[lone], control[lone] = True, 0, np.nan
     arcs[lone] = np.stack([roots, len(skeleton.vertices) + np.arange(len(roots))], axis=1)
@@ -55,28 +54,19 @@ def without_end_pieces(skeleton: Skeleton, **run: Unpack[Run]) -> Skeleton:
     return prune(with_arcs(made, kept), length=0, **run)
 
 
-@frozen(eq=False)
-class EndPieces:
-    """Which arcs belong to ends, and the trees of which nothing else is left."""
-
-    is_removed: Booleans  # (a,) bool array: whether each arc belongs to an end
-    lone_roots: Numbers  # (k,) integer array: the largest disc of each tree that is all one end, and an arc there
-    lone_arcs: Numbers  # (k,) integer array: the largest disc of each tree that is all one end, and an arc there
-
-
-def end_pieces(skeleton: Skeleton, *, keeps_sides: bool) -> EndPieces:
-    """Find the arcs that belong to ends."""
+def _end_pieces(skeleton: Skeleton) -> tuple[Booleans, Numbers, Numbers]:
+    """Find which arcs belong to ends; and the largest disc of each tree that is all one end, and an arc there."""
     count = len(skeleton.vertices)
     component = connected_roots(skeleton.arcs, count)
     roots = _roots(skeleton, component)
     is_fixed = skeleton.touches_frame if skeleton.border == "open" else np.zeros(count, dtype=bool)
     is_fixed[roots] = True
-    is_removed = _removed(skeleton, is_fixed, keeps_sides)
+    is_removed = _removed(skeleton, is_fixed)
     is_left = mask_of(component[skeleton.arcs[~is_removed, 0]], count)
     lone = roots[~is_left[component[roots]]]
     first = np.full(count, -1, dtype=np.intp)
     first[skeleton.arcs.reshape(-1)[::-1]] = np.repeat(np.arange(len(skeleton)), 2)[::-1]
-    return EndPieces(is_removed, lone, first[lone])
+    return is_removed, lone, first[lone]
 
 
 def _roots(skeleton: Skeleton, component: Numbers) -> Numbers:
@@ -92,7 +82,7 @@ def _roots(skeleton: Skeleton, component: Numbers) -> Numbers:
     return own[np.diff(component[own], prepend=-1) > 0]
 
 
-def _removed(skeleton: Skeleton, is_fixed: Booleans, keeps_sides: bool) -> Booleans:
+def _removed(skeleton: Skeleton, is_fixed: Booleans) -> Booleans:
     """Find the arcs that belong to ends, by a walk from the leaves to nodes that are beyond no other."""
     arcs, count = skeleton.arcs.astype(np.intp), len(skeleton.vertices)
     degree = np.bincount(arcs.reshape(-1), minlength=count)
@@ -110,7 +100,7 @@ def _removed(skeleton: Skeleton, is_fixed: Booleans, keeps_sides: bool) -> Boole
         arms[inner] -= is_piece
     gone, whole, is_removed = bytearray(count), bytearray(count), np.zeros(len(arcs), dtype=bool)
     for (arc, outer, inner), is_piece, is_side in zip(order[::-1], is_end[::-1], is_long[::-1], strict=True):
-        whole[outer] = whole[inner] or (keeps_sides and is_piece and is_side and arms[inner] > 1 and not gone[inner])
+        whole[outer] = whole[inner] or (is_piece and is_side and arms[inner] > 1 and not gone[inner])
         gone[outer] = is_removed[arc] = not whole[outer] and (is_piece or gone[inner])
     return is_removed
 
@@ -309,14 +299,10 @@ def end_middles(skeleton: Skeleton, leaves: Numbers) -> Floats:
 
 
 # ---- outlines -------------------------------------------------------------------------------------
-def _touched(skeleton: Skeleton, sites: Numbers, origin: Floats) -> Floats:
-    """(k, 2, 2) the places on both sites that are nearest to some places."""
-    return nearest_on_segments(origin[:, None], *skeleton._ends_of(sites).transpose(2, 0, 1, 3))
-
-
 def _outlines(skeleton: Skeleton, sites: Numbers, origin: Floats) -> _Outlines:
     """Outlines in the order of their rings, from the one of two sites to the other."""
-    touched = _touched(skeleton, sites, origin) - origin[:, None]
+    nearest = nearest_on_segments(origin[:, None], *skeleton._ends_of(sites).transpose(2, 0, 1, 3))
+    touched = nearest - origin[:, None]  # (k, 2, 2) on both sites
     polygons, table = skeleton.polygons, skeleton.site_table
     ring = table.rings(polygons, sites[:, 0])
     # what is inside is on the left of shells that go counterclockwise, and of holes that do not
@@ -352,7 +338,7 @@ def _half_way(outlines: _Outlines, ways: Floats) -> tuple[Floats, Numbers]:
 def _set_single_edges(outlines: _Outlines, radius: Floats, to_middle: Floats, corners: Numbers) -> None:
     """Take, where it is the only one, a long edge between corners that stick out."""
     way = np.diff(outlines.points, axis=0)
-    turn = way[:-1, 0] * way[1:, 1] - way[:-1, 1] * way[1:, 0]
+    turn = crosses(way[:-1], way[1:])
     outline = owners(np.diff(outlines.start))
     sticks_out = np.zeros(len(outlines.points), dtype=bool)
     sticks_out[1:-1] = outlines.is_vertex[1:-1] & (np.where(outlines.is_left[outline[1:-1]], turn, -turn) > 0)

@@ -38,10 +38,6 @@ class Paths:
     sources: Indices
     targets: Indices
 
-    def reversed(self) -> Paths:
-        """One path, the other way round."""
-        return Paths(self.start, self.arcs[::-1], self.targets[::-1], self.sources[::-1])
-
     def turned(self, is_turned: Booleans) -> Paths:
         """Some paths the other way round."""
         path = owners(np.diff(self.start))

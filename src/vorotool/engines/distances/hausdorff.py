@@ -298,8 +298,8 @@ def _check_crs(a: PolygonSet, b: PolygonSet) -> None:
 
 
 def _measured(polygons: PolygonSet, boundary: bool, progress: Progress) -> MeasuredShape:
-    start, after = edges_of(polygons)
-    elements = np.stack([polygons.xy[start], polygons.xy[after]], axis=1)
+    start = polygons.edge_starts
+    elements = np.stack([polygons.xy[start], polygons.xy[polygons.following[start]]], axis=1)
     ring = np.searchsorted(polygons.ring_starts, start, side="right") - 1
     bounds = (polygons.ring_kind != LINE) & (not boundary)
     ring_of = np.where(bounds[ring], ring, -1).astype(np.int32)
@@ -307,15 +307,6 @@ def _measured(polygons: PolygonSet, boundary: bool, progress: Progress) -> Measu
     rings = np.stack([polygons.ring_polygon, is_hole], axis=1) if bounds.any() else np.empty((0, 2), np.int32)
     core = _core.distances.Shape(elements.reshape(-1, 4), ring_of, np.ascontiguousarray(rings), progress)
     return MeasuredShape(polygons, core, bool(bounds.any()))
-
-
-def edges_of(polygons: PolygonSet) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The first and last vertices of edges: of lines all but the last start one, a lone vertex ends at itself."""
-    ends_line = np.zeros(len(polygons.xy), dtype=bool)
-    is_open = (polygons.ring_kind == LINE) & (np.diff(polygons.ring_starts) > 1)
-    ends_line[polygons.ring_starts[1:][is_open] - 1] = True
-    start = np.flatnonzero(~ends_line)
-    return start, polygons.following[start]
 
 
 TOLERANCE = 1e-9
@@ -369,10 +360,7 @@ class _Checked:
     """A shape as shapely has it."""
 
     def __init__(self, polygons: PolygonSet, is_boundary: bool) -> None:
-        is_last = np.zeros(len(polygons.xy), dtype=bool)
-        is_last[polygons.ring_starts[1:] - 1] = np.diff(polygons.ring_starts) > 1
-        is_last &= np.repeat(polygons.ring_kind == LINE, np.diff(polygons.ring_starts))
-        start = np.flatnonzero(~is_last)
+        start = polygons.edge_starts
         self.ends = np.stack([polygons.xy[start], polygons.xy[polygons.following[start]]], axis=1)
         is_point = (self.ends[:, 0] == self.ends[:, 1]).all(axis=1)
         self.edges = np.empty(len(self.ends), dtype=object)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common import fail, first_wrong, off_segments
 from vorotool.engines.skeleton.clearance import ULPS, largest_coordinate
-from vorotool.numeric.arrays import Floats, dots, mask_of, norms
+from vorotool.numeric.arrays import Floats, dots, norms
 from vorotool.numeric.lazy import shapely
 from vorotool.numeric.parallel import Progress, report
 from vorotool.types.arguments import check_value
@@ -110,9 +110,7 @@ def _edges(discs: Discs, polygons: NDArray[np.intp]) -> Any:
     shapes = discs.polygons
     starts = shapes.ring_starts[shapes.polygon_starts]
     own = np.concatenate([np.arange(starts[k], starts[k + 1]) for k in polygons.tolist()])
-    ring_polygon = shapes.ring_polygon
-    open_end = mask_of(shapes.ring_starts[1:][shapes.is_line[ring_polygon]] - 1, len(shapes.xy))
-    following = np.where(open_end, np.arange(len(shapes.xy)), shapes.following)
+    following = np.where(shapes.ends_line, np.arange(len(shapes.xy)), shapes.following)
     return shapely.linestrings(np.stack([shapes.xy[own], shapes.xy[following[own]]], axis=1))
 
 

@@ -324,7 +324,7 @@ def simplified_polygons(polygons: PolygonSet, tolerance: float) -> PolygonSet:
     chains = _chains(polygons)
     points, start = _simplified_chains(chains, tolerance)
     index, sizes = _along_rings(polygons, chains, start)
-    last = polygons.xy[polygons.ring_starts[1:][np.equal(polygons.ring_kind, LINE)] - 1]
+    last = polygons.xy[polygons.ends_line]
     xy = np.concatenate([points, last])[index]
     return _turned_as(replace(polygons, xy=xy, ring_starts=starts_of(sizes)), polygons)
 

@@ -159,11 +159,9 @@ def _elements(
     vertices = np.concatenate([np.arange(*polygons.ring_starts[[k, k + 1]]) for k in rings.tolist()])
     number = ranks_of(vertices, len(polygons.xy))
     points = np.rint((polygons.xy[vertices] - skeleton.origin) / (skeleton.scale or 1.0)).astype(np.int32)
-    is_last = np.zeros(len(polygons.xy), dtype=bool)
-    is_last[polygons.ring_starts[1:] - 1] = polygons.is_line[polygons.ring_polygon]
     segments = np.stack([number[vertices], number[polygons.following[vertices]]], axis=1).astype(np.int32)
     has_length = (points[segments[:, 0]] != points[segments[:, 1]]).any(axis=1)
-    return points, np.ascontiguousarray(segments[has_length & ~is_last[vertices]])
+    return points, np.ascontiguousarray(segments[has_length & ~polygons.ends_line[vertices]])
 
 
 def _check_clearances(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.engines.common import fail, first_wrong
 from vorotool.engines.skeleton.clearance import SitePlaces
 from vorotool.engines.skeleton.shortened_edges import corner_sectors
-from vorotool.numeric.arrays import Floats, Indices, connected_roots, crosses, norms
+from vorotool.numeric.arrays import Floats, Indices, connected_roots, crosses, norms, ranks_of
 from vorotool.numeric.numbers import distinct, is_among
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
@@ -38,13 +39,11 @@ class SkeletonRegions:
     def _graph_sites(self) -> Indices:
         """The graph's number of each site."""
         graph, skeleton = self.graph, self.skeleton
-        points = _Rows(graph.coordinates())
-        ends = [points.find(self.sites.ends[:, k]) for k in (0, 1)]
+        ends = _found(graph.coordinates(), self.sites.ends.reshape(-1, 2)).reshape(-1, 2).T
         at = first_wrong((ends[0] < 0) | (ends[1] < 0))
         count = len(graph.points)
-        segments = _Rows(np.sort(graph.segments, axis=1).astype(float))
-        pair = np.sort(np.stack(ends, axis=1), axis=1)
-        number = np.where(self.sites.is_edge, segments.find(pair.astype(float)) + count, ends[0])
+        segment = _found(np.sort(graph.segments, axis=1), np.sort(ends.T, axis=1))
+        number = np.where(self.sites.is_edge, segment + count, ends[0])
         if at is None:
             at = first_wrong(self.sites.is_edge & (number < count))
         if at is not None:
@@ -72,9 +71,9 @@ class SkeletonRegions:
         hands = self.lattice_site[skeleton.sites[arc]] - count
         # an arc that leaves a corner has the sector's first segment on its right
         right, left = np.where(end == 0, hands[:, 1], hands[:, 0]), np.where(end == 0, hands[:, 0], hands[:, 1])
-        table = _Rows(np.stack([sectors.right, sectors.left, sectors.point], axis=1).astype(float))
-        points = _Rows(self.graph.coordinates()).find(skeleton.vertices[node])
-        found = table.find(np.stack([right, left, points], axis=1).astype(float))
+        points = _found(self.graph.coordinates(), skeleton.vertices[node])
+        table = np.stack([sectors.right, sectors.left, sectors.point], axis=1)
+        found = _found(table, np.stack([right, left, points], axis=1))
         if (at := first_wrong(found < 0)) is not None:
             place = tuple(skeleton.vertices[node[at]].tolist())
             fail(f"arc {arc[at]} ends at {place}, which is not a corner between its sites")
@@ -86,25 +85,11 @@ class SkeletonRegions:
         return face
 
 
-class _Rows:
-    """Finds rows of numbers among others."""
-
-    def __init__(self, rows: NDArray[np.float64]) -> None:
-        self._keys = self._packed(rows)
-        self._order = np.argsort(self._keys, kind="stable")
-
-    @staticmethod
-    def _packed(rows: NDArray[np.float64]) -> NDArray[np.void]:
-        whole = np.ascontiguousarray(rows + 0.0)  # no -0
-        return whole.view([("", whole.dtype)] * whole.shape[1]).reshape(-1)
-
-    def find(self, rows: NDArray[np.float64]) -> Indices:
-        """The number of each row, or -1."""
-        if not len(self._keys):
-            return np.full(len(rows), -1, dtype=np.int64)
-        wanted = self._packed(rows)
-        rank = np.minimum(np.searchsorted(self._keys, wanted, sorter=self._order), len(self._keys) - 1)
-        return np.where(self._keys[self._order[rank]] == wanted, self._order[rank], -1)
+def _found(rows: NDArray[Any], wanted: NDArray[Any]) -> Indices:
+    """The number of each wanted row among others, or -1."""
+    _, number = np.unique(np.concatenate([rows, wanted]) + 0.0, axis=0, return_inverse=True)  # no -0
+    own, others = np.split(number.reshape(-1), [len(rows)])
+    return ranks_of(own, int(number.max(initial=-1)) + 1)[others]
 
 
 def with_corners_apart(skeleton: Skeleton) -> Skeleton:
@@ -193,7 +178,7 @@ def _check_ends(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
 
 def _corners_of_nodes(regions: SkeletonRegions) -> Indices:
     """(v,) the point that each node inside is at, or -1: doubles may not tell it from a corner that an arc led to."""
-    found = _Rows(regions.graph.coordinates()).find(regions.skeleton.vertices)
+    found = _found(regions.graph.coordinates(), regions.skeleton.vertices)
     return np.where(regions.skeleton.radius > 0, found, -1)
 
 

@@ -124,16 +124,14 @@ def _lacking(graph: PlanarGraph) -> NDArray[np.bool_]:
     places = vertices.astype(np.int64)
     whole = np.abs(places[given.following] - places).sum(axis=1)
     own = owners(np.diff(given.ring_starts))
-    of_vertex, is_line = given.ring_polygon[own], np.equal(given.ring_kind[own], LINE)
-    ends_line = np.zeros(len(own), dtype=bool)
-    ends_line[given.ring_starts[1:] - 1] = is_line[given.ring_starts[1:] - 1]
+    of_vertex = given.ring_polygon[own]
     there = np.zeros(len(own), dtype=np.int64)
     if len(graph):
         is_part, _ = _bounding_sources(graph)
         ends = graph.points[graph.segments].astype(np.int64)
         length = np.repeat(np.abs(ends[:, 1] - ends[:, 0]).sum(axis=1), graph.source_count)
         np.add.at(there, graph.source_edge[is_part], length[is_part])  # along an edge both coordinates are monotone
-    lacks = ~ends_line & ((there != whole) | (whole == 0)) & (np.diff(given.ring_starts)[own] > 1)
+    lacks = ~given.ends_line & ((there != whole) | (whole == 0)) & (np.diff(given.ring_starts)[own] > 1)
     return np.bincount(of_vertex, lacks, minlength=len(given)) > 0
 
 

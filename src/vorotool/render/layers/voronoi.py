@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.numeric.arrays import Indices, mask_of
+from vorotool.numeric.arrays import Indices
 from vorotool.render.canvas.layers import (
     CurvedPolygons,
     Curves,
@@ -90,8 +90,8 @@ def _objects(cells: VoronoiMap, width: float, radius: float) -> list[Layer]:
     assert isinstance(areas, Polygons)
     if len(areas.corners):
         made.append(replace(areas, colors=[WHITE], is_sheer=True))
-    is_end = mask_of(polygons.ring_starts[1:][polygons.is_line[polygons.ring_polygon]] - 1, len(polygons.xy))
-    pairs = np.stack([np.flatnonzero(~is_end), polygons.following[~is_end]], axis=1).astype(np.int32)
+    goes_on = ~polygons.ends_line
+    pairs = np.stack([np.flatnonzero(goes_on), polygons.following[goes_on]], axis=1).astype(np.int32)
     if len(pairs):
         made.append(Lines("objects", polygons.xy, pairs, INK, max(width, 0.2)))
     first = polygons.ring_starts[polygons.polygon_starts[:-1]]

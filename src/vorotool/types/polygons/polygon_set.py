@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import InputError
-from vorotool.numeric.arrays import Floats, divides, following, starts_of, within
+from vorotool.numeric.arrays import Floats, divides, following, mask_of, starts_of, within
 from vorotool.numeric.checks import check_index
 from vorotool.numeric.coordinates import coordinate_rows
 from vorotool.types import fields as f
@@ -186,6 +186,16 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     def following(self) -> NDArray[np.int64]:
         """(n,) the vertex after each one around its ring."""
         return following(self.ring_starts)
+
+    @cached_property
+    def ends_line(self) -> NDArray[np.bool_]:
+        """(n,) whether each vertex is the last of a line: no edge leads on from it."""
+        return mask_of((self.ring_starts[1:] - 1)[self.ring_kind == LINE], len(self.xy))
+
+    @property
+    def edge_starts(self) -> NDArray[np.int64]:
+        """(k,) vertices that edges begin at; a lone vertex is one that ends there, too."""
+        return np.flatnonzero(~self.ends_line | (self.following == np.arange(len(self.xy))))
 
     def ring(self, index: int) -> NDArray[np.float64]:
         """(k, 2) vertices of a ring: a view."""

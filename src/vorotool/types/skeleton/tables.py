@@ -339,7 +339,7 @@ def _measures(polygons: PolygonSet, threads: int) -> tuple[NDArray[np.float64], 
         length[part], products[part] = _edge_measures(polygons, part)
 
     in_chunks(len(length), fill, threads=threads)
-    length[(polygons.ring_starts[1:] - 1)[polygons.is_line[polygons.ring_polygon]]] = 0
+    length[polygons.ends_line] = 0
     perimeter = np.add.reduceat(np.add.reduceat(length, first), polygons.polygon_starts[:-1])
     twice = np.abs(np.add.reduceat(products, first))
     twice = np.where(polygons.ring_kind == 1, -twice, twice)
