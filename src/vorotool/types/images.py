@@ -28,7 +28,7 @@ COUNTED = 1 << 24
 
 
 @frozen(eq=False, repr=False)
-class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
+class LabelImage(Pixels, Value, Tabular, Geometric, Graph):
     """Labels of the pixels of a frame.
 
     Parameters
@@ -120,7 +120,7 @@ def check_labels(value: Any, axes: int, frame_of: Callable[..., Any]) -> None:
 
 
 @record
-class Raster(Value, Pixels):
+class Raster(Pixels, Value):
     """A single-channel image, or a color image that still has to be thresholded.
 
     Parameters

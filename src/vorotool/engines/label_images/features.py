@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,24 +13,14 @@ from numpy.typing import NDArray
 
 from vorotool.engines.label_images.outlines import outlines
 from vorotool.engines.label_images.regions import region_table
-from vorotool.frozen import frozen
 from vorotool.types.features import Rows
-from vorotool.types.fields import UP, YAxis
+from vorotool.types.fields import UP
 from vorotool.types.images import LabelImage
 from vorotool.types.pixels import SQUARE, PixelSides
 from vorotool.types.polygons.shapely_geometry import to_shapely
 from vorotool.types.scaling import AREAS, LENGTHS, scaled_table
 from vorotool.types.table import Table
 from vorotool.types.volumes.volume import LabelVolume
-
-
-@frozen(eq=False)
-class _Map:
-    """What the regions of a label image come from: its seeds, in the coordinate reference system of its grid."""
-
-    index: Any
-    crs: Any
-    y_axis: YAxis
 
 
 def region_rows(image: LabelImage | LabelVolume) -> Rows:
@@ -46,8 +37,9 @@ def region_features(image: LabelImage) -> Rows:
     own = {} if seeds is None else seeds.properties
     table = _on_map(rows.table(), image, own)
     is_on_map = image.grid is not None and image.grid.transform is not None
-    source = _Map(getattr(seeds, "index", None), image.crs, UP if is_on_map else image.y_axis)
-    return replace(rows, columns=table, source=source, geometry=_regions(image, _labels(table, own)))
+    # of the seeds, in the coordinate reference system of the grid
+    known = {"index": getattr(seeds, "index", None), "crs": image.crs, "y_axis": UP if is_on_map else image.y_axis}
+    return replace(rows, columns=table, source=SimpleNamespace(**known), geometry=_regions(image, _labels(table, own)))
 
 
 def _labels(table: Table, own: Mapping[str, Any]) -> NDArray[Any]:
