@@ -73,6 +73,7 @@ USAGE = {
     "delaunay dots.csv -o a.svg --color edge=red": "did you mean edges?",
     "delaunay dots.csv -o a.svg --color diagram=red": "add the layer with --layers edges,points,diagram",
     "delaunay dots.csv -o a.svg --layers cells --line-width edges=2": "the picture shows only cells;",
+    "alphashape dots.csv --size 512x512 --method digital": "give -r, or use --method exact or digital-valid",
     "tessellate dots.csv --size 9x9 --what color --table-inputs i.csv": "--table-inputs cannot collect color",
     "delaunay dots.csv --input-format cvs": "did you mean csv?",
     # ---- what another kind of input has

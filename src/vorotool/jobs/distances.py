@@ -20,6 +20,7 @@ from vorotool.jobs.second_files import in_first_unit
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.parallel import Progress
 from vorotool.types.distances.distances import SMALLEST, Distances
+from vorotool.types.images import Raster
 
 if TYPE_CHECKING:
     from vorotool.render.drawing import Drawing
@@ -46,7 +47,14 @@ class DistanceProducts(Results):
             o = self.options
             _, value = read_opened(self.run, o, given, source, columns=o.columns, wants_unit=True, properties=False)
         unit = None if self.run.coordinates is None else self.run.coordinates.unit
-        polygons = replace(as_sites(value).polygons, unit=unit)
+        try:
+            polygons = replace(as_sites(value).polygons, unit=unit)
+        except InputError as error:
+            if not isinstance(value, Raster):
+                raise
+            how = f"skeleton-exact {given.name} --threshold otsu --prune none --what shape -o outlines.geojson"
+            said = str(error).partition(": use ")[0]
+            raise InputError(f"{said}: write its outlines first, such as with vorotool {how}") from None
         if not len(polygons):
             report_no_geometry(self.run, self.options, given.name)
         return polygons

@@ -119,3 +119,18 @@ def test_an_image_without_foreground(run, folder):
     for name in ("a.npy", "a.png"):
         run(f"skeleton-exact none.png --what thickness -o {name} --verify --stats s.json", says="warning")
     assert not np.load(folder / "a.npy").any()
+
+
+def test_a_photograph_is_outlined_first(run, tmp_path):
+    """Only what other commands have makes a mask of it, and what is advised is accepted."""
+    gray = np.random.default_rng(1).integers(0, 99, (60, 50), dtype=np.uint8)
+    gray[20:40, 10:30] += 150
+    Image.fromarray(gray).save(tmp_path / "a.png")
+    Image.fromarray((gray > 120).astype(np.uint8)).save(tmp_path / "mask.png")
+    done = run(
+        "distance a.png mask.png", code=3, says="like a photograph: write its outlines first, such as with vorotool"
+    )
+    assert "use --threshold" not in done.err
+    advised = done.err.partition("vorotool ")[2].strip()
+    run(f"{advised} -q")
+    assert run("distance outlines.geojson mask.png -q").rows[0]["distance"] == "0"

@@ -28,6 +28,7 @@ _OF_TRIANGULATIONS = " ".join(
     for each in PRODUCTS["delaunay"].values()
     if each.types and not {"DigitalTriangulation", "Tetrahedralization"} & set(each.types)
 )
+_NO_TRIANGULATION = "the digital rule finds edges and triangles that may not form a triangulation"
 # Rows stay rows: one argument a line would hide the table.
 # fmt: off
 EXCLUDING = (
@@ -60,8 +61,7 @@ EXCLUDING = (
         "use --method digital"),
     Rule("delaunay", "what:compare", "spacing", "differences are explained by the sides of square pixels"),
     Rule("delaunay", "?is_digital", f"layer:cells layer:diagram graph {_OF_TRIANGULATIONS} edges.edge triangles.ele",
-        "the digital rule finds edges and triangles that may not form a triangulation",
-        "use --method exact or digital-valid"),
+        _NO_TRIANGULATION, "use --method exact or digital-valid"),
     Rule("delaunay", "?is_of_space", "method=digital method=digital-valid graph clip size window page spacing "
         "seeds connectivity threshold invert min_area fill_holes y_up input_layer input_crs crs overlay "
         "scale scale_bar",
@@ -74,10 +74,11 @@ EXCLUDING = (
     Rule("alphashape", "what:hull", "hole_threshold region_threshold", "the hull has no thresholds"),
     Rule("alphashape", "rule=printed", "verify ?is_automatic what:curves what:persistence .html",
         "the printed rule follows the text of the paper, for a single -r", "use --rule corrected"),
-    Rule("alphashape", "method=digital", "?is_automatic what:polygons what:general what:hull what:points what:table "
-        "what:curves what:persistence .html .animation hole_threshold region_threshold verify",
-        "the digital rule finds edges and triangles that may not form a triangulation",
+    Rule("alphashape", "method=digital", "what:polygons what:general what:hull what:points what:table "
+        "what:curves what:persistence .html .animation hole_threshold region_threshold verify", _NO_TRIANGULATION,
         "use --method exact or digital-valid"),
+    Rule("alphashape", "method=digital", "?is_automatic", _NO_TRIANGULATION,
+        "give -r, or use --method exact or digital-valid"),
     # ---- skeletons and Voronoi maps
     Rule("skeleton-approx", "step", "tolerance", "each sets how finely edges are sampled"),
     Rule("skeleton-approx", "tolerance", "sampling=paper", "the paper's sampling has a constant step"),
@@ -111,6 +112,7 @@ ONLY = {
 }
 """The results of conditions that nothing else is asked for."""
 
+_NO_TRIANGULATION = "the digital rule finds edges and triangles that may not form a triangulation"
 # Rows stay rows: one argument a line would hide the table.
 # fmt: off
 NEEDING = (
