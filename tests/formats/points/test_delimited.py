@@ -186,5 +186,6 @@ def test_names_of_columns_are_shown_as_a_shell_takes_them():
         read("x (µm),y (µm)\n1,2\n")
     assert "for example --columns 'x (µm),y (µm)'" in caught.value.typed
     assert 'for example columns="x (µm),y (µm)"' in str(caught.value)
+    assert 'columns="col,row"' in error_of("row,col\n1,2\n")  # x goes along a row
     message = error_of("x,y,x\n1,2,3\n")
     assert 'columns="1,2"' in message  # by name, x would be two columns

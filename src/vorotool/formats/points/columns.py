@@ -13,7 +13,7 @@ from vorotool.errors import InputError, UsageError, option
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 
 COLUMNS, _X_Y = option("--columns"), option("--columns X,Y", 'columns="X,Y"')
-_BEGINNINGS = (("x", "y"), ("longitude", "latitude"), ("lon", "lat"), ("lng", "lat"), ("east", "north"))
+_BEGINNINGS = (("x", "y"), ("longitude", "latitude"), ("lon", "lat"), ("lng", "lat"), ("east", "north"), ("col", "row"))
 """Of names that may be a pair of coordinates, such as x0 and y0."""
 
 _NUMBER = r"(?i)[+-]?(\d++(?:\.\d*+)?|\.\d++)(e[+-]?\d+)?|[+-]?(nan|inf|infinity)"
