@@ -279,6 +279,7 @@ def test_holes_of_stroked_paths():
         ('<rect width="100" height="80" fill="#ffffff"/>', 'width="100" height="80" viewBox="0 0 100 80"', True),
         ('<rect width="100%" height="100%"/>', 'viewBox="0 0 100 80"', True),
         ('<rect x="-5" y="3" width="100" height="80"/>', 'width="10mm" height="8mm" viewBox="-5 3 100 80"', True),
+        ('<rect width="90mm" height="40mm"/>', 'width="90mm" height="40mm" viewBox="0 0 340.15748 151.181102"', True),
         ('<rect width="100%" height="100%" id="sheet"/>', 'viewBox="0 0 100 80"', False),
         ('<rect width="100%" height="100%" rx="9"/>', 'viewBox="0 0 100 80"', False),
         ('<rect width="100%" height="100%" stroke="red"/>', 'viewBox="0 0 100 80"', False),

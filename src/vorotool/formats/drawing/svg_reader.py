@@ -258,7 +258,8 @@ class _Reader:
         of, (width, height) = Geometry(element.attributes, document.place(element), state.viewport), state.viewport
         x, y, *_ = viewbox_of(root.attributes, document.place(root)) or (0.0, 0.0)
         own = (of.across("x"), of.down("y"), of.size("width", width), of.size("height", height))
-        return own == (x, y, width, height)
+        page, least = (x, y, width, height), (width + height) / 10**6  # pages are rounded, of those in mm too
+        return all(abs(a - b) <= least for a, b in zip(own, page, strict=True))
 
     def _curves(self, element: Element, state: _State) -> list[Curve]:
         """Give the curves of a shape; paths that are used are parsed once, and counted before they are repeated."""
