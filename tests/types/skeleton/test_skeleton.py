@@ -89,3 +89,10 @@ def test_rings_may_go_on_in_another_chunk(rows, monkeypatch):
             made = vorotool.polygon_table(replace(skeleton))
         for name in ("area", "perimeter", "width_mean", "width_max"):
             assert made[name].tolist() == expected[name].tolist()
+
+
+def test_the_width_of_a_single_place():
+    """Pruning leaves the middle of a square, where the skeleton has no length, but a width."""
+    square = [[0, 0], [50, 0], [50, 50], [0, 50]]
+    table = vorotool.polygon_table(vorotool.prune(vorotool.skeleton_exact(square), length=40))
+    assert [table[name].tolist() for name in ("length", "width_max", "width_mean")] == [[0], [50], [50]]

@@ -280,7 +280,8 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     _, most, integral = skeleton.arc_radii_on(threads)
     widest = np.zeros(count)
     np.maximum.at(widest, of_arc, 2 * most[inside])
-    mean = np.divide(2 * np.bincount(of_arc, integral[inside], count), length, out=np.zeros(count), where=length > 0)
+    integrals = np.bincount(of_arc, integral[inside], count)
+    mean = np.divide(2 * integrals, length, out=widest.copy(), where=length > 0)  # a single place has one width
     starts = skeleton.branch_starts
     cycles = arcs - counted(own) + _components(skeleton, starts, node_polygon, count)
     area, perimeter = _measures(polygons.as_given, threads)
