@@ -321,7 +321,7 @@ class SpaceShapeProducts(Results):
             shape: Any = self.shape
         else:
             shape = self.call("engines.alpha.alpha_shape:alpha_shape", self.family, phase=None, r=inf)
-        self.call("engines.alpha.verify_space:verify_space_shape", shape, phase=None, progress=progress)
+        self.call("engines.alpha.verify_alpha:verify_space_shape", shape, phase=None, progress=progress)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""

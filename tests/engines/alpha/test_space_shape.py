@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import vorotool
 from support.oracles.space_alpha_oracle import radii
-from vorotool.engines.alpha.verify_space import check_surface
+from vorotool.engines.alpha.verify_alpha import check_surface
 
 CUBE = np.array(list(np.ndindex(2, 2, 2)), dtype=float)
 rng = np.random.default_rng(11)

@@ -178,7 +178,7 @@ def test_contours_of_grey_values_are_those_of_scikit_image(connectivity, invert,
         values = random.integers(0, 40, random.integers(2, 20, 2)).astype(dtype)
         threshold = 20 if dtype == np.uint8 else 20.5
         made = outlines(values, outline="contour", threshold=threshold, invert=invert, connectivity=connectivity)
-        level = gray_level(values, threshold).level
+        level = gray_level(values, threshold)
         sign = -1 if invert else 1
         found = find_contours(
             sign * values.astype(float), sign * level, fully_connected="high" if connectivity == 8 else "low"

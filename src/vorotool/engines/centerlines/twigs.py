@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -357,8 +358,7 @@ def _sites_of_edges(skeleton: Skeleton) -> Numbers:
 # ---- trees ----------------------------------------------------------------------------------------
 def _with_trees(skeleton: Skeleton, gaps: _Gaps) -> Skeleton:
     """Trees in gaps, each arc a branch; branches that they hang on are parted there, and leaves led to their roots."""
-    chains = Chains(gaps.start, *skeleton.polygons.xy[gaps.ends].swapaxes(0, 1))
-    trees = convex_trees(chains, skeleton.vertices[gaps.node])
+    trees = _convex_trees(gaps.start, skeleton.polygons.xy[gaps.ends], skeleton.vertices[gaps.node])
     root = trees.root[gaps.is_leaf]
     skeleton = _led_on(
         skeleton, gaps.node[gaps.is_leaf], gaps.arc[gaps.is_leaf], trees.places[root], trees.radius[root]
@@ -402,17 +402,6 @@ Line = tuple[float, float, float]
 
 
 @frozen(eq=False)
-class Chains:
-    """Chains of edges, counterclockwise around what is inside."""
-
-    start: Numbers  # (k + 1,) integer array: chain k has the edges `start[k]` to `start[k + 1] - 1`: two or more
-    # (n, 2) float64 array: where edges begin and end; the corner between two is where the first one ends
-    source: Floats
-    # (n, 2) float64 array: where edges begin and end; the corner between two is where the first one ends
-    target: Floats
-
-
-@frozen(eq=False)
 class Trees:
     """Nodes and arcs inside chains."""
 
@@ -428,17 +417,17 @@ class Trees:
     edges: Numbers  # (a, 2) integer array: left and right of each arc
 
 
-def convex_trees(chains: Chains, origins: Floats) -> Trees:
-    """Find the trees of chains, in time O(n log n)."""
-    sizes = np.diff(chains.start)
-    way = chains.target - chains.source
+def _convex_trees(start: Numbers, ends: Floats, origins: Floats) -> Trees:
+    """Find the trees of chains of two edges or more, counterclockwise around what is inside, in time O(n log n)."""
+    sizes = np.diff(start)
+    way = ends[:, 1] - ends[:, 0]
     length = norms(way)
     normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / length[:, None]
-    offset = dots(normal, chains.source - np.repeat(origins, sizes, axis=0))
+    offset = dots(normal, ends[:, 0] - np.repeat(origins, sizes, axis=0))
     lines = list(zip(*normal.T.tolist(), offset.tolist(), strict=True))
     nodes: list[Line] = []
     arcs: list[tuple[int, int, int, int]] = []
-    for first, last in zip(chains.start[:-1].tolist(), chains.start[1:].tolist(), strict=True):
+    for first, last in pairwise(start.tolist()):
         _collapse(lines, first, last, nodes, arcs)
     made = np.array(nodes).reshape(-1, 3)
     found = np.array(arcs, dtype=np.intp).reshape(-1, 4)

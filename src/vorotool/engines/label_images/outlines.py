@@ -188,7 +188,7 @@ def outlines(
         xy, start = half_way_contours(made["corners"], made["start"])
     else:
         gray = np.pad(raster.values, 1, mode="edge") if is_open else raster.values
-        xy, start = gray_contours(made["corners"], made["start"], gray_level(gray, threshold))
+        xy, start = gray_contours(made["corners"], made["start"], gray, gray_level(gray, threshold))
     if is_open:
         xy, start = _cut_at_border(xy - 1, start, labels.shape)
     ids = made["labels"] if by_label else np.arange(1, len(made["labels"]) + 1)
@@ -246,22 +246,14 @@ Rings = tuple[NDArray[np.float64], NDArray[np.int64]]
 """Vertices, and where each ring begins among them."""
 
 
-@frozen(eq=False)
-class GrayLevel:
-    """Gray values, of which those above a level are inside; none is at the level."""
-
-    values: NDArray[Any]  # (H, W) array: finite
-    level: float  # between two values
-
-
-def gray_level(gray: NDArray[Any], threshold: float) -> GrayLevel:
+def gray_level(gray: NDArray[Any], threshold: float) -> float:
     """Give the level of a threshold: where pixels have just this value, half-way to the next larger one."""
     if gray.dtype.kind == "f" and not np.isfinite(gray).all():
         raise InputError("the image holds NaN or infinite values: contours need finite values; use " + _CRACKS)
     above = gray > threshold
     if above.any() and (gray == threshold).any():
-        return GrayLevel(gray, threshold + (float(gray[above].min()) - threshold) / 2)
-    return GrayLevel(gray, threshold)
+        return threshold + (float(gray[above].min()) - threshold) / 2
+    return threshold
 
 
 def half_way_contours(corners: Corners, start: NDArray[np.int64]) -> Rings:
@@ -280,7 +272,7 @@ def half_way_contours(corners: Corners, start: NDArray[np.int64]) -> Rings:
     return doubled[kept] / 2 - 0.5, first[start]
 
 
-def gray_contours(corners: Corners, start: NDArray[np.int64], gray: GrayLevel) -> Rings:
+def gray_contours(corners: Corners, start: NDArray[np.int64], gray: NDArray[Any], level: float) -> Rings:
     """Contours of gray values: a vertex where the line between two pixels' centers reaches the level."""
     a, b = corners.astype(np.int64), corners[following(start)].astype(np.int64)
     length = np.abs(b - a).sum(axis=1)
@@ -289,12 +281,12 @@ def gray_contours(corners: Corners, start: NDArray[np.int64], gray: GrayLevel) -
     after = np.minimum(here, here + way)  # the pixel below or on the right of each crack of unit length
     across = (way == 0).astype(np.int64)
     before = after - across
-    height, width = gray.values.shape
+    height, width = gray.shape
     is_inner = ((before >= 0) & (after < [width, height])).all(axis=1)
     share = np.full(len(here), 0.5)
-    low, high = (gray.values[places[is_inner, 1], places[is_inner, 0]].astype(float) for places in (before, after))
-    crosses = (low > gray.level) != (high > gray.level)
-    share[is_inner] = np.divide(gray.level - low, high - low, out=np.full(len(low), 0.5), where=crosses)
+    low, high = (gray[places[is_inner, 1], places[is_inner, 0]].astype(float) for places in (before, after))
+    crosses = (low > level) != (high > level)
+    share[is_inner] = np.divide(level - low, high - low, out=np.full(len(low), 0.5), where=crosses)
     return before + share[:, None] * across, starts_of(length)[start]
 
 

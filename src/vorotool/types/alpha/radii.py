@@ -77,6 +77,29 @@ class RankedRadii:
             digits += 5
 
 
+class OfFamily:
+    """One shape of a family, that of a radius."""
+
+    family: Any
+    r: Radius
+    region: NDArray[np.int32]
+
+    @property
+    def alpha(self) -> float:
+        """The paper's parameter, -1/r."""
+        return -nearest_double(1 / self.r)
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """Coordinates, in the order of the input."""
+        return self.family.points
+
+    @property
+    def inside(self) -> NDArray[np.bool_]:
+        """Whether each triangle, or tetrahedron, is in the shape."""
+        return self.region >= 0
+
+
 def checked_radius(r: Any) -> Radius:
     """Return a radius that is positive; infinity is one."""
     value = real_number(r, "r")

@@ -16,7 +16,7 @@ from vorotool.numeric.numbers import nearest_double
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.alpha.complex import CLASSES, AlphaComplex
-from vorotool.types.alpha.radii import Radius
+from vorotool.types.alpha.radii import OfFamily, Radius
 from vorotool.types.features import Mixture, Rows, of_points
 from vorotool.types.fields import record
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet, set_of_rings
@@ -31,7 +31,7 @@ POINT_CLASSES = ("isolated", "singular", "boundary", "interior")
 
 
 @record
-class AlphaShape(Value, Tabular, WithParts, Pictured):
+class AlphaShape(Value, OfFamily, Tabular, WithParts, Pictured):
     """Alpha shape of points for one radius r (the paper's α is -1/r).
 
     Parameters
@@ -76,16 +76,6 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
     has_thresholds: bool = False
 
     @property
-    def alpha(self) -> float:
-        """The paper's parameter, -1/r."""
-        return -nearest_double(1 / self.r)
-
-    @property
-    def points(self) -> NDArray[np.float64]:
-        """(n, 2) coordinates, in the order of the input."""
-        return self.family.points
-
-    @property
     def edges(self) -> NDArray[np.int32]:
         """(k, 2) ends of the singular and boundary edges."""
         return self.family.edges[self.edge_index]
@@ -94,11 +84,6 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
     def classes(self) -> NDArray[np.str_]:
         """(k,) class of each of these edges."""
         return np.array(CLASSES)[self.kind]
-
-    @property
-    def inside(self) -> NDArray[np.bool_]:
-        """(t,) whether each triangle is in the shape."""
-        return np.greater_equal(self.region, 0)
 
     @property
     def region_count(self) -> int:

@@ -15,7 +15,7 @@ from vorotool.numeric.arrays import Booleans, Floats, Indices
 from vorotool.numeric.numbers import nearest_double, shown_number
 from vorotool.types import fields as f
 from vorotool.types.alpha.complex import CLASSES
-from vorotool.types.alpha.radii import Radius, RankedRadii, checked_radius, squared_radius_of
+from vorotool.types.alpha.radii import OfFamily, Radius, RankedRadii, checked_radius, squared_radius_of
 from vorotool.types.features import Rows
 from vorotool.types.fields import record
 from vorotool.types.mesh.tetrahedralization import EDGES, FACES, Tetrahedralization, scaled_norms
@@ -226,7 +226,7 @@ def classes_of_ranks(ranks: NDArray[np.int32], reached: int) -> NDArray[np.uint8
 
 # ---- one shape -----------------------------------------------------------------------------------
 @record
-class SpaceAlphaShape(Value, Tabular):
+class SpaceAlphaShape(Value, OfFamily, Tabular):
     """Alpha shape of points in space for one radius r (the paper's α is -1/r).
 
     Its tetrahedra are those whose circumradius is at most r. The triangles that bound them are its surface: closed, and
@@ -257,16 +257,6 @@ class SpaceAlphaShape(Value, Tabular):
     region: NDArray[np.int32] = f.index("tetrahedra")
 
     @property
-    def alpha(self) -> float:
-        """The paper's parameter, -1/r."""
-        return -nearest_double(1 / self.r)
-
-    @property
-    def points(self) -> Floats:
-        """(n, 3) coordinates, in the order of the input."""
-        return self.family.points
-
-    @property
     def label_array(self) -> NDArray[np.int64]:
         """(n,) labels: the input's own, else 1 to n."""
         return self.family.mesh.label_array
@@ -277,11 +267,6 @@ class SpaceAlphaShape(Value, Tabular):
         return self.family.reached(self.r)
 
     # ---- parts
-    @property
-    def inside(self) -> Booleans:
-        """(t,) whether each tetrahedron is in the shape."""
-        return self.region >= 0
-
     @property
     def tetrahedra(self) -> NDArray[np.int32]:
         """(k, 4) tetrahedra of the shape."""
