@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +20,6 @@ from vorotool.types.alpha.radii import Radius
 from vorotool.types.alpha.shape import AlphaShape
 from vorotool.types.alpha.space import SpaceAlphaComplex, SpaceAlphaShape, cross
 from vorotool.types.arguments import check_value
-
-if TYPE_CHECKING:
-    from vorotool.types.alpha.space import SpaceAlphaShape
 
 _ROUNDING = 2.0**-46
 """Relative error of a sum or product of a few numbers, times the sum of the sizes of its terms."""
