@@ -4,13 +4,13 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "core/base/parallel.hpp"
-#include "core/base/radix_sort.hpp"
 
 namespace vorotool::core::alpha {
 
@@ -30,7 +30,7 @@ constexpr std::size_t items_a_bucket = std::size_t{1} << 13;
 constexpr std::size_t most_buckets = std::size_t{1} << 11;
 constexpr std::size_t most_samples = std::size_t{1} << 15;
 constexpr std::size_t outer_part = 512;  // of the sample, less or greater than the range
-constexpr int sample_bits = 13, digit_bits = 18;
+constexpr int sample_bits = 13, digit_bits = 9;
 constexpr int word_bits = 31;  // of positions; the key is above them
 constexpr std::uint16_t left_out = 0xffff;
 
@@ -71,6 +71,29 @@ class Buckets {
   std::uint64_t least_ = 0, most_ = 0;
   int shift_ = 0;
   std::vector<std::uint16_t> bucket_;
+};
+
+// A digit of words: how many have each value of it, then where these go.
+class Digits {
+ public:
+  explicit Digits(int low) : low_(low) {}
+
+  void count(std::uint64_t word) { ++start_[digit_of(word)]; }
+
+  // Sorts the words that were counted, with memory for as many, which is where they are afterwards.
+  void sort(std::unique_ptr<std::uint64_t[]>& words, std::unique_ptr<std::uint64_t[]>& other,
+            std::size_t size) {
+    if (start_[digit_of(words[0])] == size) return;
+    std::exclusive_scan(start_.begin(), start_.end(), start_.begin(), 0U);
+    for (std::size_t i = 0; i < size; ++i) other[start_[digit_of(words[i])]++] = words[i];
+    words.swap(other);
+  }
+
+ private:
+  std::size_t digit_of(std::uint64_t word) const { return word >> low_ & (start_.size() - 1); }
+
+  int low_;
+  std::array<std::uint32_t, std::size_t{1} << digit_bits> start_{};
 };
 
 class Sorter {
@@ -185,18 +208,23 @@ class Sorter {
   void sort_bucket(std::size_t bucket) {
     const std::size_t begin = start_[bucket], end = start_[bucket + 1];
     if (begin == end) return;
-    std::vector<std::uint64_t> keyed(end - begin);
+    auto keyed = std::make_unique_for_overwrite<std::uint64_t[]>(end - begin);
     std::uint64_t least = ~std::uint64_t{0}, most = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint64_t bits = keyed[i - begin] = key(sorted_[i]);
       least = std::min(least, bits), most = std::max(most, bits);
     }
     const int shift = excess_bits(least, most, 64 - word_bits);
-    for (std::size_t i = begin; i < end; ++i)
-      keyed[i - begin] = (keyed[i - begin] - least) >> shift << word_bits | i;
     const int high = word_bits + static_cast<int>(std::bit_width((most - least) >> shift));
-    const int low = std::max(word_bits, high - digit_bits);
-    base::radix_sort(keyed, low, high);
+    const int low = std::max(word_bits, high - 2 * digit_bits);
+    Digits first(low), second(low + digit_bits);
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint64_t word = keyed[i - begin] = (keyed[i - begin] - least) >> shift << word_bits | i;
+      first.count(word), second.count(word);
+    }
+    auto other = std::make_unique_for_overwrite<std::uint64_t[]>(end - begin);
+    first.sort(keyed, other, end - begin), second.sort(keyed, other, end - begin);
+    other.reset();
     const Words words(words_.data() + begin, end - begin);
     for (std::size_t i = 0; i < words.size(); ++i) words[i] = static_cast<std::uint32_t>(keyed[i]) | starts;
     std::vector<Words> long_runs;

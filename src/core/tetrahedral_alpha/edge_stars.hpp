@@ -262,9 +262,10 @@ class EdgeStars {
     const std::size_t grain = std::max(least_piece, cells.size() >> 9);
     std::vector<std::vector<std::uint32_t>> counts(base::piece_count(cells.size(), grain));
     std::vector<std::vector<std::uint32_t>> sides(counts.size());
-    const auto in_pieces = [&](const auto& visit) {
+    const auto in_pieces = [&](const auto& start, const auto& visit) {
       base::for_pieces(cells.size(), grain, threads_, passes_.next(),
                        [&](std::size_t piece, std::size_t begin, std::size_t end) {
+                         start(piece, begin, end);
                          for (std::size_t t = begin; t < end; ++t) {
                            std::size_t block = block_of(cells, t, 0);
                            unsigned in_block = 1;
@@ -278,12 +279,11 @@ class EdgeStars {
                          }
                        });
     };
-    base::for_pieces(cells.size(), grain, threads_, passes_.same(),
-                     [&](std::size_t piece, std::size_t begin, std::size_t end) {
-                       counts[piece].resize(blocks()), sides[piece].resize(blocks());
-                       for (std::size_t t = begin; t < end; ++t) order_[t] = Order(cells[t]);
-                     });
-    in_pieces([&](std::size_t piece, std::size_t, std::size_t block, unsigned in_block) {
+    const auto order_corners = [&](std::size_t piece, std::size_t begin, std::size_t end) {
+      counts[piece].resize(blocks()), sides[piece].resize(blocks());
+      for (std::size_t t = begin; t < end; ++t) order_[t] = Order(cells[t]);
+    };
+    in_pieces(order_corners, [&](std::size_t piece, std::size_t, std::size_t block, unsigned in_block) {
       ++counts[piece][block];
       for_places(in_block,
                  [&](auto place) { sides[piece][block] += static_cast<std::uint32_t>(places - place); });
@@ -296,7 +296,8 @@ class EdgeStars {
     }
     block_start_.back() = sum, side_start_.back() = side_sum;
     cell_ = LargeArray<std::uint32_t>(sum);
-    in_pieces([&](std::size_t piece, std::size_t t, std::size_t block, unsigned in_block) {
+    const auto nothing = [](std::size_t, std::size_t, std::size_t) {};
+    in_pieces(nothing, [&](std::size_t piece, std::size_t t, std::size_t block, unsigned in_block) {
       cell_[counts[piece][block]++] = static_cast<std::uint32_t>(t << places | in_block);
     });
   }

@@ -55,15 +55,18 @@ class Builder {
 
   SpaceArrays run() {
     LargeArray<std::uint8_t> cut(cells_.size()), cut_sides(cells_.size());
-    LargeArray<double> radius = measure_cells(cut, cut_sides);
     if constexpr (width == 4) facet_ = facets_->find(threads_, passes_.next());
+    value_ = LargeArray<double>(count_ + facet_.size() + expected_edges());
+    measure_cells(cut, cut_sides);
     auto [ends, is_cut] =
         stars_.find({cells_.data(), cells_.size()}, [&](std::size_t t) -> unsigned { return cut_sides[t]; });
     cut_sides = {};
     edges_ = std::move(ends);
-    value_ = LargeArray<double>(count_ + facet_.size() + edges_.size());
-    copy(radius.data(), value_.data());
-    radius = {};
+    if (edges_.size() != expected_edges()) {
+      LargeArray<double> radius =
+          std::exchange(value_, LargeArray<double>(count_ + facet_.size() + edges_.size()));
+      copy(radius.data(), value_.data());
+    }
     if constexpr (width == 4) measure_facets(cut);
     cut = {};
     measure<2>(
@@ -131,21 +134,24 @@ class Builder {
     return s;
   }
 
-  LargeArray<double> measure_cells(LargeArray<std::uint8_t>& cut, LargeArray<std::uint8_t>& cut_sides) {
-    LargeArray<double> radius(count_);
+  // By Euler, of cells that fill a convex hull.
+  std::size_t expected_edges() const {
+    return cells_.size() == 0 ? 0 : order_.size() + (width == 4 ? facet_.size() - cells_.size() : count_) - 1;
+  }
+
+  void measure_cells(LargeArray<std::uint8_t>& cut, LargeArray<std::uint8_t>& cut_sides) {
     for_pieces(cells_.size(), simplices_a_piece, threads_, passes_.next(),
                [&](std::size_t, std::size_t begin, std::size_t end) {
                  if constexpr (width == 4) {
                    measure_tetrahedra(scaled_, {cells_.data() + begin, end - begin},
-                                      {radius.data() + begin, cut.data() + begin, cut_sides.data() + begin});
+                                      {value_.data() + begin, cut.data() + begin, cut_sides.data() + begin});
                  } else if constexpr (width == 3) {
-                   measure_simplices<3>(scaled_, {cells_.data() + begin, end - begin}, radius.data() + begin);
+                   measure_simplices<3>(scaled_, {cells_.data() + begin, end - begin}, value_.data() + begin);
                    for (std::size_t t = begin; t < end; ++t) cut_sides[t] = sides_cut(cells_[t]);
                  } else {
                    std::fill(cut_sides.data() + begin, cut_sides.data() + end, std::uint8_t{0});
                  }
                });
-    return radius;
   }
 
   // The sides of a triangle such that the opposite corner is strictly inside the sphere on them as diameter.
