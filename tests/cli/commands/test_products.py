@@ -6,7 +6,6 @@ import pytest
 from support.documents import DATA
 from vorotool.products.formats import ANIMATIONS, FORMATS
 from vorotool.products.registry import PRODUCTS, formats_of, layers_of
-from vorotool.render.label_images import png as label_png
 from vorotool.render.label_images import svg as label_svg
 
 INPUTS = {
@@ -81,7 +80,10 @@ def test_all_layers_are_drawn(run, folder, command, what):
 
 
 def test_layers_of_label_images():
-    assert layers_of("tessellate") == {"png": label_png.LAYERS, "svg": label_svg.LAYERS}
+    assert layers_of("tessellate") == {
+        "png": ("cells", "diagram", "objects", "seeds", "labels"),
+        "svg": label_svg.LAYERS,
+    }
 
 
 @pytest.mark.parametrize(

@@ -65,7 +65,7 @@ def test_wrong_pixels_are_counted_against_brute_force():
     ("seeds", "options", "error", "message"),
     [
         (SeedSet([1], [1], [1], scale=2), {}, InputError, "starts from pixels"),
-        (SeedSet([9], [1], [1]), {}, InputError, r"seed 1 at \(9, 1\) is outside the frame"),
+        (SeedSet([9], [1], [1]), {}, InputError, r"seed \[0\] at \(9, 1\) is outside the frame"),
         (SeedSet([], [], []), {}, InputError, "no seeds"),
         (SeedSet([1], [1], [1]), {"passes": 3}, UsageError, "passes is 3"),
     ],

@@ -93,7 +93,7 @@ POINTS = np.array([[1.0, 2, 0], [4, 4, 3]])
         ({"shape": (5, 6, 7), "max_distance": -1}, UsageError, "max_distance is -1"),
         ({"shape": (5, 6, 7), "dtype": "float32"}, UsageError, "labels cannot have type float32"),
         ({"shape": (5, 6, 7), "out": np.zeros((5, 6), np.uint8)}, UsageError, r"array of shape \(5, 6, 7\), but is"),
-        ({"window": (0, 0, 2**43, 2, 2, 2)}, InputError, r"seed 1 at \(1, 2, 0\) is too far from the frame"),
+        ({"window": (0, 0, 2**43, 2, 2, 2)}, InputError, r"seed \[0\] at \(1, 2, 0\) is too far from the frame"),
     ],
 )
 def test_what_does_not_go_is_refused(asked, error, match):
