@@ -152,7 +152,8 @@ def write(
     else:
         for option, given in pictured.items():
             if given is not None:
-                raise UsageError(f"{option} applies to pictures: use fmt='svg' or fmt='png', or leave it out")
+                picture = "what='color'" if is_labels else "fmt='svg' or fmt='png'"
+                raise UsageError(f"{option} applies to pictures: use {picture}, or leave it out")
         product = _part(value, chosen, what, flatten)
         if chosen == "gpkg" and stream_kind(path) is None:
             from vorotool.formats.gis.geopackage import check_layers

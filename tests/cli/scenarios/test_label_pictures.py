@@ -97,4 +97,6 @@ def test_the_library_refuses(tmp_path, looks, message):
     refused(vorotool.UsageError, message, vorotool.write, image, tmp_path / "out.svg", **looks)
     with pytest.raises(vorotool.UsageError, match=r"background applies to pictures: use fmt='svg'"):
         vorotool.write(image, tmp_path / "out.npy", background="red")
+    with pytest.raises(vorotool.UsageError, match=r"layers applies to pictures: use what='color'"):
+        vorotool.write(image, tmp_path / "out.png", layers=["diagram"])
     assert not list(tmp_path.iterdir())
