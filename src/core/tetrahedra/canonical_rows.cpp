@@ -149,14 +149,26 @@ class Canonical {
           result.neighbors[k] = tetrahedron.across;
         }
       }
+      std::vector<std::size_t> read;  // blocks
       for (std::size_t k = begin_of(first); k < begin_of(last); ++k) {
         const std::size_t block = order_[k] / rows_a_block;
-        if (add_to(left_[block], 0xffffffffU) == 1)
-          base::discard(from, block * rows_a_block, std::min(slots_, (block + 1) * rows_a_block));
+        if (add_to(left_[block], 0xffffffffU) == 1) read.push_back(block);
       }
+      discard_blocks(from, read);
       base::discard(order_, begin_of(first), begin_of(last));
     });
     return result;
+  }
+
+  // Neighbors together: each call stops all threads.
+  void discard_blocks(base::LargeArray<Tetrahedron>& from, std::vector<std::size_t>& blocks) const {
+    std::sort(blocks.begin(), blocks.end());
+    for (auto next = blocks.begin(); next != blocks.end();) {
+      const std::size_t begin = *next;
+      std::size_t end = begin;
+      while (next != blocks.end() && *next == end) ++next, ++end;
+      base::discard(from, begin * rows_a_block, std::min(slots_, end * rows_a_block));
+    }
   }
 
   TetrahedralMesh& mesh_;
