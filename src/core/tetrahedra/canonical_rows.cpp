@@ -1,7 +1,9 @@
 #include "core/tetrahedra/canonical_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -16,11 +18,35 @@ namespace vorotool::core::tetrahedra {
 namespace {
 
 constexpr std::size_t rows_a_block = std::size_t{1} << 7;  // a page of 4 KiB
+constexpr std::size_t blocks_at_once = 2;                  // that are given back, or more
+constexpr std::uint32_t gone = 0xffffffff;  // tetrahedra that are left of a block that is given back
 constexpr std::size_t rows_a_piece = std::size_t{1} << 15;
 constexpr std::size_t vertices_a_piece = rows_a_piece / 8;
 constexpr std::size_t ahead = 16;  // rows that are loaded before their turn
 
 std::size_t offset(Index v) { return static_cast<std::size_t>(v); }
+
+// The order of four different numbers: a bit for each two of which the second is less.
+template <class Number>
+constexpr unsigned order_of(const std::array<Number, 4>& v) {
+  const auto bit = [](bool is_less, int place) { return static_cast<unsigned>(is_less) << place; };
+  return bit(v[1] < v[0], 0) | bit(v[2] < v[0], 1) | bit(v[3] < v[0], 2) | bit(v[2] < v[1], 3) |
+         bit(v[3] < v[1], 4) | bit(v[3] < v[2], 5);
+}
+
+// By their order the places of the least, of the next, and of the others, an even permutation with these: it keeps the
+// orientation.
+using Turn = std::array<std::uint8_t, 4>;
+constexpr auto turns = [] {
+  std::array<Turn, 64> all{};
+  Turn ranks{0, 1, 2, 3};
+  do {
+    Turn& turn = all[order_of(ranks)];
+    for (std::uint8_t place = 0; place < 4; ++place) turn[ranks[place]] = place;
+    if (std::popcount(order_of(ranks)) % 2 != 0) std::swap(turn[2], turn[3]);
+  } while (std::next_permutation(ranks.begin(), ranks.end()));
+  return all;
+}();
 
 class Canonical {
  public:
@@ -35,7 +61,7 @@ class Canonical {
         left_(slots_ / rows_a_block + 1) {}
 
   CanonicalRows run() {
-    turn_rows();
+    count_rows();
     mesh_.drop_marks();
     sort_slots();
     number_neighbors();
@@ -43,7 +69,7 @@ class Canonical {
   }
 
  private:
-  // Their first vertex tells ghosts and empty slots, and later on the place of the others in the order.
+  // Their first number tells ghosts and empty slots, and later on the place of the others in the order.
   static constexpr Index none = -1;
 
   // Of five passes over all rows or all vertices.
@@ -70,37 +96,35 @@ class Canonical {
     return std::exchange(number, number + added);
   }
 
-  // Even permutations, which keep the orientation. Counts the tetrahedra of each first vertex.
-  void turn_rows() {
-    static constexpr std::size_t turns[4][3][4] = {{{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}},
-                                                   {{1, 0, 3, 2}, {1, 3, 2, 0}, {1, 2, 0, 3}},
-                                                   {{2, 0, 1, 3}, {2, 1, 3, 0}, {2, 3, 0, 1}},
-                                                   {{3, 0, 2, 1}, {3, 2, 1, 0}, {3, 1, 0, 2}}};
+  static Index first_of(const Row& row) {
+    return std::min(std::min(row[0], row[1]), std::min(row[2], row[3]));
+  }
+
+  // Counts the tetrahedra of each first vertex.
+  void count_rows() {
     base::for_items(slots_, rows_a_piece, threads_, next_pass(), [&](std::size_t slot) {
-      Tetrahedron& tetrahedron = mesh_.tetrahedron(slot);
       if (!mesh_.is_tetrahedron(slot)) {
-        tetrahedron.vertices[0] = none;
+        mesh_.row(slot)[0] = none;
         return;
       }
-      const auto [old, across] = tetrahedron;
-      const std::size_t low = old[1] < old[0], high = 2 + (old[3] < old[2]);
-      const auto& choices = turns[old[high] < old[low] ? high : low];
-      const std::size_t first = old[choices[1][1]] < old[choices[0][1]];
-      const std::size_t best = old[choices[2][1]] < old[choices[first][1]] ? 2 : first;
-      const auto& [i, j, k, l] = choices[best];
-      tetrahedron = {{old[i], old[j], old[k], old[l]}, {across[i], across[j], across[k], across[l]}};
-      add_to(ends_[offset(old[i]) + 1], 1);
+      add_to(ends_[offset(first_of(mesh_.row(slot))) + 1], 1);
       ++left_[slot / rows_a_block];
     });
   }
 
-  // Slots by their first vertices, and then each group by the others.
+  static void turn(Tetrahedron& tetrahedron) {
+    const auto& [i, j, k, l] = turns[order_of(tetrahedron.vertices)];
+    const auto turned = [&](const Row& row) { return Row{row[i], row[j], row[k], row[l]}; };
+    tetrahedron = {turned(tetrahedron.vertices), turned(tetrahedron.across)};
+  }
+
+  // Slots by their first vertices, and then each group, turned, by the others.
   void sort_slots() {
     std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
     count_ = ends_.back();
     order_ = base::LargeArray<std::uint32_t>(count_);
     for_tetrahedra([&](std::size_t slot) {
-      order_[add_to(ends_[offset(mesh_.row(slot)[0])], 1)] = static_cast<std::uint32_t>(slot);
+      order_[add_to(ends_[offset(first_of(mesh_.row(slot)))], 1)] = static_cast<std::uint32_t>(slot);
     });
     for_vertices([&](std::size_t first, std::size_t last) { sort_groups(first, last); });
   }
@@ -114,7 +138,8 @@ class Canonical {
     for (std::size_t v = first_vertex; v < last_vertex; ++v) {
       keyed.clear();
       for (std::size_t k = place; k < ends_[v]; ++k) {
-        __builtin_prefetch(&mesh_.row(order_[std::min(k + ahead, last)]));
+        __builtin_prefetch(&mesh_.row(order_[std::min(k + ahead, last)]), 1);
+        turn(mesh_.tetrahedron(order_[k]));
         const Row& row = mesh_.row(order_[k]);
         keyed.emplace_back(static_cast<std::uint64_t>(row[1]) << 32 | static_cast<std::uint32_t>(row[2]),
                            order_[k]);
@@ -152,23 +177,28 @@ class Canonical {
       std::vector<std::size_t> read;  // blocks
       for (std::size_t k = begin_of(first); k < begin_of(last); ++k) {
         const std::size_t block = order_[k] / rows_a_block;
-        if (add_to(left_[block], 0xffffffffU) == 1) read.push_back(block);
+        if (base::atomic_ref(left_[block]).fetch_sub(1, std::memory_order_acq_rel) == 1)
+          read.push_back(block);
       }
-      discard_blocks(from, read);
+      for (const std::size_t block : read) discard_around(from, block);
       base::discard(order_, begin_of(first), begin_of(last));
     });
     return result;
   }
 
-  // Neighbors together: each call stops all threads.
-  void discard_blocks(base::LargeArray<Tetrahedron>& from, std::vector<std::size_t>& blocks) const {
-    std::sort(blocks.begin(), blocks.end());
-    for (auto next = blocks.begin(); next != blocks.end();) {
-      const std::size_t begin = *next;
-      std::size_t end = begin;
-      while (next != blocks.end() && *next == end) ++next, ++end;
-      base::discard(from, begin * rows_a_block, std::min(slots_, end * rows_a_block));
-    }
+  // Gives back blocks that are read, with those beside them, where there are many: each call stops all threads.
+  void discard_around(base::LargeArray<Tetrahedron>& from, std::size_t block) {
+    const auto is_read = [&](std::size_t b) {
+      return base::atomic_ref(left_[b]).load(std::memory_order_acquire) == 0;
+    };
+    if (!is_read(block)) return;  // it is gone
+    std::size_t begin = block, end = block + 1;
+    while (begin > 0 && is_read(begin - 1)) --begin;
+    while (end < left_.size() && is_read(end)) ++end;
+    if (end - begin < blocks_at_once) return;
+    for (std::size_t b = begin; b < end; ++b)
+      base::atomic_ref(left_[b]).store(gone, std::memory_order_relaxed);
+    base::discard(from, begin * rows_a_block, std::min(slots_, end * rows_a_block));
   }
 
   TetrahedralMesh& mesh_;

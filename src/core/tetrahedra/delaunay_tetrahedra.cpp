@@ -83,7 +83,7 @@ class Insertion {
         count_(mesh.points().size()),
         rounds_(count_),
         is_done_(count_),
-        numbers_(count_),
+        numbers_(count_, PointInserter::unnumbered),
         slots_(count_, unknown),
         threads_(base::resolve_threads(threads)),
         monitor_(monitor),

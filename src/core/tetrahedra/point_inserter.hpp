@@ -23,12 +23,13 @@ namespace vorotool::core::tetrahedra {
 // same time, without locks.
 class PointInserter {
  public:
-  // What inserters share, of each point: its number among those of a cavity, and a slot that it once was in. As slots
-  // are filled again with what is there then, that is still near it.
+  // What inserters share, of each point: its number among those of a cavity, at other times none, and a slot that it
+  // once was in. As slots are filled again with what is there then, that is still near it.
   struct Notes {
     std::span<std::uint8_t> numbers;
     std::span<std::uint32_t> slots;
   };
+  static constexpr std::uint8_t unnumbered = 255;
 
   PointInserter(TetrahedralMesh& mesh, const Notes& notes, std::size_t begin, std::size_t size)
       : mesh_(mesh),
@@ -62,10 +63,6 @@ class PointInserter {
     std::span<const T> all() const { return {items.data(), size}; }
   };
 
-  // The two sides of a facet.
-  struct Sides {
-    Index inside, outside;
-  };
   // A facet of the cavity: its vertices, counter-clockwise seen from the new vertex, an infinite one last; the facet
   // outside; and where its three edges are in the table of pairs.
   struct Wall {
@@ -84,15 +81,17 @@ class PointInserter {
     return owns(row[0]) && owns(row[1]) && owns(row[2]) && (owns(row[3]) || row[3] == mesh_.infinity());
   }
 
+  Index way_out(std::size_t slot, unsigned facets) const;
   bool locate(const Point3& p);
   bool holds(std::size_t slot, const Point3& p) const;
   bool dig(const Point3& p);
-  void look_around(std::size_t inner);
+  void look_around(std::size_t begin, std::size_t end);
   void test(std::size_t begin, std::size_t count, const Point3& p);
   void undo();
-  void list_walls();
+  void drop_inner_sides();
   bool reserve();
   void fill(Index v);
+  void list_walls();
   void number_edges();
   void link_many();
 
@@ -106,12 +105,13 @@ class PointInserter {
   std::vector<std::size_t> free_;
 
   // Of the insertion at work.
-  List<std::uint32_t> cavity_;  // its slots
-  List<std::uint32_t> seen_;    // slots around those, in the cavity or not
-  List<Sides> sides_;           // facets of the cavity whose other side was not yet known to be in it
+  List<Index> cavity_;  // facets of its slots: that to the slot from which it was seen, but of the first
+  List<Index> seen_;    // the same of slots around those, in the cavity or not
+  List<Index>
+      sides_;  // facets around the cavity, seen from outside; at first of slots not yet known to be in it
   List<Wall> walls_;
-  static constexpr std::size_t few = 64;  // vertices of a cavity with a table of pairs
-  std::array<Index, few * few> facets_;   // by the numbers of a directed edge
+  static constexpr std::size_t few = 64;   // vertices of a cavity with a table of pairs
+  std::array<Index, few * few> facets_{};  // by the numbers of a directed edge
 };
 
 }  // namespace vorotool::core::tetrahedra

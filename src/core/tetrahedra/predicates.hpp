@@ -64,15 +64,21 @@ auto orient3d_determinant(const std::array<Difference3<Number>, 3>& p) {
   return c.z * (b.x * a.y - a.x * b.y) + (a.z * (c.x * b.y - b.x * c.y) + b.z * (a.x * c.y - c.x * a.y));
 }
 
+// Of three of four points each, those behind each point and around: bcd, cda, dab, abc.
 template <class Number>
-auto in_sphere_determinant(const std::array<Difference3<Number>, 4>& p) {
+[[gnu::always_inline]] inline auto cofactors(const std::array<Difference3<Number>, 4>& p) {
   const auto& [a, b, c, d] = p;
-  const auto lift = [](const Difference3<Number>& v) { return v.x * v.x + v.y * v.y + v.z * v.z; };
   const auto ab = a.x * b.y - b.x * a.y, bc = b.x * c.y - c.x * b.y, cd = c.x * d.y - d.x * c.y;
   const auto da = d.x * a.y - a.x * d.y, ac = a.x * c.y - c.x * a.y, bd = b.x * d.y - d.x * b.y;
-  const auto abc = a.z * bc - b.z * ac + c.z * ab, bcd = b.z * cd - c.z * bd + d.z * bc;
-  const auto cda = c.z * da + d.z * ac + a.z * cd, dab = d.z * ab + a.z * bd + b.z * da;
-  return (lift(c) * dab - lift(d) * abc) + (lift(a) * bcd - lift(b) * cda);
+  return std::array{b.z * cd - c.z * bd + d.z * bc, c.z * da + d.z * ac + a.z * cd,
+                    d.z * ab + a.z * bd + b.z * da, a.z * bc - b.z * ac + c.z * ab};
+}
+
+template <class Number>
+auto in_sphere_determinant(const std::array<Difference3<Number>, 4>& p) {
+  const auto lift = [](const Difference3<Number>& v) { return v.x * v.x + v.y * v.y + v.z * v.z; };
+  const auto [bcd, cda, dab, abc] = cofactors(p);
+  return (lift(p[2]) * dab - lift(p[3]) * abc) + (lift(p[0]) * bcd - lift(p[1]) * cda);
 }
 
 template <class... Points>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <limits>
 
@@ -57,6 +58,18 @@ SetPredicates::SetPredicates(std::span<const Point3> points) {
   if (SphereBound::product(x, y, z) < exact_product) sphere_bound_.all = 0.5;
   orient_exact_ = largest < 0x1p16;
   if (orient_exact_) orient_bound_ = 0.5;
+}
+
+unsigned SetPredicates::near_beyond(const std::array<const Point3*, 4>& corners, const Point3& p,
+                                    unsigned found, unsigned unsure) {
+  const auto [a, b, c, d] = corners;
+  const std::array facets{std::array{b, d, c}, std::array{a, c, d}, std::array{a, d, b}, std::array{a, b, c}};
+  for (; unsure != 0; unsure &= unsure - 1) {
+    const int k = std::countr_zero(unsure);
+    const auto [u, v, w] = facets[static_cast<std::size_t>(k)];
+    found |= static_cast<unsigned>(orient3d(*u, *v, *w, p) < 0) << k;
+  }
+  return found;
 }
 
 int SetPredicates::near_sphere(const std::array<const Point3*, 5>& points) const {

@@ -22,6 +22,23 @@ class SetPredicates {
     return orient_exact_ ? 0 : orient3d(a, b, c, d);
   }
 
+  // Whether a point is beyond facets of a positive tetrahedron: bit k, of those asked for, is that of the facet opposite
+  // to corner k.
+  unsigned beyond(const std::array<const Point3*, 4>& corners, const Point3& p, unsigned asked) const {
+    const auto [a, b, c, d] = corners;
+    const auto [bcd, cda, dab, abc] = cofactors(differences(p, *a, *b, *c, *d));
+    unsigned found = 0, unsure = 0;
+    for (unsigned k = 0; const double inside : {bcd, -cda, dab, -abc}) {  // without a branch
+      found |= static_cast<unsigned>(inside < -orient_bound_) << k;
+      unsure |= static_cast<unsigned>(!(std::abs(inside) > orient_bound_)) << k++;
+    }
+    found &= asked, unsure &= asked;
+    return unsure == 0 || orient_exact_ ? found : near_beyond(corners, p, found, unsure);
+  }
+  // The same where the filter cannot tell of some.
+  static unsigned near_beyond(const std::array<const Point3*, 4>& corners, const Point3& p, unsigned found,
+                              unsigned unsure);
+
   // With ties broken.
   int in_sphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e) const {
     const double value = in_sphere_determinant(differences(e, a, b, c, d));

@@ -32,9 +32,9 @@ struct SphereSides {
   void add(const SphereSides& more) { inside |= more.inside, outside |= more.outside; }
 };
 
-// Four tetrahedra of an array that has the numbers of their vertices at the front of records of eight. Of one that has
-// a vertex with coordinates that are NaN nothing is certain.
-using SphereBatch = SphereSides (*)(const Point3* points, const int (*records)[8], const unsigned* tetrahedra,
+// Four tetrahedra of an array that has the numbers of their vertices at the front of records of eight, each by a facet,
+// 4 times its number and up to 3 more. Of one that has a vertex with coordinates that are NaN nothing is certain.
+using SphereBatch = SphereSides (*)(const Point3* points, const int (*records)[8], const int* facets,
                                     const Point3& p, const SphereBound& bound);
 
 // That for the widest vectors of this machine.

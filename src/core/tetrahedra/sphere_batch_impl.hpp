@@ -98,10 +98,10 @@ struct SphereKernel {
     return {Level::mask(value > bound), Level::mask(value < -bound)};
   }
 
-  static SphereSides sides(const Point3* points, const int (*records)[8], const unsigned* tetrahedra,
-                           const Point3& p, const SphereBound& bound) {
+  static SphereSides sides(const Point3* points, const int (*records)[8], const int* facets, const Point3& p,
+                           const SphereBound& bound) {
     const int* rows[width];
-    for (int k = 0; k < width; ++k) rows[k] = records[tetrahedra[k]];
+    for (int k = 0; k < width; ++k) rows[k] = records[static_cast<unsigned>(facets[k]) / 4];
     const auto difference = [&](int vertex) {
       const Points v = vertices(points, rows, vertex);
       return Points{v.x - p.x, v.y - p.y, v.z - p.z};
@@ -142,11 +142,11 @@ struct SphereKernel {
     return sides_of(value.head, bound.factor * (product * 0x1p-50 + bound.guard));
   }
 
-  static SphereSides all(const Point3* points, const int (*records)[8], const unsigned* tetrahedra,
-                         const Point3& p, const SphereBound& bound) {
+  static SphereSides all(const Point3* points, const int (*records)[8], const int* facets, const Point3& p,
+                         const SphereBound& bound) {
     SphereSides result{0, 0};
     for (int k = 0; k < 4; k += width) {
-      const SphereSides some = sides(points, records, tetrahedra + k, p, bound);
+      const SphereSides some = sides(points, records, facets + k, p, bound);
       result.add({some.inside << k, some.outside << k});
     }
     return result;

@@ -35,8 +35,9 @@ struct alignas(32) Tetrahedron {
 };
 static_assert(sizeof(Tetrahedron) == 8 * sizeof(Index));
 
-// What a slot holds: a tetrahedron; one that is looked at; none, or one that is about to be removed.
-enum class Mark : std::uint8_t { live, seen, removed };
+// What a slot holds: a tetrahedron; one that is looked at; none, or one that is about to be removed. The first bit tells
+// what is looked at, the second one what is removed.
+enum class Mark : std::uint8_t { live = 0, seen = 1, removed = 3 };
 
 // Tetrahedra lie in slots; their facets are numbered 4 slot + place. A facet of the hull has a ghost beyond it, whose last vertex is infinite; its
 // three others are counter-clockwise seen from outside. Several threads may change slots that they do not share.
@@ -63,6 +64,7 @@ class TetrahedralMesh {
   static std::size_t slot_of(Index facet) { return static_cast<std::uint32_t>(facet) / 4; }
   static std::size_t place_of(Index facet) { return static_cast<std::uint32_t>(facet) % 4; }
   static Index facet(std::size_t slot, std::size_t place) { return static_cast<Index>(4 * slot + place); }
+  static Index first_facet(Index facet) { return facet & ~3; }  // of the same slot
   void link(Index a, Index b) {
     across(slot_of(a))[place_of(a)] = b;
     across(slot_of(b))[place_of(b)] = a;
@@ -70,11 +72,13 @@ class TetrahedralMesh {
 
   // Of each slot four vertices and four facets.
   const Index (*records() const)[8] { return reinterpret_cast<const Index(*)[8]>(tetrahedra_.data()); }
+  Tetrahedron* tetrahedra() { return tetrahedra_.data(); }
   Tetrahedron& tetrahedron(std::size_t slot) { return tetrahedra_[slot]; }
   Row& row(std::size_t slot) { return tetrahedra_[slot].vertices; }
   const Row& row(std::size_t slot) const { return tetrahedra_[slot].vertices; }
   Row& across(std::size_t slot) { return tetrahedra_[slot].across; }
   const Row& across(std::size_t slot) const { return tetrahedra_[slot].across; }
+  Mark* marks() { return marks_.data(); }
   Mark& mark(std::size_t slot) { return marks_[slot]; }
   Mark mark(std::size_t slot) const { return marks_[slot]; }
 

@@ -34,12 +34,12 @@ int batch_agrees(SphereBatch kernel, const std::vector<Point3>& points, const Se
                  bool is_exact) {
   const Point3& p = points.back();
   int records[4][8] = {};
-  const unsigned tetrahedra[4] = {2, 0, 3, 1};
+  const int tetrahedra[4] = {2, 0, 3, 1}, facets[4] = {8, 1, 14, 7};
   for (int k = 0; k < 4; ++k) {
     for (int vertex = 0; vertex < 4; ++vertex) records[k][vertex] = 4 * k + vertex;
   }
   int told = 0;
-  const SphereSides sides = kernel(points.data(), records, tetrahedra, p, predicates.sphere_bound());
+  const SphereSides sides = kernel(points.data(), records, facets, p, predicates.sphere_bound());
   for (unsigned k = 0; k < 4; ++k) {
     const Point3* corners = &points[4 * tetrahedra[k]];
     if (orient3d(corners[0], corners[1], corners[2], corners[3]) == 0) continue;
@@ -80,6 +80,23 @@ TEST(lanes_tell_on_which_side_of_a_sphere_a_point_is) {
     if (is_among(points.back(), points)) continue;
     const SetPredicates predicates(points);
     for (const SphereBatch batch : batches) batch_agrees(batch, points, predicates, is_whole && most <= 200);
+  }
+}
+
+TEST(facets_tell_what_is_beyond_them) {
+  Random random(9);
+  for (int i = 0; i < 6000; ++i) {
+    const std::int64_t most = std::array{1, 2, 200, 1 << 20}[static_cast<std::size_t>(i % 4)];
+    const std::vector<Point3> points =
+        drawn_points(random, most, static_cast<int>(random.whole(-60, 60)), i % 3 == 1);
+    const auto &a = points[0], &b = points[1], &c = points[2], &d = points[3], &p = points[4];
+    if (orient3d(a, b, c, d) <= 0) continue;
+    const std::array sides{orient3d(b, d, c, p), orient3d(a, c, d, p), orient3d(a, d, b, p),
+                           orient3d(a, b, c, p)};
+    unsigned beyond = 0;
+    for (unsigned k = 0; k < 4; ++k) beyond |= static_cast<unsigned>(sides[k] < 0) << k;
+    for (const unsigned asked : {15U, 11U})
+      equal(SetPredicates(points).beyond({&a, &b, &c, &d}, p, asked), beyond & asked);
   }
 }
 
