@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <utility>
+#include <vector>
 
+#include "core/base/large_array.hpp"
 #include "core/base/parallel.hpp"
 
 namespace vorotool::core::base {
@@ -20,15 +21,15 @@ constexpr std::size_t items_a_thread = std::size_t{1} << 16;
 
 // Each thread has a part of the items, and for each digit its own place to put them: behind those of the parts before.
 template <class Item, class KeyOf>
-void sort_by(std::vector<Item>& items, int low, int high, unsigned threads, KeyOf key_of) {
+void sort_by(std::span<Item> items, int low, int high, unsigned threads, KeyOf key_of) {
   const std::size_t count = items.size();
   const std::size_t enough = std::min<std::size_t>(resolve_threads(threads), count / items_a_thread);
   const std::size_t part = count / std::max<std::size_t>(enough, 1) + 1;
   std::vector<std::array<std::size_t, digits>> starts(piece_count(count, part));
   const auto in_parts = [&](const auto& body) { for_pieces(count, part, threads, {}, body); };
-  const auto other = std::make_unique_for_overwrite<Item[]>(count);
+  LargeArray<Item> other(count);
   Item* from = items.data();
-  Item* to = other.get();
+  Item* to = other.data();
   const int passes = (high - low + digit_bits - 1) / digit_bits;
   const int step = passes == 0 ? 0 : (high - low + passes - 1) / passes;  // digits of about the same size
   for (int shift = low; shift < high; shift += step) {
@@ -56,11 +57,11 @@ void sort_by(std::vector<Item>& items, int low, int high, unsigned threads, KeyO
 
 }  // namespace
 
-void radix_sort(std::vector<Keyed>& items, int bits, unsigned threads) {
+void radix_sort(std::span<Keyed> items, int bits, unsigned threads) {
   sort_by(items, 0, bits, threads, [](const Keyed& item) { return item.key; });
 }
 
-void radix_sort(std::vector<std::uint64_t>& words, int low, int high, unsigned threads) {
+void radix_sort(std::span<std::uint64_t> words, int low, int high, unsigned threads) {
   sort_by(words, low, high, threads, [](std::uint64_t word) { return word; });
 }
 

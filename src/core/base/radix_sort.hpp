@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <span>
 
 namespace vorotool::core::base {
 
@@ -15,10 +15,10 @@ struct Keyed {
 
 // Sorts by the lowest `bits` bits of the key; equal keys keep their order, on any number of threads. Time linear in the
 // number of items.
-void radix_sort(std::vector<Keyed>& items, int bits, unsigned threads = 1);
+void radix_sort(std::span<Keyed> items, int bits, unsigned threads = 1);
 
 // Sorts words by their bits low ... high - 1 alone; the others go along. Half the memory of Keyed, where all
 // fits.
-void radix_sort(std::vector<std::uint64_t>& words, int low, int high, unsigned threads = 1);
+void radix_sort(std::span<std::uint64_t> words, int low, int high, unsigned threads = 1);
 
 }  // namespace vorotool::core::base

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <bit>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <new>
 #include <numeric>
@@ -218,22 +217,22 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
   Tetrahedra result;
   result.first.resize(points.size());
   SpatialOrder order = spatial_order(points, result.first, threads, base::part_of(monitor, 0, order_share));
-  result.duplicates = points.size() - order.points.size();
-  move_to_integers(order.points);
-  const std::vector<Index> start = spanning_points(order.points);
+  result.duplicates = points.size() - order.count;
+  const std::span<Point3> distinct(order.points.data(), order.count);
+  move_to_integers(distinct);
+  const std::vector<Index> start = spanning_points(distinct);
   result.dimension = static_cast<int>(start.size()) - 1;
   if (result.dimension < 3) return result;
-  const SetPredicates predicates(order.points);
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  order.points.push_back({nan, nan, nan});  // that at infinity
-  TetrahedralMesh mesh(std::span(order.points).first(order.index.size()), predicates);
+  const SetPredicates predicates(distinct);
+  TetrahedralMesh mesh(distinct, predicates);
   if (result.duplicates == 0) release(result.first);  // it is made anew, where all are first
   CanonicalRows rows;
   try {
     Insertion(mesh, start, threads, monitor).run();
-    release(order.points);
+    order.points = {};
     base::return_freed_memory(points.size_bytes());
-    rows = canonical_rows(mesh, order.index, threads, base::part_of(monitor, mesh_share, 1));
+    rows = canonical_rows(mesh, {order.index.data(), order.count}, threads,
+                          base::part_of(monitor, mesh_share, 1));
   } catch (const std::bad_alloc&) {
     throw TooManyTetrahedra(mesh.slots());
   }

@@ -4,7 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <limits>
 #include <numeric>
+#include <vector>
 
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
@@ -90,7 +92,7 @@ HilbertGrid grid_over(std::span<const Point3> points) {
 }
 
 // Where pieces of sorted items begin and end: all items of a cell are in one.
-std::vector<std::size_t> ends_of_pieces(const std::vector<base::Keyed>& items) {
+std::vector<std::size_t> ends_of_pieces(std::span<const base::Keyed> items) {
   std::vector<std::size_t> ends{0};
   for (std::size_t next = points_a_piece; next < items.size(); next += points_a_piece) {
     const auto is_less = [](std::uint64_t key, const base::Keyed& item) { return key < item.key; };
@@ -109,7 +111,8 @@ SpatialOrder spatial_order(std::span<const Point3> points, std::span<std::int32_
   SpatialOrder order;
   if (points.empty()) return order;
   const HilbertGrid grid = grid_over(points);
-  std::vector<base::Keyed> items(points.size());
+  base::LargeArray<base::Keyed> keyed(points.size());
+  const std::span<base::Keyed> items(keyed.data(), keyed.size());
   base::for_items(points.size(), points_a_piece, threads, monitor,
                   [&](std::size_t i) { items[i] = {grid.code(points[i]), static_cast<std::uint32_t>(i)}; });
   base::radix_sort(items, 3 * cell_bits, threads);
@@ -133,9 +136,11 @@ SpatialOrder spatial_order(std::span<const Point3> points, std::span<std::int32_
     }
   });
   std::partial_sum(places.begin(), places.end(), places.begin());
-  order.points.reserve(places.back() + 1);  // for one more, which the mesh needs
-  order.points.resize(places.back());
-  order.index.resize(places.back());
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  order.count = places.back();
+  order.points = base::LargeArray<Point3>(order.count + 1);
+  order.points[order.count] = {nan, nan, nan};
+  order.index = base::LargeArray<std::int32_t>(order.count);
   base::parallel_for(pieces, threads, [&](std::size_t piece) {
     std::size_t next = places[piece];
     for (std::size_t i = ends[piece]; i < ends[piece + 1]; ++i) {

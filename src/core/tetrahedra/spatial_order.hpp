@@ -1,10 +1,11 @@
 // Points of space in the order in which they are triangulated.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
 #include "core/tetrahedra/point3.hpp"
 
@@ -13,8 +14,10 @@ namespace vorotool::core::tetrahedra {
 // Distinct points along a Hilbert curve through the 2^63 cells of a cubic grid over all of them; points of one cell are
 // in lexicographic order. The order depends on the points alone.
 struct SpatialOrder {
-  std::vector<Point3> points;
-  std::vector<std::int32_t> index;  // of each point among those given; of equal points, the smallest
+  std::size_t count = 0;
+  base::LargeArray<Point3> points;  // [count + 1] the last one is not a number
+  base::LargeArray<std::int32_t>
+      index;  // [count] of each point among those given; of equal points, the smallest
 };
 
 // `first` receives for each point given the smallest index at the same place.
