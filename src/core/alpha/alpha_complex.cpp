@@ -48,8 +48,8 @@ class AlphaBuilder {
   AlphaArrays run() {
     measure_triangles();
     measure_edges();
-    const auto compare = [&](std::uint32_t p, std::uint32_t q) {
-      return compare_radii(support_of(p), support_of(q));
+    const auto compare = [this](std::uint32_t q) {
+      return [this, q](std::uint32_t p) { return compare_radii(support_of(p), support_of(q)); };
     };
     const std::span values(value_.data(), value_.size());
     return write(rank_radii(values, compare, threads_, monitor_));

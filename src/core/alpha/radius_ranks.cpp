@@ -277,9 +277,9 @@ class Sorter {
 
   // Sorts a run by the exact values, by fine estimates first if there are some, and marks where values begin.
   void settle_run(Words words, unsigned threads, const Monitor& monitor) {
-    const auto compare_exactly = [&](std::uint32_t i, std::uint32_t j) {
-      const auto item = [&](std::uint32_t k) { return static_cast<std::uint32_t>(item_[words[k]]); };
-      return compare_(item(i), item(j));
+    const auto item = [&](std::uint32_t i) { return static_cast<std::uint32_t>(item_[words[i]]); };
+    const auto compare_exactly = [&](std::uint32_t j) {
+      return [&item, compare = compare_(item(j))](std::uint32_t i) { return compare(item(i)); };
     };
     std::vector<std::uint32_t> order(words.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -291,8 +291,8 @@ class Sorter {
         sort_exactly(Words(sorted).subspan(begin, end - begin), compare_exactly, threads, monitor);
       std::uint32_t last = 0;
       for (const std::uint32_t i : sorted) place[i & ~starts] = last += (i & starts) != 0;
-      const auto compare_places = [&](std::uint32_t i, std::uint32_t j) {
-        return (place[i] > place[j]) - (place[i] < place[j]);
+      const auto compare_places = [&](std::uint32_t j) {
+        return [&place, at = place[j]](std::uint32_t i) { return (place[i] > at) - (place[i] < at); };
       };
       sort_exactly(order, compare_places, 1, {});
     }
@@ -330,7 +330,7 @@ class Sorter {
     return parts;
   }
 
-  // Sorts numbers of words by what compare(i, j) tells of them, and marks where others begin. Parts of them are sorted by
+  // Sorts numbers of words by what compare(j)(i) tells of them, and marks where others begin. Parts of them are sorted by
   // their middle ones; the smaller part by recursion, so that its depth is logarithmic.
   template <class Compare>
   void sort_exactly(Words order, const Compare& compare, unsigned threads, const Monitor& monitor) const {
@@ -338,8 +338,9 @@ class Sorter {
     while (!order.empty()) {
       std::swap(order[0], order[order.size() / 2]);
       signs.assign(order.size(), 0);
+      const auto sign_of = compare(order[0]);
       const auto find = [&](std::size_t i) {
-        if (i > 0) signs[i] = static_cast<std::int8_t>(compare(order[i], order[0]));
+        if (i > 0) signs[i] = static_cast<std::int8_t>(sign_of(order[i]));
       };
       base::for_items(order.size(), long_run, threads, monitor, find);
       const auto [before, after] = part(order, signs);

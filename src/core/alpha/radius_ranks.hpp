@@ -19,8 +19,10 @@ struct RadiusRanks {
   base::LargeArray<std::int32_t> rank;
 };
 
-// Sign of the difference of the exact values of two items whose doubles, as far as they count, are equal.
-using CompareItems = std::function<int(std::uint32_t, std::uint32_t)>;
+// Compares items with one: signs of the differences of the exact values of items and that of this one, whose doubles, as
+// far as they count, are equal.
+using CompareItem = std::function<int(std::uint32_t)>;
+using CompareItems = std::function<CompareItem(std::uint32_t)>;
 
 // The square of the exact value of an item, within an error that may be infinite.
 struct FineRadius {

@@ -82,8 +82,8 @@ Kept spanning_tree(const TriangulationArrays& mesh, std::span<const std::int32_t
   base::LargeArray<double> half_length(edges.size());
   base::for_items(edges.size(), edges_a_piece, threads, monitor,
                   [&](std::size_t i) { half_length[i] = alpha::critical_radius(support_of(i)); });
-  const auto compare = [&](std::uint32_t p, std::uint32_t q) {
-    return alpha::compare_radii(support_of(p), support_of(q));
+  const auto compare = [&support_of](std::uint32_t q) {
+    return [&support_of, q](std::uint32_t p) { return alpha::compare_radii(support_of(p), support_of(q)); };
   };
   const alpha::RadiusRanks ranks =
       alpha::rank_radii({half_length.data(), half_length.size()}, compare, threads, monitor);

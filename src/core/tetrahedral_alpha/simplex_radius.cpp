@@ -189,12 +189,6 @@ constexpr double most_short =
     128;                       // 2^7: numerators below 2^66, denominators below 2^50, products below 2^116
 constexpr int word_bits = 61;  // of coordinates; their differences have 62, and 8 * 62 + 10 <= 8 * 64 - 2
 
-struct ShortSquare {
-  int128 numerator = 0, denominator = 0;
-
-  static ShortSquare of(const int128& n, const int128& d) { return {n, d}; }
-};
-
 struct WordSquare {
   FixedInteger<8> numerator;
   FixedInteger<6> denominator;
@@ -252,18 +246,6 @@ std::array<Vector<Number>, 3> integer_ways(const Simplex& s, const Integer& inte
     ways[k - 1] = {integer(p.x) - integer(a.x), integer(p.y) - integer(a.y), integer(p.z) - integer(a.z)};
   }
   return ways;
-}
-
-// Sums of products of three differences and squares of lengths have at most 64 bits, so all but the square of a center.
-std::optional<ShortSquare> short_square(const Simplex& s) {
-  std::array<Vector<std::int64_t>, 3> ways{};
-  for (std::size_t k = 1; k < s.size; ++k) {
-    const Vector<double> way = from_to(*s.corner[0], *s.corner[k]);
-    if (!(extent(way) < most_short)) return std::nullopt;
-    const auto integer = [](double value) { return static_cast<std::int64_t>(value); };
-    ways[k - 1] = {integer(way.x), integer(way.y), integer(way.z)};
-  }
-  return square_of<ShortSquare>(s.size, ways, std::int64_t{1});
 }
 
 // The grid of all corners of two simplices, which may be one.
@@ -400,15 +382,33 @@ TetrahedronMeasure measure_tetrahedron(const Simplex& simplex, bool are_integers
   return result;
 }
 
-int compare_radii(const Simplex& p, const Simplex& q, bool are_integers) {
-  if (are_integers) {
-    const std::optional<ShortSquare> a = short_square(p), b = a ? short_square(q) : std::nullopt;
-    if (a && b) {
-      const int128 left = a->numerator * b->denominator, right = b->numerator * a->denominator;
+// Sums of products of three differences and squares of lengths have at most 64 bits, so all but the square of a center.
+std::optional<ExactRadius::ShortSquare> ExactRadius::short_square(const Simplex& s) {
+  std::array<Vector<std::int64_t>, 3> ways{};
+  for (std::size_t k = 1; k < s.size; ++k) {
+    const Vector<double> way = from_to(*s.corner[0], *s.corner[k]);
+    if (!(extent(way) < most_short)) return std::nullopt;
+    const auto integer = [](double value) { return static_cast<std::int64_t>(value); };
+    ways[k - 1] = {integer(way.x), integer(way.y), integer(way.z)};
+  }
+  return square_of<ShortSquare>(s.size, ways, std::int64_t{1});
+}
+
+ExactRadius::ExactRadius(const Simplex& simplex, bool are_integers)
+    : simplex_(simplex), are_integers_(are_integers) {
+  if (are_integers) square_ = short_square(simplex);
+}
+
+int ExactRadius::compare(const Simplex& p) const {
+  if (square_) {
+    if (const std::optional<ShortSquare> square = short_square(p)) {
+      const int128 left = square->numerator * square_->denominator,
+                   right = square_->numerator * square->denominator;
       return (left > right) - (left < right);
     }
   }
-  const Estimate e = estimate(p, are_integers), f = estimate(q, are_integers);
+  const Simplex& q = simplex_;
+  const Estimate e = estimate(p, are_integers_), f = estimate(q, are_integers_);
   const double difference = e.radius - f.radius;
   if (std::abs(difference) > 2 * (e.error * e.radius + f.error * f.radius))
     return numbers::sign_of(difference);
@@ -417,7 +417,7 @@ int compare_radii(const Simplex& p, const Simplex& q, bool are_integers) {
     const WordSquare a = word_square(p, grid), b = word_square(q, grid);
     return (a.numerator * b.denominator - b.numerator * a.denominator).sign();
   }
-  return compare(wide_square(p), wide_square(q));
+  return alpha::compare(wide_square(p), wide_square(q));
 }
 
 alpha::FineRadius refine_radius(const Simplex& simplex) {

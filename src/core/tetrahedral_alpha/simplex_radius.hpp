@@ -6,8 +6,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "core/alpha/radius_ranks.hpp"
+#include "core/numbers/int128.hpp"
 #include "core/tetrahedra/point3.hpp"
 
 namespace vorotool::core::tetrahedral_alpha {
@@ -24,8 +26,27 @@ struct Simplex {
 // as the exact radii have. Nearly all are within 2^-50.
 double ranked_radius(const Simplex& simplex, bool are_integers);
 
-// Sign of the difference of the exact radii.
-int compare_radii(const Simplex& p, const Simplex& q, bool are_integers);
+// The radius of a simplex, to compare others with.
+class ExactRadius {
+ public:
+  ExactRadius(const Simplex& simplex, bool are_integers);
+
+  // Sign of the difference of the exact radii: that of another, and this one.
+  int compare(const Simplex& other) const;
+
+ private:
+  // A square of integers that are small.
+  struct ShortSquare {
+    numbers::int128 numerator = 0, denominator = 0;
+
+    static ShortSquare of(const numbers::int128& n, const numbers::int128& d) { return {n, d}; }
+  };
+  static std::optional<ShortSquare> short_square(const Simplex& simplex);
+
+  Simplex simplex_;
+  bool are_integers_;
+  std::optional<ShortSquare> square_;
+};
 
 // The square of a radius of points that are not integers, in twice as many digits.
 alpha::FineRadius refine_radius(const Simplex& simplex);

@@ -73,8 +73,10 @@ class Builder {
         count_ + facet_.size(), edges_.size(), [&](std::size_t e) { return edges_[e]; },
         [&](std::size_t e) { return std::size_t{is_cut[e]}; });
     is_cut = {}, cells_ = {};
-    const auto compare = [&](std::uint32_t p, std::uint32_t q) {
-      return compare_radii(simplex_of(p), simplex_of(q), scaled_.are_integers);
+    const auto compare = [&](std::uint32_t q) {
+      return [this, radius = ExactRadius(simplex_of(q), scaled_.are_integers)](std::uint32_t p) {
+        return radius.compare(simplex_of(p));
+      };
     };
     alpha::RefineItem refine;  // integers, where ties are many, are compared as quickly
     if (!scaled_.are_integers) refine = [&](std::uint32_t item) { return refine_radius(simplex_of(item)); };
