@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include "core/base/large_array.hpp"
 #include "core/base/parallel.hpp"
 
 namespace vorotool::core::base {
@@ -27,9 +27,9 @@ void sort_by(std::span<Item> items, int low, int high, unsigned threads, KeyOf k
   const std::size_t part = count / std::max<std::size_t>(enough, 1) + 1;
   std::vector<std::array<std::size_t, digits>> starts(piece_count(count, part));
   const auto in_parts = [&](const auto& body) { for_pieces(count, part, threads, {}, body); };
-  LargeArray<Item> other(count);
+  const auto other = std::make_unique_for_overwrite<Item[]>(count);
   Item* from = items.data();
-  Item* to = other.data();
+  Item* to = other.get();
   const int passes = (high - low + digit_bits - 1) / digit_bits;
   const int step = passes == 0 ? 0 : (high - low + passes - 1) / passes;  // digits of about the same size
   for (int shift = low; shift < high; shift += step) {

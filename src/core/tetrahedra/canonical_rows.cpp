@@ -18,7 +18,7 @@ namespace vorotool::core::tetrahedra {
 namespace {
 
 constexpr std::size_t rows_a_block = std::size_t{1} << 7;  // a page of 4 KiB
-constexpr std::size_t blocks_at_once = 2;                  // that are given back, or more
+constexpr std::size_t blocks_at_once = 4;                  // that several threads give back, or more
 constexpr std::uint32_t gone = 0xffffffff;  // tetrahedra that are left of a block that is given back
 constexpr std::size_t rows_a_piece = std::size_t{1} << 15;
 constexpr std::size_t vertices_a_piece = rows_a_piece / 8;
@@ -186,7 +186,8 @@ class Canonical {
     return result;
   }
 
-  // Gives back blocks that are read, with those beside them, where there are many: each call stops all threads.
+  // Gives back a block that is read, with those beside it; where there are other threads, which each call stops, only if
+  // these are many.
   void discard_around(base::LargeArray<Tetrahedron>& from, std::size_t block) {
     const auto is_read = [&](std::size_t b) {
       return base::atomic_ref(left_[b]).load(std::memory_order_acquire) == 0;
@@ -195,7 +196,7 @@ class Canonical {
     std::size_t begin = block, end = block + 1;
     while (begin > 0 && is_read(begin - 1)) --begin;
     while (end < left_.size() && is_read(end)) ++end;
-    if (end - begin < blocks_at_once) return;
+    if (threads_ > 1 && end - begin < blocks_at_once) return;
     for (std::size_t b = begin; b < end; ++b)
       base::atomic_ref(left_[b]).store(gone, std::memory_order_relaxed);
     base::discard(from, begin * rows_a_block, std::min(slots_, end * rows_a_block));

@@ -218,7 +218,7 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
   result.first.resize(points.size());
   SpatialOrder order = spatial_order(points, result.first, threads, base::part_of(monitor, 0, order_share));
   result.duplicates = points.size() - order.count;
-  const std::span<Point3> distinct(order.points.data(), order.count);
+  const std::span<Point3> distinct(order.points.get(), order.count);
   move_to_integers(distinct);
   const std::vector<Index> start = spanning_points(distinct);
   result.dimension = static_cast<int>(start.size()) - 1;
@@ -229,10 +229,9 @@ Tetrahedra triangulate(std::span<const Point3> points, unsigned threads, const M
   CanonicalRows rows;
   try {
     Insertion(mesh, start, threads, monitor).run();
-    order.points = {};
+    order.points.reset();
     base::return_freed_memory(points.size_bytes());
-    rows = canonical_rows(mesh, {order.index.data(), order.count}, threads,
-                          base::part_of(monitor, mesh_share, 1));
+    rows = canonical_rows(mesh, order.index, threads, base::part_of(monitor, mesh_share, 1));
   } catch (const std::bad_alloc&) {
     throw TooManyTetrahedra(mesh.slots());
   }

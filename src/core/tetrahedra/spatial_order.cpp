@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -111,8 +112,8 @@ SpatialOrder spatial_order(std::span<const Point3> points, std::span<std::int32_
   SpatialOrder order;
   if (points.empty()) return order;
   const HilbertGrid grid = grid_over(points);
-  base::LargeArray<base::Keyed> keyed(points.size());
-  const std::span<base::Keyed> items(keyed.data(), keyed.size());
+  const auto keyed = std::make_unique_for_overwrite<base::Keyed[]>(points.size());
+  const std::span<base::Keyed> items(keyed.get(), points.size());
   base::for_items(points.size(), points_a_piece, threads, monitor,
                   [&](std::size_t i) { items[i] = {grid.code(points[i]), static_cast<std::uint32_t>(i)}; });
   base::radix_sort(items, 3 * cell_bits, threads);
@@ -138,9 +139,9 @@ SpatialOrder spatial_order(std::span<const Point3> points, std::span<std::int32_
   std::partial_sum(places.begin(), places.end(), places.begin());
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   order.count = places.back();
-  order.points = base::LargeArray<Point3>(order.count + 1);
+  order.points = std::make_unique_for_overwrite<Point3[]>(order.count + 1);
   order.points[order.count] = {nan, nan, nan};
-  order.index = base::LargeArray<std::int32_t>(order.count);
+  order.index.resize(order.count);
   base::parallel_for(pieces, threads, [&](std::size_t piece) {
     std::size_t next = places[piece];
     for (std::size_t i = ends[piece]; i < ends[piece + 1]; ++i) {

@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
-#include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
 #include "core/tetrahedra/point3.hpp"
 
@@ -15,9 +16,8 @@ namespace vorotool::core::tetrahedra {
 // in lexicographic order. The order depends on the points alone.
 struct SpatialOrder {
   std::size_t count = 0;
-  base::LargeArray<Point3> points;  // [count + 1] the last one is not a number
-  base::LargeArray<std::int32_t>
-      index;  // [count] of each point among those given; of equal points, the smallest
+  std::unique_ptr<Point3[]> points;  // [count + 1] the last one is not a number
+  std::vector<std::int32_t> index;   // [count] of each point among those given; of equal points, the smallest
 };
 
 // `first` receives for each point given the smallest index at the same place.
