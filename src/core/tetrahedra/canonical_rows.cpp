@@ -177,8 +177,10 @@ class Canonical {
       std::vector<std::size_t> read;  // blocks
       for (std::size_t k = begin_of(first); k < begin_of(last); ++k) {
         const std::size_t block = order_[k] / rows_a_block;
-        if (base::atomic_ref(left_[block]).fetch_sub(1, std::memory_order_acq_rel) == 1)
-          read.push_back(block);
+        std::uint32_t& left = left_[block];
+        const std::uint32_t before =
+            threads_ > 1 ? base::atomic_ref(left).fetch_sub(1, std::memory_order_acq_rel) : left--;
+        if (before == 1) read.push_back(block);
       }
       for (const std::size_t block : read) discard_around(from, block);
       base::discard(order_, begin_of(first), begin_of(last));
