@@ -27,9 +27,10 @@ from vorotool.numeric.curves.inverse_functions import hypotenuse
 _NUMBER = r"(?>[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)"  # in one way only: damaged text takes no longer
 _LENGTH = re.compile(rf"\s*({_NUMBER})\s*(|px|mm|cm|in|pt|pc|q|%)\s*", re.IGNORECASE)
 _GAP = r"(?>\s*,\s*|\s+|(?=[-+.)])|$)"
-_NUMBERS = re.compile(rf"\s*(?:{_NUMBER}{_GAP})*+")
+# Groups are repeated without a "+" behind: Python 3.11.2 keeps what the last one matched in part, as of "rotate(1".
+_NUMBERS = re.compile(rf"\s*(?:{_NUMBER}{_GAP})*")
 _TRANSFORMS = re.compile(
-    rf"\s*(?:(?:matrix|translate|scale|rotate|skewX|skewY)\s*\(\s*(?:{_NUMBER}(?:px|deg)?{_GAP})++\)[\s,]*+)*+"
+    rf"\s*(?:(?:matrix|translate|scale|rotate|skewX|skewY)\s*\(\s*(?:{_NUMBER}(?:px|deg)?{_GAP})+\)[\s,]*+)*"
 )
 MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
 """Millimeters of the units of physical lengths."""
