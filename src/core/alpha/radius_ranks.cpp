@@ -336,6 +336,10 @@ class Sorter {
   void sort_exactly(Words order, const Compare& compare, unsigned threads, const Monitor& monitor) const {
     std::vector<std::int8_t> signs;
     while (!order.empty()) {
+      if (order.size() == 1) {  // nearly always, after fine estimates
+        order[0] |= starts;
+        return;
+      }
       std::swap(order[0], order[order.size() / 2]);
       signs.assign(order.size(), 0);
       const auto sign_of = compare(order[0]);
